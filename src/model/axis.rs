@@ -10,6 +10,7 @@
 use super::assembly::Assembly;
 use super::boundary::Boundary;
 use super::problem::Gauge;
+use crate::numerics::vector::dot;
 use crate::solver::{HessianKind, Problem, Tangent};
 use std::f64::consts::PI;
 
@@ -100,8 +101,14 @@ fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     tangent.factor(shift).ok()?;
     let (force, open) = (tangent.at.force(&tension), tangent.at.missing(&tension, model.compliance()));
     let is_open = open.iter().zip(model.gap_scale()).any(|(gap, scale)| gap.abs() > CLOSED * scale);
+    // where nothing is open no weight matters, and corrections give the axis more digits
     let (stretch, tolerance) = if is_open { (open, UNCORRECTED) } else { (tension, CORRECTED) };
-    let step = tangent.solve(&force, &stretch, tolerance);
-    let along = |rates: &[f64], step: &[f64]| rates.iter().zip(step).map(|(rate, step)| rate * step).sum::<f64>();
-    Some(0.5 * (along(&force, &step.dx) + along(&stretch, &step.dt)))
+    Some(decrease_along_step(&mut tangent, [&force, &stretch], tolerance))
+}
+
+/// Returns the decrease of the energy, to second order, with which the state of a factored tangent problem gives way to a force and a
+/// stretch; negative where the stretch costs more than the force gains.
+pub(super) fn decrease_along_step(tangent: &mut Tangent, [force, stretch]: [&[f64]; 2], tolerance: f64) -> f64 {
+    let step = tangent.solve(force, stretch, tolerance);
+    0.5 * (dot(force, &step.dx) + dot(stretch, &step.dt))
 }

@@ -79,8 +79,9 @@ fn cylinder_along_a_lock() {
 
 /// Claim: the path of a straight cell whose lock is turned begins about an axis about which rigid faces let it bend, both ways and however
 /// the cell lies in its plane; its states have no residual forces, its end is a state in which a relaxation stays, and stiff bars go the
-/// same way. A relaxation from the drawn state, without a path, chooses the same axis. Tolerances: 1e-10 of forces and energies of size 1, of which rounding errors in bars of 1e9 are 1e-11; such bars under forces
-/// of 7 change the energy by 1e-8, and by much more where the cell becomes compliant.
+/// same way. A relaxation from the drawn state, without a path, chooses the same axis. Tolerances: 1e-10 of forces and energies of size
+/// 1, of which rounding errors in bars of 1e9 are 1e-11; such bars under forces of 7 change the energy by 1e-8, and by much more where the
+/// cell becomes compliant.
 #[test]
 fn straight_cells_begin_to_bend() {
     let cell = |by: f64, bars: f64, angle: Option<f64>| {

@@ -6,7 +6,7 @@
 //! a million times larger.
 
 use super::DrivenModel;
-use crate::model::axis::{UNCORRECTED, direction_of_highest_peak};
+use crate::model::axis::{UNCORRECTED, decrease_along_step, direction_of_highest_peak};
 use crate::model::domain::STRAIGHT;
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::{HessianKind, Tangent};
@@ -39,8 +39,6 @@ impl DrivenModel<'_> {
         tangent.factor(SHIFT).ok()?;
         let rates = self.parameter_rates(&tangent.at, x, tension);
         let [force, stretch] = rates.each_ref().map(|rates| rates.iter().map(|rate| -rate).collect::<Vec<f64>>());
-        let step = tangent.solve(&force, &stretch, UNCORRECTED);
-        let along = |rates: &[f64], step: &[f64]| rates.iter().zip(step).map(|(rate, step)| rate * step).sum::<f64>();
-        Some(0.5 * (along(&rates[0], &step.dx) + along(&rates[1], &step.dt)))
+        Some(-decrease_along_step(&mut tangent, [&force, &stretch], UNCORRECTED))
     }
 }
