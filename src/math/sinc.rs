@@ -3,8 +3,9 @@
 //! `phi(t)` is the integral of `e^{itu}` over `u` from 0 to 1, so that its real part is `sin(t)/t`, its imaginary part
 //! `(1 - cos t)/t`, and its derivatives are `i^d m_d` with the moments `m_d(t)`, the integral of `u^d e^{itu}`:
 //!
-//! - `|t|` at most 1.5: the power series `m_d = sum over k of (it)^k / (k! (k + d + 1))`;
-//! - beyond: integration by parts, `m_d = (e^{it} - d m_{d-1}) / (it)`.
+//! - `|t|` at most 1.5: the power series `m_2 = sum over k of (it)^k / (k! (k + 3))`, and integration by parts downwards,
+//!   `m_{d-1} = (e^{it} - it m_d) / d`;
+//! - beyond: integration by parts upwards, `m_d = (e^{it} - d m_{d-1}) / (it)`.
 //!
 //! Both are good to some units in the last place at the switch, so that nothing jumps there.
 
@@ -19,6 +20,8 @@ const TERMS: usize = 22;
 /// `phi(t) = (e^{it} - 1) / (it)` with its first two derivatives in `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Phi {
+    /// `e^{it}`.
+    pub turn: Complex<f64>,
     /// `sin(t)/t + i (1 - cos t)/t`; 1 at 0.
     pub value: Complex<f64>,
     /// First derivative; `i/2` at 0.
@@ -29,27 +32,40 @@ pub(crate) struct Phi {
 
 /// The function and its first two derivatives, for every finite `t`; not a number where `t` is not finite.
 pub(crate) fn phi(t: f64) -> Phi {
-    let [m0, m1, m2] =
-        if t.abs() <= LARGEST_SERIES_ARGUMENT { moments_by_series(t) } else { moments_in_closed_form(t) };
-    Phi { value: m0, first: Complex::new(-m1.im, m1.re), second: -m2 }
-}
-
-fn moments_by_series(t: f64) -> [Complex<f64>; 3] {
-    [1.0, 2.0, 3.0].map(|first| {
-        (0..TERMS).rev().fold(Complex::new(0.0, 0.0), |rest, k| {
-            let (k, factor) = (k as f64, t / (k as f64 + 1.0));
-            Complex::new(1.0 / (k + first) - factor * rest.im, factor * rest.re)
-        })
-    })
-}
-
-fn moments_in_closed_form(t: f64) -> [Complex<f64>; 3] {
     let (sin, cos) = t.sin_cos();
+    let turn = Complex::new(cos, sin);
+    let small = t.abs() <= LARGEST_SERIES_ARGUMENT;
+    let [m0, m1, m2] = if small { moments_by_series(t, turn) } else { moments_in_closed_form(t, turn) };
+    Phi { turn, value: m0, first: Complex::new(-m1.im, m1.re), second: -m2 }
+}
+
+/// The coefficients `1 / (k! (k + 3))` of the power series of `m_2`.
+const COEFFICIENTS: [f64; TERMS] = {
+    let (mut coefficients, mut factorial, mut k) = ([0.0; TERMS], 1.0, 0);
+    while k < TERMS {
+        coefficients[k] = 1.0 / (factorial * (k as f64 + 3.0));
+        k += 1;
+        factorial *= k as f64;
+    }
+    coefficients
+};
+
+fn moments_by_series(t: f64, turn: Complex<f64>) -> [Complex<f64>; 3] {
+    let [even, odd] = [0, 1].map(|first| {
+        COEFFICIENTS[first..].iter().step_by(2).rev().fold(0.0, |rest, coefficient| coefficient - t * t * rest)
+    });
+    let m2 = Complex::new(even, t * odd);
+    let below = |m: Complex<f64>, d: f64| (turn + t * Complex::new(m.im, -m.re)) / d;
+    let m1 = below(m2, 2.0);
+    [below(m1, 1.0), m1, m2]
+}
+
+fn moments_in_closed_form(t: f64, turn: Complex<f64>) -> [Complex<f64>; 3] {
     let half = (0.5 * t).sin();
     let over_it = |z: Complex<f64>| Complex::new(z.im / t, -z.re / t);
-    let m0 = over_it(Complex::new(-2.0 * half * half, sin));
-    let m1 = over_it(Complex::new(cos, sin) - m0);
-    let m2 = over_it(Complex::new(cos, sin) - 2.0 * m1);
+    let m0 = over_it(Complex::new(-2.0 * half * half, turn.im));
+    let m1 = over_it(turn - m0);
+    let m2 = over_it(turn - 2.0 * m1);
     [m0, m1, m2]
 }
 
@@ -175,7 +191,8 @@ mod tests {
             for t in
                 [LARGEST_SERIES_ARGUMENT + 1e-3 * f64::from(step), -LARGEST_SERIES_ARGUMENT - 1e-3 * f64::from(step)]
             {
-                let (series, closed) = (moments_by_series(t), moments_in_closed_form(t));
+                let turn = Complex::new(t.cos(), t.sin());
+                let (series, closed) = (moments_by_series(t, turn), moments_in_closed_form(t, turn));
                 for (a, b) in series.iter().zip(&closed) {
                     assert!((a - b).norm() <= 1e-15, "t = {t}: {:e}", (a - b).norm());
                 }
@@ -189,7 +206,7 @@ mod tests {
     fn differential_equations_hold() {
         for step in -400..400 {
             let t = 0.013 * f64::from(step);
-            let (Phi { value, first, second }, turn) = (phi(t), Complex::new(t.cos(), t.sin()));
+            let Phi { turn, value, first, second } = phi(t);
             assert!((first * t - (turn - value)).norm() <= 1e-15);
             assert!((second * t - (Complex::<f64>::i() * turn - first * 2.0)).norm() <= 2e-15);
             assert_eq!(phi(-t).value, value.conj());

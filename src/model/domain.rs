@@ -60,10 +60,34 @@ pub enum Domain {
 /// would grow without bound.
 pub(super) const STRAIGHT: f64 = 1e-8;
 
-/// Derivatives of a point with respect to its vertex (`vertex`) and to the shared coordinates (`shared`).
-struct Placed {
-    vertex: Matrix3<f64>,
-    shared: SharedMatrix,
+/// A point of an element with the derivatives of its position.
+pub(crate) struct Placed {
+    /// The position.
+    pub point: Vec3,
+    /// The vertex of cell (0, 0) of which the point is a copy.
+    vertex: Vec3,
+    motion: Motion,
+    /// Derivatives of the position by the vertex.
+    by_vertex: Matrix3<f64>,
+    /// Derivatives of the position by the shared coordinates; `None` where it does not depend on them.
+    by_shared: Option<SharedMatrix>,
+}
+
+/// What takes a vertex to its copy in another cell.
+enum Motion {
+    Translation(Vec3),
+    Screw(ScrewMotion),
+    Tube(TubeMotion),
+}
+
+impl Motion {
+    fn point(&self, v: &Vec3) -> Vec3 {
+        match self {
+            Self::Translation(by) => v + by,
+            Self::Screw(screw) => screw.at(v).point(),
+            Self::Tube(tube) => tube.point(v),
+        }
+    }
 }
 
 impl Domain {
@@ -82,54 +106,47 @@ impl Domain {
         &x[x.len() - self.shared()..]
     }
 
-    /// Returns the position of a site. `x` holds all coordinates, the shared ones last.
+    /// Returns the motion to the cell of this number; all coordinates are `x`.
     #[inline]
-    pub(crate) fn point(&self, x: &[f64], site: Site) -> Vec3 {
-        let v = vertex(x, site);
-        let [n1, n2] = site.shift.map(f64::from);
-        let shared = self.shared_of(x);
+    fn motion(&self, x: &[f64], shift: [i32; 2]) -> Motion {
+        let (shared, [n1, n2]) = (self.shared_of(x), shift.map(f64::from));
         match self {
-            Self::Patch => v,
-            Self::FixedTorus([l1, l2]) => v + n1 * l1 + n2 * l2,
+            Self::FixedTorus([l1, l2]) => Motion::Translation(n1 * l1 + n2 * l2),
+            Self::Patch => Motion::Translation(Vec3::zeros()),
+            _ if shift == [0, 0] => Motion::Translation(Vec3::zeros()),
             Self::FreeTorus => {
-                v + n1 * Vec3::from_column_slice(&shared[..3]) + n2 * Vec3::from_column_slice(&shared[3..])
+                let [l1, l2] = [&shared[..3], &shared[3..]].map(Vec3::from_column_slice);
+                Motion::Translation(n1 * l1 + n2 * l2)
             }
-            Self::Screw => ScrewMotion::new(shared, site).at(&v).point(),
-            Self::Tube { seam, kept, .. } => TubeMotion::new(seam, *kept, shared, site.shift).point(&v),
+            Self::Screw => Motion::Screw(ScrewMotion::new(shared, shift)),
+            Self::Tube { seam, kept, .. } => Motion::Tube(TubeMotion::new(seam, *kept, shared, shift)),
         }
     }
 
-    fn place(&self, x: &[f64], site: Site) -> Placed {
-        let (mut vertex_part, mut shared_part) = (Matrix3::identity(), SharedMatrix::zeros());
-        match self {
-            Self::Patch | Self::FixedTorus(_) => {}
-            Self::FreeTorus => {
-                for axis in 0..3 {
-                    shared_part[(axis, axis)] = f64::from(site.shift[0]);
-                    shared_part[(axis, 3 + axis)] = f64::from(site.shift[1]);
-                }
-            }
-            Self::Screw => {
-                let screw = ScrewMotion::new(self.shared_of(x), site);
-                let at = screw.at(&vertex(x, site));
-                vertex_part = at.vertex_derivative();
-                shared_part = at.shared_derivative();
-            }
-            Self::Tube { seam, kept, .. } => {
-                let motion = TubeMotion::new(seam, *kept, self.shared_of(x), site.shift);
-                vertex_part = motion.vertex_derivative();
-                shared_part = motion.shared_derivative(&vertex(x, site));
-            }
-        }
-        Placed { vertex: vertex_part, shared: shared_part }
+    /// Returns the position of a site. `x` holds all coordinates, the shared ones last.
+    #[inline]
+    pub(crate) fn point(&self, x: &[f64], site: Site) -> Vec3 {
+        self.motion(x, site.shift).point(&vertex(x, site))
+    }
+
+    /// Returns the position of a site with its derivatives.
+    pub(crate) fn place(&self, x: &[f64], site: Site) -> Placed {
+        let (vertex, motion) = (vertex(x, site), self.motion(x, site.shift));
+        let point = motion.point(&vertex);
+        let (by_vertex, by_shared) = match &motion {
+            _ if self.shared() == 0 || site.shift == [0, 0] => (Matrix3::identity(), None),
+            Motion::Translation(_) => (Matrix3::identity(), Some(by_lattice(site.shift))),
+            Motion::Screw(screw) => screw.at(&vertex).derivatives(),
+            Motion::Tube(tube) => tube.derivatives(&point),
+        };
+        Placed { point, vertex, motion, by_vertex, by_shared }
     }
 
     /// Returns the velocity of a site for given rates of all coordinates.
     pub(crate) fn velocity(&self, x: &[f64], site: Site, rates: &[f64]) -> Vec3 {
-        let placed = self.place(x, site);
-        let shared = &rates[rates.len() - self.shared()..];
-        let by_shared: Vec3 = shared.iter().enumerate().map(|(k, rate)| placed.shared.column(k) * *rate).sum();
-        placed.vertex * vertex(rates, site) + by_shared
+        let (placed, shared) = (self.place(x, site), self.shared_of(rates));
+        let by = |m: &SharedMatrix| shared.iter().enumerate().map(|(k, rate)| m.column(k) * *rate).sum::<Vec3>();
+        placed.by_vertex * vertex(rates, site) + placed.by_shared.as_ref().map_or(Vec3::zeros(), by)
     }
 
     /// Returns the Taylor series of a site along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates. It is not
@@ -144,19 +161,15 @@ impl Domain {
     /// ones); `g` is its gradient in the element's points.
     pub(crate) fn pull_gradient<const N: usize, const D: usize>(
         &self,
-        x: &[f64],
-        sites: &[Site; N],
+        placed: &[Placed; N],
         g: &SVector<f64, D>,
         out: &mut Vec<f64>,
     ) {
-        if self.shared() == 0 {
-            return out.extend_from_slice(g.as_slice());
-        }
         let mut shared = SVector::<f64, MOST_SHARED>::zeros();
-        for (k, &site) in sites.iter().enumerate() {
-            let (placed, force) = (self.place(x, site), g.fixed_rows::<3>(3 * k));
-            out.extend_from_slice((placed.vertex.transpose() * force).as_slice());
-            shared += placed.shared.transpose() * force;
+        for (k, at) in placed.iter().enumerate() {
+            let force = g.fixed_rows::<3>(3 * k);
+            out.extend_from_slice((at.by_vertex.transpose() * force).as_slice());
+            at.by_shared.iter().for_each(|by_shared| shared += by_shared.transpose() * force);
         }
         out.extend_from_slice(&shared.as_slice()[..self.shared()]);
     }
@@ -166,30 +179,26 @@ impl Domain {
     /// points, and `g` its gradient there. Both Hessians are stored as lower triangles, row by row.
     pub(crate) fn pull_hessian<const N: usize, const D: usize>(
         &self,
-        x: &[f64],
-        sites: &[Site; N],
+        placed: &[Placed; N],
         g: &SVector<f64, D>,
         lower: &mut Vec<f64>,
     ) {
-        if self.shared() == 0 {
-            return;
-        }
         let entry = |row: usize, column: usize| lower[row * (row + 1) / 2 + column];
         let h = SMatrix::<f64, D, D>::from_fn(|k, l| entry(k.max(l), k.min(l)));
-        let placed = sites.map(|site| self.place(x, site));
         let mut pulled = Pulled::zeros();
         for (k, left) in placed.iter().enumerate() {
-            for (l, right) in placed.iter().enumerate() {
-                let block = h.fixed_view::<3, 3>(3 * k, 3 * l);
-                let (to_right, to_shared) = (block * right.vertex, block * right.shared);
-                add(&mut pulled, (3 * k, 3 * l), left.vertex.transpose() * to_right);
-                add(&mut pulled, (D, 3 * l), left.shared.transpose() * to_right);
-                add(&mut pulled, (D, D), left.shared.transpose() * to_shared);
+            let block = |l: usize| h.fixed_view::<3, 3>(3 * k, 3 * l);
+            for (l, right) in placed[..=k].iter().enumerate() {
+                add(&mut pulled, (3 * k, 3 * l), left.by_vertex.transpose() * block(l) * right.by_vertex);
             }
-        }
-        for (k, &site) in sites.iter().enumerate() {
-            let (force, v) = (g.fixed_rows::<3>(3 * k).into_owned(), vertex(x, site));
-            self.add_curvature(self.shared_of(x), (site, &v), &force, (3 * k, D), &mut pulled);
+            let mut to_shared = SharedMatrix::zeros();
+            for (l, right) in placed.iter().enumerate() {
+                right.by_shared.iter().for_each(|by_shared| to_shared += block(l) * by_shared);
+            }
+            add(&mut pulled, (D, 3 * k), to_shared.transpose() * left.by_vertex);
+            left.by_shared.iter().for_each(|by_shared| add(&mut pulled, (D, D), by_shared.transpose() * to_shared));
+            let force = g.fixed_rows::<3>(3 * k).into_owned();
+            self.add_curvature(left, &force, (3 * k, D), &mut pulled);
         }
         lower.clear();
         for row in 0..D + self.shared() {
@@ -197,23 +206,13 @@ impl Domain {
         }
     }
 
-    /// Adds the second derivative of `force . P` of a site's position `P`, with the blocks of its vertex and of the shared
+    /// Adds the second derivative of `force . P` of a position `P`, with the blocks of its vertex and of the shared
     /// coordinates at these places.
-    fn add_curvature(
-        &self,
-        shared: &[f64],
-        (site, v): (Site, &Vec3),
-        force: &Vec3,
-        (at, first): (usize, usize),
-        pulled: &mut Pulled,
-    ) {
-        match self {
-            Self::Screw => ScrewMotion::new(shared, site).at(v).add_curvature(force, at, first, pulled),
-            Self::Tube { seam, kept, .. } => {
-                let motion = TubeMotion::new(seam, *kept, shared, site.shift);
-                motion.add_curvature(v, force, at, (first, shared.len()), pulled);
-            }
-            Self::Patch | Self::FixedTorus(_) | Self::FreeTorus => {}
+    fn add_curvature(&self, placed: &Placed, force: &Vec3, (at, first): (usize, usize), pulled: &mut Pulled) {
+        match &placed.motion {
+            Motion::Translation(_) => {}
+            Motion::Screw(screw) => screw.at(&placed.vertex).add_curvature(force, at, first, pulled),
+            Motion::Tube(tube) => tube.add_curvature(&placed.point, force, at, (first, self.shared()), pulled),
         }
     }
 
@@ -294,6 +293,20 @@ impl Domain {
             _ => sites.map(|site| self.point(x, site)),
         }
     }
+}
+
+/// Returns the derivatives of a position by the two lattice vectors.
+fn by_lattice(shift: [i32; 2]) -> SharedMatrix {
+    let [n1, n2] = shift.map(f64::from);
+    SharedMatrix::from_fn(|axis, k| {
+        if k == axis {
+            n1
+        } else if k == 3 + axis {
+            n2
+        } else {
+            0.0
+        }
+    })
 }
 
 /// Adds `block` to `to`, with its first entry at `(row, column)`.

@@ -2,6 +2,7 @@
 
 use super::domain::{Domain, Site};
 use super::measure::Measure;
+use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 use std::marker::PhantomData;
@@ -86,10 +87,16 @@ impl Local {
             return;
         }
         let points = self.gradient.len() - units.len();
-        let unit = |k: usize| if k < points { 1.0 } else { units[k - points] };
-        self.gradient.iter_mut().enumerate().for_each(|(k, g)| *g *= unit(k));
-        let places = (0..points + units.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
-        self.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h = *h * unit(row) * unit(column));
+        self.gradient[points..].iter_mut().zip(units).for_each(|(g, unit)| *g *= unit);
+        if self.hessian.is_empty() {
+            return;
+        }
+        for (k, unit) in units.iter().enumerate() {
+            let first = (points + k) * (points + k + 1) / 2;
+            let (by_points, by_shared) = self.hessian[first..first + points + k + 1].split_at_mut(points);
+            by_points.iter_mut().for_each(|h| *h *= unit);
+            by_shared.iter_mut().zip(units).for_each(|(h, other)| *h *= unit * other);
+        }
     }
 }
 
@@ -191,18 +198,24 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
 
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
         let sites = &self.elements[k].sites;
-        let points = domain.points(x, sites);
-        let (value, gradient) = if want_hessian {
-            let (value, gradient) = M::hessian(&points, &mut out.hessian);
-            domain.pull_hessian(x, sites, &gradient, &mut out.hessian);
-            (value, gradient)
+        out.gradient.clear();
+        out.hessian.clear();
+        let mut measure =
+            |points: &[Vec3; N]| if want_hessian { M::hessian(points, &mut out.hessian) } else { M::gradient(points) };
+        let value = if domain.shared() == 0 {
+            let (value, gradient) = measure(&domain.points(x, sites));
+            out.gradient.extend_from_slice(gradient.as_slice());
+            value
         } else {
-            out.hessian.clear();
-            M::gradient(&points)
+            let placed = sites.map(|site| domain.place(x, site));
+            let (value, gradient) = measure(&std::array::from_fn(|n| placed[n].point));
+            if want_hessian {
+                domain.pull_hessian(&placed, &gradient, &mut out.hessian);
+            }
+            domain.pull_gradient(&placed, &gradient, &mut out.gradient);
+            value
         };
         out.value = self.continued(k, value);
-        out.gradient.clear();
-        domain.pull_gradient(x, sites, &gradient, &mut out.gradient);
     }
 
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor {

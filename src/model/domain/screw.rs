@@ -2,7 +2,6 @@
 
 use super::shared::{Pulled, SharedMatrix};
 use crate::math::{Vec3, sinc};
-use crate::sheet::tiling::Site;
 use nalgebra::{Complex, Matrix3};
 
 /// The screw motion of one cell. Points are seen along the axis: a complex number is a position across the axis (real
@@ -17,13 +16,12 @@ pub(super) struct ScrewMotion {
     e: [f64; 2],
     /// Translation of the cell in the plane of x and y.
     l: [f64; 2],
-    turn: Complex<f64>,
     phi: sinc::Phi,
 }
 
 /// A point of cell `(0, 0)` together with a screw motion that is applied to it.
-pub(super) struct Screwed {
-    screw: ScrewMotion,
+pub(super) struct Screwed<'a> {
+    screw: &'a ScrewMotion,
     v: Vec3,
     /// Coordinate of the point along the axis; `w` is its position across.
     along: f64,
@@ -33,16 +31,15 @@ pub(super) struct Screwed {
 pub(super) const I: Complex<f64> = Complex::new(0.0, 1.0);
 
 impl ScrewMotion {
-    pub(super) fn new(shared: &[f64], site: Site) -> Self {
-        let n = site.shift.map(f64::from);
+    pub(super) fn new(shared: &[f64], shift: [i32; 2]) -> Self {
+        let n = shift.map(f64::from);
         let l = [n[0] * shared[4] + n[1] * shared[5], n[0] * shared[2] + n[1] * shared[3]];
         let (sine, cosine) = shared[0].sin_cos();
         let (h, b, kappa) = (cosine * l[0] + sine * l[1], cosine * l[1] - sine * l[0], shared[1]);
-        let (sin, cos) = (kappa * b).sin_cos();
-        Self { kappa, b, h, n, e: [cosine, sine], l, turn: Complex::new(cos, sin), phi: sinc::phi(kappa * b) }
+        Self { kappa, b, h, n, e: [cosine, sine], l, phi: sinc::phi(kappa * b) }
     }
 
-    pub(super) fn at(self, v: &Vec3) -> Screwed {
+    pub(super) fn at(&self, v: &Vec3) -> Screwed<'_> {
         let [cosine, sine] = self.e;
         let w = Complex::new(cosine * v.y - sine * v.x, v.z);
         Screwed { along: cosine * v.x + sine * v.y, v: *v, screw: self, w }
@@ -58,15 +55,15 @@ struct Bend {
     by_b: Complex<f64>,
 }
 
-impl Screwed {
+impl Screwed<'_> {
     fn bend(&self) -> Bend {
-        let (ScrewMotion { kappa, b, turn, phi, .. }, w) = (&self.screw, self.w);
+        let (ScrewMotion { kappa, b, phi, .. }, w) = (self.screw, self.w);
         let psi = phi.value + I * phi.first;
         Bend {
             value: I * *kappa * *b * (phi.value * w + psi * *b),
             by_w: I * *kappa * *b * phi.value,
-            by_kappa: I * *b * turn * w + *b * *b * phi.first,
-            by_b: I * *kappa * (turn * w + phi.value * *b),
+            by_kappa: I * *b * phi.turn * w + *b * *b * phi.first,
+            by_b: I * *kappa * (phi.turn * w + phi.value * *b),
         }
     }
 
@@ -86,34 +83,31 @@ impl Screwed {
         self.v + Vec3::new(self.screw.l[0], self.screw.l[1], 0.0) + self.across(self.bend().value)
     }
 
-    pub(super) fn vertex_derivative(&self) -> Matrix3<f64> {
-        let ([cosine, sine], by_w) = (self.screw.e, self.bend().by_w);
-        let (by_across, by_z) = (self.across(by_w), self.across(I * by_w));
-        Matrix3::identity() + Matrix3::from_columns(&[-sine * by_across, cosine * by_across, by_z])
-    }
-
-    pub(super) fn shared_derivative(&self) -> SharedMatrix {
+    /// Returns the derivatives of the point by its vertex and by the shared coordinates.
+    pub(super) fn derivatives(&self) -> (Matrix3<f64>, Option<SharedMatrix>) {
         let (bend, [cosine, sine], n) = (self.bend(), self.screw.e, self.screw.n);
+        let (by_across, by_z) = (self.across(bend.by_w), self.across(I * bend.by_w));
+        let by_vertex = Matrix3::identity() + Matrix3::from_columns(&[-sine * by_across, cosine * by_across, by_z]);
         let turned = self.across(self.bend_by_direction(&bend)) - bend.value.re * Vec3::new(cosine, sine, 0.0);
         let by_across = self.across(bend.by_b);
         let (by_y, by_x) = (Vec3::y() + cosine * by_across, Vec3::x() - sine * by_across);
         let columns = [turned, self.across(bend.by_kappa), n[0] * by_y, n[1] * by_y, n[0] * by_x, n[1] * by_x];
-        SharedMatrix::from_columns(&columns)
+        (by_vertex, Some(SharedMatrix::from_columns(&columns)))
     }
 
     /// Adds the second derivative of `force . P` to the lower triangle, `P` being the position of this point: the
     /// block of the point's vertex (at `at`) and that of the shared coordinates (at `shared`, which come after it).
     pub(super) fn add_curvature(&self, force: &Vec3, at: usize, shared: usize, hessian: &mut Pulled) {
-        let (ScrewMotion { kappa, b, h, n, e: [cosine, sine], turn, phi, .. }, w) = (&self.screw, self.w);
+        let (ScrewMotion { kappa, b, h, n, e: [cosine, sine], phi, .. }, w) = (self.screw, self.w);
         let (m, e) = ([-sine, *cosine], [*cosine, *sine]);
         let (pull, along) = (m[0] * force.x + m[1] * force.y, e[0] * force.x + e[1] * force.y);
         let across = |z: Complex<f64>| pull * z.re + force.z * z.im;
         let bend = self.bend();
-        let by_w_kappa = I * *b * turn;
-        let by_w_b = I * *kappa * turn;
+        let by_w_kappa = I * *b * phi.turn;
+        let by_w_b = I * *kappa * phi.turn;
         let by_b_b = by_w_b * (I * *kappa * w + 1.0);
-        let by_kappa_b = turn * (I * *b * (I * *kappa * w + 1.0) + I * w);
-        let by_kappa_kappa = (phi.second * *b - turn * w) * (*b * *b);
+        let by_kappa_b = phi.turn * (I * *b * (I * *kappa * w + 1.0) + I * w);
+        let by_kappa_kappa = (phi.second * *b - phi.turn * w) * (*b * *b);
         let [by_x, by_y, by_z] = [Complex::from(m[0]), Complex::from(m[1]), I];
         let mut add = |row: usize, column: usize, value: f64| hessian[(row, column)] += value;
         // the vertex with the direction, the curvature and the lattice

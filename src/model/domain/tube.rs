@@ -47,30 +47,26 @@ impl TubeMotion {
         Vec3::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y, v.z + self.along)
     }
 
-    pub(super) fn vertex_derivative(&self) -> Matrix3<f64> {
-        Matrix3::new(self.cos, -self.sin, 0.0, self.sin, self.cos, 0.0, 0.0, 0.0, 1.0)
-    }
-
-    pub(super) fn shared_derivative(&self, v: &Vec3) -> SharedMatrix {
-        let (at, mut columns) = (self.point(v), SharedMatrix::zeros());
+    /// Returns the derivatives of a copy, which is at `point`, by its vertex and by the shared coordinates.
+    pub(super) fn derivatives(&self, point: &Vec3) -> (Matrix3<f64>, Option<SharedMatrix>) {
+        let mut by_shared = SharedMatrix::zeros();
         for k in 0..4 {
-            columns.set_column(k, &Vec3::new(-at.y * self.turns[k], at.x * self.turns[k], self.rises[k]));
+            by_shared.set_column(k, &Vec3::new(-point.y * self.turns[k], point.x * self.turns[k], self.rises[k]));
         }
-        columns
+        (Matrix3::new(self.cos, -self.sin, 0.0, self.sin, self.cos, 0.0, 0.0, 0.0, 1.0), Some(by_shared))
     }
 
-    /// Adds the second derivative of `force . P` to the lower triangle, `P` being the position of the copy of `v`: the block
+    /// Adds the second derivative of `force . P` to the lower triangle, `P` being the position of a copy: the block
     /// of the point's vertex (at `at`) and that of the `count` shared coordinates (at `shared`, which come after it).
     pub(super) fn add_curvature(
         &self,
-        v: &Vec3,
+        copy: &Vec3,
         force: &Vec3,
         at: usize,
         (shared, count): (usize, usize),
         hessian: &mut Pulled,
     ) {
         let by_turn = [self.cos * force.y - self.sin * force.x, -self.cos * force.x - self.sin * force.y];
-        let copy = self.point(v);
         let twice = -(force.x * copy.x + force.y * copy.y);
         for k in 0..count {
             (0..2).for_each(|axis| hessian[(shared + k, at + axis)] += self.turns[k] * by_turn[axis]);

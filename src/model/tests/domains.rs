@@ -44,15 +44,16 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &
         let value = M::value(&domain.points(x, &own));
         if M::ANGLE { value + TAU * ((home - value) / TAU).round() } else { value }
     };
+    let placed = |x: &[f64], sites: &[Site; N]| sites.map(|site| domain.place(x, site));
     let gradient = |x: &[f64]| {
         let mut pulled = Vec::new();
-        domain.pull_gradient(x, &own, &M::gradient(&domain.points(x, &own)).1, &mut pulled);
+        domain.pull_gradient(&placed(x, &own), &M::gradient(&domain.points(x, &own)).1, &mut pulled);
         pulled
     };
     let (mut lower, mut in_place) = (Vec::new(), Vec::new());
     let (_, g) = M::hessian(&domain.points(&local, &own), &mut lower);
-    domain.pull_hessian(&local, &own, &g, &mut lower);
-    domain.pull_gradient(x, &sites, &g, &mut in_place);
+    domain.pull_hessian(&placed(&local, &own), &g, &mut lower);
+    domain.pull_gradient(&placed(x, &sites), &g, &mut in_place);
     let hessian = symmetric(local.len(), &lower);
     if M::HINGE {
         let wings =
