@@ -46,7 +46,8 @@ impl Report {
             Err(message) => return self.unanswered(kind, message),
         };
         let energy = other.energy / unit;
-        let same = (energy - answer.energy).abs() <= SAME * answer.energy.abs() + 1e-13;
+        let rounding = SAME * answer.energy.abs() + 1e-13 + answer.open + other.open / unit;
+        let same = (energy - answer.energy).abs() <= rounding;
         if !same
             && ([answer.negative, other.negative] != [Some(0); 2]
                 || trial.has_equilibrium(|found, _| (found - energy).abs() <= 10.0 * SAME * energy))

@@ -38,6 +38,10 @@ pub struct Trial {
 
 pub struct Answer {
     pub energy: f64,
+    /// What the gaps that are left open store at their tensions. An energy is corrected for that, which is exact to second order; but where
+    /// rigid measures come to depend on each other an angle goes as the root of a gap, its tension as the inverse of the root, and
+    /// as much as that stays unknown.
+    pub open: f64,
     /// Fold angles of the tiling's edges.
     pub angles: Vec<f64>,
     pub negative: Option<usize>,
@@ -153,8 +157,10 @@ impl Trial {
         let view = ShownCells::new(&assembly);
         let pictured = Picture::of_state(&view, assembly.drawn(), &found.state).energy.iter().sum();
         let (halves, compliance) = (halves(&found.tension), model.compliance().to_vec());
+        let gaps = model.gaps(&found.x).into_iter().zip(&found.tension).zip(&compliance);
+        let open = gaps.map(|((gap, t), c)| (t * (gap - c * t)).abs()).sum();
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
-        Ok(Answer { energy, angles, negative, again, residual, halves, compliance, exact, pictured })
+        Ok(Answer { energy, open, angles, negative, again, residual, halves, compliance, exact, pictured })
     }
 
     /// Whether random starts reach an equilibrium of such an energy; told beside it are `t^2 / 2` of every stiff measure.
