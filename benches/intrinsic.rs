@@ -113,8 +113,8 @@ fn compare(assembly: &Assembly, rest: Rest, bars: f64, both: bool) -> usize {
 }
 
 fn timed(assembly: &Assembly, terms: &Terms, method: Method) -> (Option<Relaxed>, f64) {
-    let mut model = assembly.with_terms(terms.clone()).model(Gauge::Held);
+    let model = assembly.with_terms(terms.clone()).model(Gauge::Held);
     let (start, clock) = (model.start(), Instant::now());
-    let found = relax_from(&mut model, start, RelaxOptions { method, ..RelaxOptions::default() }, &mut |_| true);
+    let found = relax_from(&model, start, RelaxOptions { method, ..RelaxOptions::default() }, &mut |_| true);
     (found.ok(), clock.elapsed().as_secs_f64())
 }

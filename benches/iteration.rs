@@ -296,8 +296,8 @@ fn study(sizes: &[usize]) {
             rounds(),
             &mut [
                 &mut || {
-                    let mut model = star.model(RIGID);
-                    seconds(|| star.relax(&mut model).expect("it converges"))
+                    let model = star.model(RIGID);
+                    seconds(|| star.relax(&model).expect("it converges"))
                 },
                 &mut || seconds(|| tension::settle(&model, &found)),
                 &mut || set_up(model.layout()),

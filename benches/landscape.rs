@@ -40,9 +40,8 @@ fn main() {
     let relaxation = || {
         let clock = Instant::now();
         for _ in 0..20 {
-            let mut model = bent.model(Gauge::Held);
-            let start = model.start();
-            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+            let model = bent.model(Gauge::Held);
+            relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
         }
         clock.elapsed().as_secs_f64() / 20.0
     };

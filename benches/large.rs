@@ -39,11 +39,11 @@ fn main() {
     println!("{:>10} {:>9} {:>6} {:>9} {:>9} {:>9}", "cells", "unknowns", "steps", "residual", "seconds", "MB");
     let (mut times, mut memories) = (Vec::new(), Vec::new());
     for cells in CELLS.into_iter().take(if measuring() { CELLS.len() } else { 1 }) {
-        let mut model = Star::new(cells).model(RIGID);
+        let model = Star::new(cells).model(RIGID);
         let (unknowns, start) = (size(&model).0, model.start());
         let clock = Instant::now();
         let options = Options { tolerance: TOLERANCE, ..Options::default() };
-        let found = relax_from(&mut model, start, options, &mut |_| true).expect("these patches relax");
+        let found = relax_from(&model, start, options, &mut |_| true).expect("these patches relax");
         let (seconds, memory) = (clock.elapsed().as_secs_f64(), most_memory().unwrap_or(f64::NAN));
         let residual = found.residual_force.max(found.residual_length);
         assert!(residual <= TOLERANCE, "{cells} x {cells}: {residual:e}");

@@ -41,9 +41,8 @@ impl Star {
     }
 
     /// Relaxes `model` from the drawn state; `None` if it does not converge.
-    pub fn relax(&self, model: &mut Model) -> Option<Relaxed> {
-        let start = model.start();
-        relax_from(model, start, Options::default(), &mut |_| true).ok()
+    pub fn relax(&self, model: &Model) -> Option<Relaxed> {
+        relax_from(model, model.start(), Options::default(), &mut |_| true).ok()
     }
 }
 

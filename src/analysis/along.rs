@@ -238,7 +238,7 @@ impl Track<'_> {
         let (here, is_held_as_drawn) = model.start_well_held(last);
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
         let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));
-        let relaxed = relax_from(&mut model, start, self.options, observe)
+        let relaxed = relax_from(&model, start, self.options, observe)
             .map_err(|error| AlongFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);

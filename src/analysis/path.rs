@@ -2,7 +2,7 @@
 
 mod stops;
 
-use super::relax::relax_from;
+use super::relax::relax_model;
 use super::state::State;
 use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gauge, Model};
 use crate::solver::path::{
@@ -269,8 +269,10 @@ fn begin<'m>(
         (x, tension)
     } else {
         let newton = Options { tolerance: options.tolerance, ..Options::default() };
-        let relaxed = relax_from(driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
-        (relaxed.x, relaxed.tension)
+        let (relaxed, model, x) =
+            relax_model(driven.model.clone(), x, newton, &mut |_| true).map_err(|error| error.failure)?;
+        *driven.model = model;
+        (x, relaxed.configuration.tension.unwrap_or_default())
     };
     let x = driven.about_best_axis(x, &tension);
     Ok((driven, Start { x, tension: Some(tension) }))

@@ -19,6 +19,11 @@ pub struct Configuration {
 }
 
 impl Configuration {
+    /// The tensions; none where they are not known.
+    pub fn tensions(&self) -> &[f64] {
+        self.tension.as_deref().unwrap_or_default()
+    }
+
     /// The same state, whose tensions are not known.
     #[must_use]
     pub fn without_tension(&self) -> Self {

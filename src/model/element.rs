@@ -102,6 +102,8 @@ impl Local {
 
 /// The interface of a term to the model, independent of its measure.
 pub trait Elements: Send + Sync {
+    /// Returns a copy.
+    fn boxed(&self) -> Box<dyn Elements>;
     /// Returns the kind of the elements.
     fn kind(&self) -> TermKind;
     /// Returns the name of the kind in a scene.
@@ -159,7 +161,17 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
     }
 }
 
-impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements for Term<M, N, D> {
+impl Clone for Box<dyn Elements> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
+}
+
+impl<M: Measure<N, D> + Clone + Send + Sync + 'static, const N: usize, const D: usize> Elements for Term<M, N, D> {
+    fn boxed(&self) -> Box<dyn Elements> {
+        Box::new(self.clone())
+    }
+
     fn kind(&self) -> TermKind {
         self.kind
     }

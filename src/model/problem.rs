@@ -17,7 +17,6 @@ pub(super) mod driving;
 mod energy;
 mod hinges;
 mod kept;
-mod reference_state;
 mod short_steps;
 mod softened;
 mod support;
@@ -36,6 +35,7 @@ pub(super) const RIGHT_WING: Range<u32> = 9..12;
 const DEPENDENT: f64 = 1e-9;
 
 /// The mechanical model of a sheet: its terms on a domain, with held coordinates and loads.
+#[derive(Clone)]
 pub struct Model {
     domain: Domain,
     /// Generalised coordinates of the reference state, which is the drawn state or the one that replaced it: those of

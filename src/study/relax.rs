@@ -11,7 +11,7 @@ use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::recorder::KeptState;
 use crate::analysis::relax::{Method, RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
 use crate::analysis::state::State;
-use crate::model::{Configuration, Gauge, Model};
+use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
 use crate::output::summary::{
@@ -54,7 +54,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer,
     if let Some(tolerance) = &spec.tolerance {
         options.newton.tolerance = tolerance.0;
     }
-    match relax_from(&mut model, start.for_solver(), options, &mut watcher(context)) {
+    match relax_from(&model, start.for_solver(), options, &mut watcher(context)) {
         Ok(relaxed) => Ok(found(context, spec, &model, &first, relaxed)),
         Err(error) => Ok(not_found(context, &first, &error)),
     }
@@ -79,9 +79,7 @@ fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, 
     };
     let error = larger(result.residual_force, result.residual_length);
     answer.conclude(StudyResult::Relax(result), Some(error), None);
-    let Relaxed { state, tension, .. } = relaxed;
-    answer.state =
-        Some(Configuration { coordinates: state.coordinates, angles: model.angles(), tension: Some(tension) });
+    answer.state = Some(relaxed.configuration);
     answer
 }
 

@@ -91,13 +91,8 @@ impl Star {
     ///
     /// # Errors
     /// [`RelaxError`] if it does not converge.
-    pub(crate) fn relax(
-        &self,
-        model: &mut Model,
-        options: impl Into<RelaxOptions>,
-    ) -> Result<Relaxed, Box<RelaxError>> {
-        let start = model.start();
-        relax_from(model, start, options, &mut |_| true)
+    pub(crate) fn relax(&self, model: &Model, options: impl Into<RelaxOptions>) -> Result<Relaxed, Box<RelaxError>> {
+        relax_from(model, model.start(), options, &mut |_| true)
     }
 }
 

@@ -134,9 +134,8 @@ impl Testing for Assembly {
     }
 
     fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>> {
-        let mut model = self.model_of(terms, Gauge::Held);
-        let start = model.start();
-        relax_from(&mut model, start, Options::default(), &mut |_| true)
+        let model = self.model_of(terms, Gauge::Held);
+        relax_from(&model, model.start(), Options::default(), &mut |_| true)
     }
 }
 

@@ -74,10 +74,11 @@ pub fn examine(seed: u64, report: &mut Report) {
     terms.loads.iter_mut().for_each(|(_, force)| *force *= some * critical);
     model = case.assembly.with_terms(terms).model(Gauge::Held);
     x = model.start();
-    match relax_from(&mut model, x, Options::default(), &mut |_| true) {
+    match relax_from(&model, x, Options::default(), &mut |_| true) {
         Ok(found) => {
-            let at = linearized(&model, &found.x, &found.tension);
-            let dense = Projection::new(&model, &found.x);
+            let x = model.enter(&found.configuration).x;
+            let at = linearized(&model, &x, found.configuration.tensions());
+            let dense = Projection::new(&model, &x);
             judge(report, found.negative_eigenvalues, (&dense, &at), &format!("{what}, relaxed at load {some}"));
         }
         Err(error) => report.unanswered("relaxed under load", &error.to_string()),

@@ -11,7 +11,7 @@ use foldwell::model::{Assembly, Boundary, Gauge, Terms};
 use foldwell::output::picture::Picture;
 use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
 use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
-use foldwell::solver::{Options, Problem, Start};
+use foldwell::solver::{Options, Problem};
 use std::f64::consts::PI;
 
 /// Random starts where nothing else is said.
@@ -147,18 +147,17 @@ impl Trial {
         let terms = self.terms(&case);
         let assembly = case.with_terms(terms).with_best_axis();
         let mut model = assembly.model(Gauge::Held);
-        let start = model.start();
-        let found = relax_from(&mut model, start, Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
+        let found = relax_from(&model, model.start(), Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
         let exact = error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle);
-        let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
-        let again = relax_from(&mut model, start, Options::default(), &mut |_| true);
+        let start = model.enter(&found.configuration);
+        let (gaps, tension) = (model.gaps(&start.x), found.configuration.tensions());
+        let again = relax_from(&model, start, Options::default(), &mut |_| true);
         let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
         let negative = found.negative_eigenvalues;
         let view = ShownCells::new(&assembly);
         let pictured = Picture::of_state(&view, assembly.drawn(), &found.state).energy.iter().sum();
-        let (halves, compliance) = (halves(&found.tension), model.compliance().to_vec());
-        let gaps = model.gaps(&found.x).into_iter().zip(&found.tension).zip(&compliance);
-        let open = gaps.map(|((gap, t), c)| (t * (gap - c * t)).abs()).sum();
+        let (halves, compliance) = (halves(tension), model.compliance().to_vec());
+        let open = gaps.iter().zip(tension).zip(&compliance).map(|((gap, t), c)| (t * (gap - c * t)).abs()).sum();
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
         Ok(Answer { energy, open, angles, negative, again, residual, halves, compliance, exact, pictured })
     }
@@ -171,7 +170,7 @@ impl Trial {
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: self.starts, seed: 1, spread, options: Options::default() };
             relax_all(&assembly, &starts, &|| true).into_iter().any(|outcome| match outcome {
-                Outcome::Well(found) => such(found.energy, &halves(&found.relaxed.tension)),
+                Outcome::Well(found) => such(found.energy, &halves(found.place.tensions())),
                 _ => false,
             })
         })

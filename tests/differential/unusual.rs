@@ -197,9 +197,8 @@ impl TubeTrial {
 
     /// The energy, and the negative eigenvalues.
     fn answer(&self) -> Result<(f64, Option<usize>), String> {
-        let mut model = self.assembly()?.model(Gauge::Held);
-        let start = model.start();
-        let found = relax_from(&mut model, start, Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
+        let model = self.assembly()?.model(Gauge::Held);
+        let found = relax_from(&model, model.start(), Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
         Ok((found.state.total(), found.negative_eigenvalues))
     }
 

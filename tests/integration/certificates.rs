@@ -53,7 +53,7 @@ fn pressed(rectangles: usize, stiffness: [f64; 2], load: f64) -> (Assembly, Term
 fn projected(case: &Assembly, terms: &Terms, found: &Relaxed) -> Option<usize> {
     let mut model = case.model_of(terms, Gauge::Held);
     let x = model.start_from(found.state.coordinates.clone());
-    let at = linearized(&model, &x, &found.tension);
+    let at = linearized(&model, &x, found.configuration.tensions());
     let (rows, mut whole) = (jacobian(&model, &at), at.pattern().to_dense(&at.hessian));
     let unknowns = rows.ncols();
     let is_rigid = |row: &usize| model.compliance()[*row] == 0.0;
@@ -266,10 +266,10 @@ fn tensions_have_no_self_stress() {
             loads,
             ..Terms::bars_and_creases(bars, 1.0, vec![0.0; case.drawn_angles().len()])
         };
-        let mut model = case.model_of(&terms, Gauge::Held);
+        let model = case.model_of(&terms, Gauge::Held);
         let mut numbers = Numbers::new(seed);
         let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.05)).collect();
-        relax_from(&mut model, start, Options::default(), &mut |_| true).map_err(|error| error.failure)
+        relax_from(&model, start, Options::default(), &mut |_| true).map_err(|error| error.failure)
     };
     let largest = |found: &Relaxed| {
         found.state.tension.iter().filter(|t| t.is_finite()).fold(0.0, |most: f64, t| most.max(t.abs()))

@@ -61,7 +61,7 @@ fn equal_stiffnesses_are_one_number() {
         let found = miura(&text, &[("k.csv", &table)]).unwrap();
         assert_eq!(creases(&found).stiffness, Stiffness::Uniform(2.0));
         let found = relax(&found).unwrap();
-        assert!(found.x.iter().zip(&one.x).all(|(a, b)| a.to_bits() == b.to_bits()), "{form}");
+        assert!(found.configuration == one.configuration, "{form}");
     }
 }
 
@@ -143,10 +143,9 @@ fn both_methods_know_single_elements() {
     use foldwell::analysis::relax::{Method, RelaxOptions};
     let patch = motley();
     let angles = [Method::Vertices, Method::Intrinsic].map(|method| {
-        let mut model = patch.model(foldwell::model::Gauge::Held);
-        let start = model.start();
+        let model = patch.model(foldwell::model::Gauge::Held);
         let options = RelaxOptions { method, ..RelaxOptions::default() };
-        let found = relax_from(&mut model, start, options, &mut |_| true).unwrap();
+        let found = relax_from(&model, model.start(), options, &mut |_| true).unwrap();
         assert_eq!(found.intrinsic_failure, None);
         found.state.fold_angle
     });

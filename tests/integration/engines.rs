@@ -212,9 +212,8 @@ fn relaxations_end_at_the_exact_equilibrium() {
     for (case, edges) in [(on(mesh("open-star"), [1, 1], Boundary::Screw), 12), (patch("open-star", [3, 3]), 88)] {
         let error = |bars: f64| {
             let terms = Terms::bars_and_creases(bars, 1.0, case.rest_per_hinge(0.1, 3));
-            let mut model = case.model_of(&terms, Gauge::Held);
-            let start = model.start();
-            let found = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+            let model = case.model_of(&terms, Gauge::Held);
+            let found = relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
             error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle).unwrap()
         };
         let [rigid, stiff, soft] = [f64::INFINITY, 1e8, 1e6].map(error);

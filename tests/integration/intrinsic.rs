@@ -12,9 +12,8 @@ use std::fs;
 use std::process::Command;
 
 fn relaxed(assembly: &Assembly, terms: &Terms, method: Method) -> Result<Relaxed, Box<RelaxError>> {
-    let mut model = assembly.model_of(terms, Gauge::Held);
-    let start = model.start();
-    relax_from(&mut model, start, RelaxOptions { method, ..RelaxOptions::default() }, &mut |_| true)
+    let model = assembly.model_of(terms, Gauge::Held);
+    relax_from(&model, model.start(), RelaxOptions { method, ..RelaxOptions::default() }, &mut |_| true)
 }
 
 /// Terms whose creases rest as one mode of rigid folding with these curvatures asks, the same in every cell.

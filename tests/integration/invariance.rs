@@ -105,9 +105,8 @@ fn small_sheets_start_no_threads() {
     let threads = Threads::new(Some(2));
     let rigid = |case: &Assembly| {
         let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
-        let mut model = case.model_of(&terms, Gauge::Held);
-        let start = model.start();
-        threads.install(|| relax_from(&mut model, start, Options::default(), &mut |_| true)).unwrap();
+        let model = case.model_of(&terms, Gauge::Held);
+        threads.install(|| relax_from(&model, model.start(), Options::default(), &mut |_| true)).unwrap();
     };
     for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
         rigid(&on(common::mesh("open-star"), [1, 1], boundary));

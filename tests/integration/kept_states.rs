@@ -15,10 +15,10 @@ use std::process::Command;
 
 use super::targets::FLAT as WATERBOMB;
 
-fn relaxed(model: &mut Model, method: Method, keep_every: Option<usize>) -> Relaxed {
+fn relaxed(model: &Model, method: Method, keep_every: Option<usize>) -> Relaxed {
     let keep_every = keep_every.and_then(NonZeroUsize::new);
-    let start = model.start();
-    relax_from(model, start, RelaxOptions { method, keep_every, ..RelaxOptions::default() }, &mut |_| true).unwrap()
+    relax_from(model, model.start(), RelaxOptions { method, keep_every, ..RelaxOptions::default() }, &mut |_| true)
+        .unwrap()
 }
 
 /// The work of the tensions on the gaps of bars that are still open, `sum t (L - L0 - t/k)`, which the merit of a history
@@ -62,8 +62,8 @@ fn ways() -> Vec<(&'static str, Assembly, Method)> {
 #[test]
 fn a_state_for_each_step() {
     for (name, assembly, method) in ways() {
-        let mut model = assembly.model(Gauge::Held);
-        let found = relaxed(&mut model, method, Some(1));
+        let model = assembly.model(Gauge::Held);
+        let found = relaxed(&model, method, Some(1));
         let iterations: Vec<usize> = found.kept.iter().map(|kept| kept.iteration).collect();
         assert_eq!(iterations, Vec::from_iter(0..found.history.len()), "{name}");
         let scale = found.history.iter().fold(0.0f64, |most, step| most.max(step.energy));
@@ -74,14 +74,14 @@ fn a_state_for_each_step() {
         }
         let bits = |state: &State| format!("{state:?}");
         assert_eq!(bits(&found.kept.last().unwrap().state), bits(&found.state), "{name}");
-        let plain = relaxed(&mut assembly.model(Gauge::Held), method, None);
+        let plain = relaxed(&assembly.model(Gauge::Held), method, None);
         assert!(plain.kept.is_empty(), "{name}");
         assert_eq!((bits(&plain.state), &plain.history), (bits(&found.state), &found.history), "{name}");
     }
     let used: Vec<_> = ways()
         .into_iter()
         .map(|(_, assembly, method)| {
-            let found = relaxed(&mut assembly.model(Gauge::Held), method, None);
+            let found = relaxed(&assembly.model(Gauge::Held), method, None);
             (found.history.iter().any(|step| step.intrinsic), !found.soft_steps.is_empty())
         })
         .collect();

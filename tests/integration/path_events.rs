@@ -10,7 +10,7 @@ use foldwell::analysis::path::{
     HalfBranches, PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStop, follow_path,
 };
 use foldwell::math::Vec3;
-use foldwell::model::{Configuration, Drive, Driven, Gauge, TermKind};
+use foldwell::model::{Drive, Driven, TermKind};
 use foldwell::sheet::{Sheet, fold};
 use foldwell::{Assembly, RIGID, Rest, relax};
 use nalgebra::{Rotation3, Vector3};
@@ -257,15 +257,9 @@ fn a_stiffness_is_driven_from_a_relaxed_state() {
     let assembly = Assembly::torus(cell, [1, 1]).bars(30.0).creases(1.0).rest(Rest::Angle(0.3)).build().unwrap();
     let relaxed = relax(&assembly).unwrap();
     assert!(relaxed.state.energy_bars > 1e-3, "bars are strained: {}", relaxed.state.energy_bars);
-    let mut model = assembly.model(Gauge::Held);
-    model.start_from(relaxed.state.coordinates.clone());
-    let start = Configuration {
-        coordinates: relaxed.state.coordinates.clone(),
-        angles: model.angles(),
-        tension: Some(relaxed.tension.clone()),
-    };
     let drive = Drive { quantity: Driven::Stiffness(TermKind::Creases), to: 0.5 };
-    let branches = follow_path(&assembly, &drive, Some(start), &PathOptions::default(), &mut |_, _| true).unwrap();
+    let branches =
+        follow_path(&assembly, &drive, Some(relaxed.configuration), &PathOptions::default(), &mut |_, _| true).unwrap();
     assert_eq!(branches[0].end, PathEnd::Arrived);
     let first = branches[0].points[0].state.total();
     assert!((first - relaxed.state.total()).abs() <= 1e-12 * first, "{first} {}", relaxed.state.total());

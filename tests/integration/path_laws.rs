@@ -154,9 +154,9 @@ fn a_relaxation_finds_the_end_of_a_path() {
     let branch = followed(&assembly, &Drive { quantity, to: -0.1 }, None);
     let end = last(&branch);
     let loaded = truss().pin(1, [0, 0], [true, true, false]).load(1, [0, 0], [0.0, 0.0, end.reaction]).build();
-    let mut model = loaded.unwrap().model(Gauge::Held);
+    let model = loaded.unwrap().model(Gauge::Held);
     let start = Start::from(model.start());
-    let found = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+    let found = relax_from(&model, start, Options::default(), &mut |_| true).unwrap();
     assert!((found.state.total() - end.state.total()).abs() <= 1e-10 * end.state.total());
     assert!((found.state.coordinates[5] - 0.2).abs() <= 1e-10, "{:?}", found.state.coordinates);
     assert_eq!(found.negative_eigenvalues, Some(0));

@@ -65,9 +65,8 @@ fn a_screw_goes_to_its_rigid_limit() {
 /// from the exact kinematics if that is more accurate.
 fn relaxed_screw(case: &Assembly, off: f64, seed: u64) -> Result<(usize, Vec<f64>, Option<f64>), Box<RelaxError>> {
     let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(off, seed));
-    let mut model = case.with_terms(terms).with_best_axis().model(Gauge::Held);
-    let start = model.start();
-    let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
+    let model = case.with_terms(terms).with_best_axis().model(Gauge::Held);
+    let found = relax_from(&model, model.start(), Options::default(), &mut |_| true)?;
     let angles = found.state.fold_angle;
     let error = error_to_kinematic(case.sheet(), case.tiling(), &model, &angles);
     Ok((found.iterations, angles, error))

@@ -8,7 +8,7 @@ use crate::common::{mesh, turned};
 use foldwell::analysis::path::{PathOptions, PathPoint, follow_path};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, Configuration, Drive, Driven, Gauge};
+use foldwell::model::{Assembly, Drive, Driven, Gauge};
 use foldwell::output::summary::{PathSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{build, parse};
@@ -41,11 +41,7 @@ fn locked(angle: f64) -> Assembly {
 /// The path of the cylinder to which the reference cell relaxes, while its lock is turned.
 fn path_of_cylinder(to: f64) -> Vec<PathPoint> {
     let assembly = locked(DRAWN);
-    let mut model = assembly.model(Gauge::Held);
-    let drawn = model.start();
-    let relaxed = relax_from(&mut model, drawn, Options::default(), &mut |_| true).unwrap();
-    let (coordinates, angles) = (relaxed.state.coordinates, model.angles());
-    let start = Configuration { coordinates, angles, tension: Some(relaxed.tension) };
+    let start = relax(&assembly).unwrap().configuration;
     let drive = Drive { quantity: Driven::Lock(vec![0]), to };
     let mut branches = follow_path(&assembly, &drive, Some(start), &PathOptions::default(), &mut |_, _| true).unwrap();
     branches.remove(0).points
@@ -64,7 +60,7 @@ fn cylinder_along_a_lock() {
             let assembly = locked(point.drive + shift);
             let mut model = assembly.model(Gauge::Held);
             let start = model.enter(&point.configuration().without_tension());
-            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap().state
+            relax_from(&model, start, Options::default(), &mut |_| true).unwrap().state
         };
         let here = relaxed(0.0);
         assert!((here.total() - point.state.total()).abs() < 1e-10, "{} for {}", point.state.total(), here.total());
@@ -107,7 +103,7 @@ fn straight_cells_begin_to_bend() {
         assert!((stiff.state.total() / energy - 1.0).abs() < 1e-4, "{to}: {} for {energy}", stiff.state.total());
         let mut model = cell(0.0, RIGID, Some(to)).model(Gauge::Held);
         let start = model.enter(&rigid.configuration().without_tension());
-        let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap().state.total();
+        let relaxed = relax_from(&model, start, Options::default(), &mut |_| true).unwrap().state.total();
         assert!((relaxed / energy - 1.0).abs() < 1e-10, "{to}: {relaxed} for {energy}");
         for by in [0.0, 0.7] {
             let relaxed = relax(&cell(by, RIGID, Some(to))).unwrap().state.total();

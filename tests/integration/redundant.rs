@@ -31,10 +31,10 @@ fn converged(found: &Relaxed) {
 fn forces(case: &Assembly, terms: &Terms, found: &Relaxed) -> (DenseMatrix, Vec<f64>) {
     let mut model = case.model_of(terms, Gauge::Free);
     let x = model.start_from(found.state.coordinates.clone());
-    let at = linearized(&model, &x, &found.tension);
+    let at = linearized(&model, &x, found.configuration.tensions());
     let mut rows = jacobian(&model, &at);
     rows.row_iter_mut().zip(&at.sizes).for_each(|(mut row, size)| row /= *size);
-    (rows, found.tension.iter().zip(&at.sizes).map(|(tension, size)| tension * size).collect())
+    (rows, found.configuration.tensions().iter().zip(&at.sizes).map(|(tension, size)| tension * size).collect())
 }
 
 /// Returns the number of self stresses by a dense decomposition (nalgebra's), and the relative part of the tensions
@@ -119,15 +119,15 @@ fn a_random_developable_patch_on_a_branch() {
         let case = on(sheet, [3, 3], Boundary::Patch);
         let rest = case.rest_per_hinge(0.8, seed);
         let stiff = {
-            let mut model = case.model_of(&Terms::bars_and_creases(1e5, 1.0, rest.clone()), Gauge::Held);
+            let model = case.model_of(&Terms::bars_and_creases(1e5, 1.0, rest.clone()), Gauge::Held);
             let mut numbers = Numbers::new(seed);
             let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
-            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap()
+            relax_from(&model, start, Options::default(), &mut |_| true).unwrap()
         };
         assert_eq!(stiff.negative_eigenvalues, Some(0));
         let mut model = case.model_of(&Terms::bars_and_creases(RIGID, 1.0, rest), Gauge::Held);
         let start = model.start_from(stiff.state.coordinates.clone());
-        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)
+        let found = relax_from(&model, start, Options::default(), &mut |_| true)
             .unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         converged(&found);
         assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), Some(0)), "seed {seed}");
@@ -164,8 +164,9 @@ fn a_flat_rigid_patch_leaves_the_flat_state() {
 /// Returns the number of negative eigenvalues of the Hessian of the whole energy at a relaxed state, dense, by another
 /// library; all stiffnesses must be finite. Rigid motions are held.
 fn negative(case: &Assembly, terms: &Terms, found: &Relaxed) -> usize {
-    let model = case.model_of(terms, Gauge::Held);
-    let at = linearized(&model, &found.x, &found.tension);
+    let mut model = case.model_of(terms, Gauge::Held);
+    let x = model.enter(&found.configuration).x;
+    let at = linearized(&model, &x, found.configuration.tensions());
     let rows = jacobian(&model, &at);
     let stiff = DenseMatrix::from_diagonal(&nalgebra::DVector::from_iterator(
         rows.nrows(),
@@ -240,9 +241,9 @@ fn a_compressed_flat_sheet_reports_buckling() {
         let loads = vertices().map(|v| (v, pressure * (centre - positions[v]))).collect();
         let terms =
             Terms { loads, pins: pins.clone(), ..Terms::bars_and_creases(1e4, 0.1, case.drawn_angles().to_vec()) };
-        let mut model = case.model_of(&terms, Gauge::Held);
+        let model = case.model_of(&terms, Gauge::Held);
         let start = Start { x: model.start(), tension: Some(vec![0.0; model.compliance().len()]) };
-        let found = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+        let found = relax_from(&model, start, Options::default(), &mut |_| true).unwrap();
         converged(&found);
         assert!(found.state.coordinates.chunks(3).all(|p| p[2].abs() < 1e-9), "it left the plane");
         let counted = found.negative_eigenvalues.unwrap();

@@ -20,9 +20,8 @@ fn bird_bases_fold() {
     for (fraction, energy) in [(0.8, 1.278_269_936), (0.9, 0.308_122_142)] {
         let builder = Assembly::patch(mesh("bird-base"), [1, 1]).bars(300.0).creases(1.0).facets(1.0);
         let assembly = builder.rest(Rest::Assigned(fraction)).build().unwrap();
-        let mut model = assembly.model(Gauge::Held);
-        let start = model.start();
-        let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+        let model = assembly.model(Gauge::Held);
+        let relaxed = relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
         assert_relative_eq!(relaxed.state.total(), energy, max_relative = 2e-9);
         assert_eq!(relaxed.negative_eigenvalues, Some(0), "{:?}", names(&relaxed));
     }
@@ -36,9 +35,8 @@ fn shallow_saddles_are_left() {
     let case = on(mesh("open-star"), [4, 4], Boundary::FixedTorus);
     let rest = vec![0.0; case.edges()];
     let terms = Terms::bars_and_creases(3e4, 1.0, rest);
-    let mut model = case.with_terms(terms).model(Gauge::Held);
-    let start = model.start();
-    let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+    let model = case.with_terms(terms).model(Gauge::Held);
+    let relaxed = relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
     assert_eq!(names(&relaxed)[..2], ["positions", "saddle"]);
     assert_eq!((relaxed.routes[0].negative_eigenvalues, relaxed.negative_eigenvalues), (Some(2), Some(0)));
     assert!(relaxed.history.len() <= 40, "{}", relaxed.history.len());
@@ -51,10 +49,10 @@ fn shallow_saddles_are_left() {
 fn known_tensions_stay() {
     let case = on(mesh("open-star"), [4, 4], Boundary::FixedTorus);
     let terms = Terms::bars_and_creases(3e4, 1.0, vec![0.0; case.edges()]);
-    let mut model = case.with_terms(terms).model(Gauge::Held);
+    let model = case.with_terms(terms).model(Gauge::Held);
     let tension = Some(vec![0.0; model.compliance().len()]);
     let start = Start { x: model.start(), tension };
-    let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+    let relaxed = relax_from(&model, start, Options::default(), &mut |_| true).unwrap();
     assert_eq!(relaxed.negative_eigenvalues, Some(2), "{:?}", names(&relaxed));
 }
 

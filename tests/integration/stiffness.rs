@@ -63,7 +63,7 @@ fn report_minima(n: usize, rest: Vec<f64>, found: &[Relaxed]) {
     for (k, found) in STIFFNESSES.iter().zip(found).filter(|(k, _)| **k < 1e8) {
         let mut model = case.model_of(&Terms::bars_and_creases(f64::INFINITY, 1.0, rest.clone()), Gauge::Held);
         let start = model.start_from(found.state.coordinates.clone());
-        let made_rigid = relax_from(&mut model, start, Options::default(), &mut |_| true);
+        let made_rigid = relax_from(&model, start, Options::default(), &mut |_| true);
         let which = match made_rigid.map(|made_rigid| distance(&made_rigid.state.fold_angle, &rigid.fold_angle)) {
             Ok(off) if off < 1e-6 => "the one next to the rigid sheet".to_owned(),
             Ok(off) => format!("another one: made rigid it is {off:.2e} away from the rigid sheet"),

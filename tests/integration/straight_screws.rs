@@ -30,14 +30,14 @@ fn flat_eggbox(domain: &str, stiffness: f64) -> Assembly {
 
 /// The equilibrium from the drawn state with every unknown moved by up to an amplitude, by a linear congruential generator.
 fn from_near(assembly: &Assembly, amplitude: f64, seed: u64) -> Relaxed {
-    let mut model = assembly.model(Gauge::Held);
+    let model = assembly.model(Gauge::Held);
     let mut state = seed;
     let mut next = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
     let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * next()).collect();
-    relax_from(&mut model, x, Options::default(), &mut |_| true).unwrap()
+    relax_from(&model, x, Options::default(), &mut |_| true).unwrap()
 }
 
 /// Claim: an eggbox that is straight is stable there, as it is on a torus, from wherever it came: the direction of an axis without

@@ -17,9 +17,8 @@ use foldwell::{Pattern, RIGID, Rest, Sheet, generate};
 
 /// Relaxes an assembly; returns its model with the angles of the state.
 fn relaxed(assembly: &Assembly) -> (Relaxed, Model) {
-    let mut model = assembly.model(Gauge::Held);
-    let start = model.start();
-    let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+    let model = assembly.model(Gauge::Held);
+    let relaxed = relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
     let angles = model.angles();
     let mut free = assembly.model(Gauge::Free);
     free.set_angles(&angles);
@@ -96,7 +95,7 @@ fn waves_on_a_cylinder() {
 
     // vertex 0 is none of the model's unknowns
     let count = coordinates.len() - 6 - 3;
-    let expected = stressed_hessian(&model, &model.unknowns(coordinates), &state.tension);
+    let expected = stressed_hessian(&model, &model.unknowns(coordinates), state.configuration.tensions());
     let at_zero = matrix.at([0.0; 2]);
     let largest = expected.amax();
     for (row, column) in (0..count).flat_map(|row| (0..count).map(move |column| (row, column))) {

@@ -26,11 +26,10 @@ fn come_back(domains: &[(Boundary, [usize; 2])]) {
         let case = on(common::mesh("open-star"), cells, boundary);
         for k in [1e2, 1e4, 1e6, 1e8, 1e12, f64::INFINITY] {
             for seed in 1..6 {
-                let mut model =
-                    case.model_of(&Terms::bars_and_creases(k, 1.0, case.drawn_angles().to_vec()), Gauge::Held);
+                let model = case.model_of(&Terms::bars_and_creases(k, 1.0, case.drawn_angles().to_vec()), Gauge::Held);
                 let mut numbers = Numbers::new(seed);
                 let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.003)).collect();
-                match relax_from(&mut model, start, Options::default(), &mut |_| true) {
+                match relax_from(&model, start, Options::default(), &mut |_| true) {
                     Ok(found) => {
                         let off = common::distance(&found.state.fold_angle, case.drawn_angles());
                         assert!(off < 1e-9, "{boundary:?}, k = {k:e}, seed {seed}: off by {off:e}");

@@ -6,7 +6,6 @@ use approx::assert_abs_diff_eq;
 use foldwell::analysis::bloch::Density;
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
 use foldwell::analysis::modes::{DENSE_LIMIT, Vibrations, modes, modes_at};
-use foldwell::analysis::restored;
 use foldwell::model::Configuration;
 use foldwell::model::{AssemblyError, Builder, Gauge, Mass};
 use foldwell::numerics::DenseMatrix;
@@ -166,9 +165,7 @@ fn a_single_hinge() {
 
 /// Returns a state of equilibrium, that of random rest angles, with its tensions.
 fn equilibrium(assembly: &Assembly) -> Configuration {
-    let found = relax(assembly).unwrap();
-    let angles = restored::angles(&assembly.model(Gauge::Held), &found.state.fold_angle);
-    Configuration { coordinates: found.state.coordinates, angles, tension: Some(found.tension) }
+    relax(assembly).unwrap().configuration
 }
 
 /// Claim: eigenvalues that are zero are found with at most a tenth of the bound below which they are called zero, and the

@@ -350,7 +350,7 @@ fn wells_stay_when_the_sheet_is_turned() {
         let mut model = case.model_of(&terms, Gauge::Held);
         model.set_angles(&well.place.angles);
         let start = model.start_from(turned);
-        let again = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+        let again = relax_from(&model, start, Options::default(), &mut |_| true).unwrap();
         let moved = common::distance(&again.state.fold_angle, &well.relaxed.state.fold_angle);
         assert!(moved <= 1e-8, "{moved:e}");
         seen += 1;

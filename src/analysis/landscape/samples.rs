@@ -8,7 +8,7 @@
 use super::settling::{Settling, TermValues};
 use super::taylor_path::HeldState;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
-use crate::analysis::relax::{Relaxed, relax_from};
+use crate::analysis::relax::{Relaxed, relax_model};
 use crate::numerics::larger;
 use crate::solver::{Failure, HessianKind, Options, Start, Step};
 use nalgebra::DVector;
@@ -113,14 +113,16 @@ impl<'a> Samples<'a> {
             let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
             let start = Start { x: place.x, tension: Some(place.tension) };
-            let relaxed = relax_from(&mut self.held.model, start, OPTIONS, observe)
+            let (relaxed, model, x) = relax_model(self.held.model.clone(), start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
+            self.held.model = model;
             iterations += relaxed.iterations;
-            place = HeldState { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };
-            torque = unbalanced(self.held, &directions, &relaxed);
+            let tension = relaxed.configuration.tension.clone().unwrap_or_default();
+            place = HeldState { x, tension, rest: place.rest };
+            torque = unbalanced(self.held, &directions, &place);
             if torque <= BALANCED {
+                let (rest, rounding) = (rest.as_slice().to_vec(), rounding(self.held, &place));
                 self.last = (amplitude, place);
-                let (rest, rounding) = (rest.as_slice().to_vec(), rounding(self.held, &relaxed));
                 return Ok(Sample { amplitude, relaxed, rest, iterations, rounds, rounding });
             }
         }
@@ -151,18 +153,18 @@ impl<'a> Samples<'a> {
 }
 
 /// The energy of all soft elements if each were off its rest value by the rounding of its value.
-fn rounding(held: &HeldSheet, relaxed: &Relaxed) -> f64 {
+fn rounding(held: &HeldSheet, place: &HeldState) -> f64 {
     let terms = held.model.soft().iter();
     let stiffness = terms.flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
     let off = |value: &f64| ROUNDINGS * f64::EPSILON * value.abs().max(1.0);
-    stiffness.zip(held.model.values(&relaxed.x)).map(|(k, value)| 0.5 * k * off(&value).powi(2)).sum()
+    stiffness.zip(held.model.values(&place.x)).map(|(k, value)| 0.5 * k * off(&value).powi(2)).sum()
 }
 
 /// The largest torque on a direction of rest angles, over its size.
-fn unbalanced(held: &HeldSheet, directions: &[TermValues], relaxed: &Relaxed) -> f64 {
+fn unbalanced(held: &HeldSheet, directions: &[TermValues], place: &HeldState) -> f64 {
     let model = &held.model;
     let stiffness = model.soft().iter().flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
-    let values = model.values(&relaxed.x);
+    let values = model.values(&place.x);
     let off = values.iter().zip(model.rests()).map(|(value, rest)| value - rest);
     let (torques, least): (Vec<f64>, Vec<f64>) =
         stiffness.zip(off).map(|(k, off)| (k * off, k * off.abs().max(LEAST_ANGLE))).unzip();
@@ -170,8 +172,8 @@ fn unbalanced(held: &HeldSheet, directions: &[TermValues], relaxed: &Relaxed) ->
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weigh(a * b)).sum::<f64>();
         DVector::from_vec(directions.iter().map(|(on, along)| product(soft, on) + product(stiff, along)).collect())
     };
-    let torque = sum(&torques, &relaxed.tension, |value| value);
-    let size = sum(&least, &relaxed.tension, f64::abs);
+    let torque = sum(&torques, &place.tension, |value| value);
+    let size = sum(&least, &place.tension, f64::abs);
     // no hinge stands over some edges: no torque is on them
     let over = |(torque, size): (&f64, &f64)| if *size == 0.0 { 0.0 } else { torque.abs() / size };
     torque.iter().zip(size.iter()).map(over).fold(0.0, larger)

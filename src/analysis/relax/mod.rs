@@ -8,7 +8,7 @@ mod routes;
 mod run;
 
 use super::state::State;
-use crate::model::{Assembly, Gauge, Model};
+use crate::model::{Assembly, Configuration, Gauge, Model};
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step, tension};
 use certainty::{CERTAIN, uncertainty};
 pub use options::{IntrinsicFailure, Method, RelaxOptions};
@@ -24,12 +24,10 @@ use thiserror::Error;
 /// An equilibrium.
 #[derive(Clone, Debug)]
 pub struct Relaxed {
-    /// The state.
+    /// The state with the energy and force of every edge.
     pub state: State,
-    /// The model's unknowns: where what is held was chosen again, others than those of the start.
-    pub x: Vec<f64>,
-    /// Tensions of the stiff measures, of least norm where they are not unique.
-    pub tension: Vec<f64>,
+    /// The same state as a start of other analyses. Its tensions are of least norm where they are not unique.
+    pub configuration: Configuration,
     /// Accepted Newton steps, those of the continuation included.
     pub iterations: usize,
     /// Factorizations made.
@@ -65,10 +63,10 @@ pub struct Relaxed {
 pub struct RelaxError {
     /// Why.
     pub failure: Failure,
-    /// Last accepted state.
+    /// Last accepted state, with the energy and force of every edge.
     pub state: State,
-    /// Its unknowns.
-    pub x: Vec<f64>,
+    /// The same state as a start of other analyses.
+    pub configuration: Configuration,
     /// All accepted steps.
     pub history: Vec<Step>,
     /// The ways that were taken, in order.
@@ -104,13 +102,12 @@ impl fmt::Debug for RelaxError {
 /// # Errors
 /// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
 pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
-    let mut model = assembly.model(Gauge::Held);
-    let start = model.start();
-    relax_from(&mut model, start, Options::default(), &mut |_| true)
+    let model = assembly.model(Gauge::Held);
+    relax_from(&model, model.start(), Options::default(), &mut |_| true)
 }
 
-/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
-/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`].
+/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. The model stays as it is; many starts
+/// may share it. `observe` sees every accepted step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`].
 ///
 /// Newton's method begins at the start, in positions or in fold angles. Where it fails, or ends in a saddle or another state that need not
 /// be the answer, other ways are tried one after the other: [`Relaxed::routes`] names those that helped. A start that knows its tensions
@@ -125,10 +122,9 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 /// let sheet = generate(&Pattern::named("miura")?)?;
 /// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
 /// // the held gauge is the one for minimisation; the unknowns of the drawn state are one start among others
-/// let mut model = assembly.model(Gauge::Held);
-/// let start = model.start();
+/// let model = assembly.model(Gauge::Held);
 /// let mut steps = 0;
-/// let relaxed = relax_from(&mut model, start, RelaxOptions::default(), &mut |_step| {
+/// let relaxed = relax_from(&model, model.start(), RelaxOptions::default(), &mut |_step| {
 ///     steps += 1;
 ///     steps <= 100
 /// })?;
@@ -139,11 +135,21 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 /// # Errors
 /// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
 pub fn relax_from(
-    model: &mut Model,
+    model: &Model,
     start: impl Into<Start>,
     options: impl Into<RelaxOptions>,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
+    relax_model(model.clone(), start, options, observe).map(|(relaxed, _, _)| relaxed)
+}
+
+/// The same with a model that goes to the equilibrium, which is returned with the unknowns there.
+pub(crate) fn relax_model(
+    model: Model,
+    start: impl Into<Start>,
+    options: impl Into<RelaxOptions>,
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<(Relaxed, Model, Vec<f64>), Box<RelaxError>> {
     let start = start.into();
     let mut run = Run::new(model, &start, options.into(), observe);
     let mut ending = fold_angles::begin(&mut run, start);
@@ -164,7 +170,7 @@ pub fn relax_from(
 
 /// The equilibrium; an error where it is not known well enough.
 fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
-    match uncertainty(run.model, &found, run.options.tolerance) {
+    match uncertainty(&run.model, &found, run.options.tolerance) {
         Some(angle) if !(angle <= CERTAIN) => {
             let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
             let failure = Failure::Uncertain { angle, force, tolerance: run.options.tolerance };
@@ -174,18 +180,17 @@ fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
     }
 }
 
-/// The answer of a relaxation that ended in an equilibrium.
-fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
-    let Run { model, start, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
-    let branch_choice = BranchChoice::of(model, &found.x, &start.angles, !soft_steps.is_empty());
-    let found = straight_screw::counted(model, found);
-    let settled = tension::settle(model, &found);
-    let state = State::new(model, &found.x, &settled.tension);
+/// The answer of a relaxation that ended in an equilibrium, and the model with its unknowns there.
+fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
+    let Run { mut model, start, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
+    let branch_choice = BranchChoice::of(&model, &found.x, &start.angles, !soft_steps.is_empty());
+    let found = straight_screw::counted(&mut model, found);
+    let settled = tension::settle(&model, &found);
+    let state = State::new(&model, &found.x, &settled.tension);
     let (history, kept) = recorder.end(Some(&state));
-    Relaxed {
+    let relaxed = Relaxed {
         state,
-        x: found.x,
-        tension: settled.tension,
+        configuration: model.configuration(&found.x, Some(settled.tension)),
         iterations: history.iter().filter(|step| step.fraction > 0.0).count(),
         factorizations: history.iter().map(|step| step.factorizations).sum(),
         solves: history.iter().map(|step| step.solves).sum(),
@@ -199,16 +204,18 @@ fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
         branch_choice,
         soft_steps,
         kept,
-    }
+    };
+    (relaxed, model, found.x)
 }
 
 /// The failure of a relaxation with its last state.
 fn failed(run: Run<'_>, error: NewtonError) -> RelaxError {
     let Run { model, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
-    let (failure, x) = (error.failure, error.x);
-    let state = State::new(model, &x, &error.tension);
+    let failure = error.failure;
+    let state = State::new(&model, &error.x, &error.tension);
+    let configuration = model.configuration(&error.x, Some(error.tension));
     // stopped in fold angles, it ends where it started
     let is_last = recorder.history().last().is_some_and(|step| !step.intrinsic);
     let (history, kept) = recorder.end(is_last.then_some(&state));
-    RelaxError { failure, state, x, history, routes, intrinsic_failure, soft_steps, kept }
+    RelaxError { failure, state, configuration, history, routes, intrinsic_failure, soft_steps, kept }
 }

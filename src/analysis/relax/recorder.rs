@@ -16,10 +16,9 @@ use std::num::NonZeroUsize;
 ///
 /// let sheet = generate(&Pattern::named("miura")?)?;
 /// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
-/// let mut model = assembly.model(Gauge::Held);
-/// let (start, every) = (model.start(), NonZeroUsize::new(1));
-/// let options = RelaxOptions { keep_every: every, ..RelaxOptions::default() };
-/// let relaxed = relax_from(&mut model, start, options, &mut |_| true)?;
+/// let model = assembly.model(Gauge::Held);
+/// let options = RelaxOptions { keep_every: NonZeroUsize::new(1), ..RelaxOptions::default() };
+/// let relaxed = relax_from(&model, model.start(), options, &mut |_| true)?;
 /// assert!(relaxed.kept.len() == relaxed.history.len());
 /// assert!(relaxed.kept[0].state.total() > relaxed.state.total());
 /// # Ok::<(), Box<dyn std::error::Error>>(())

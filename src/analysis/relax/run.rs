@@ -39,9 +39,9 @@ pub(super) fn is_better(other: &Ending, before: &Ending) -> bool {
     }
 }
 
-/// A relaxation on its way.
+/// A relaxation on its way, with a model of its own.
 pub(super) struct Run<'a> {
-    pub(super) model: &'a mut Model,
+    pub(super) model: Model,
     pub(super) options: Options,
     pub(super) method: Method,
     /// Where it began.
@@ -58,7 +58,7 @@ pub(super) struct Run<'a> {
 
 impl<'a> Run<'a> {
     pub(super) fn new(
-        model: &'a mut Model,
+        model: Model,
         start: &Start,
         options: RelaxOptions,
         observe: &'a mut dyn FnMut(&Step) -> bool,
@@ -96,7 +96,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// [`NewtonError`] as [`minimize`](crate::solver::minimize).
     pub(super) fn minimize(&mut self, start: impl Into<Start>) -> Ending {
-        self.recorder.minimize(self.model, start, self.options)
+        self.recorder.minimize(&mut self.model, start, self.options)
     }
 
     /// Goes back to the start. Returns its unknowns.
@@ -112,13 +112,13 @@ impl<'a> Run<'a> {
         way: impl FnOnce(&mut Self) -> Option<Ending>,
         better: impl FnOnce(&Ending, &Ending) -> bool,
     ) -> Ending {
-        let (place, steps, soft_steps) = (self.model.place(), self.recorder.steps(), self.soft_steps.clone());
+        let (model, steps, soft_steps) = (self.model.clone(), self.recorder.steps(), self.soft_steps.clone());
         if let Some(other) = way(self).filter(|other| better(other, &before)) {
             return other;
         }
         self.recorder.forget_after(steps);
         self.soft_steps = soft_steps;
-        self.model.go_to(&place);
+        self.model = model;
         before
     }
 

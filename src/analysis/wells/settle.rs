@@ -7,9 +7,8 @@
 use super::work::Work;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::restored;
-use crate::analysis::state::State;
 use crate::model::{Assembly, Configuration, Gauge, Model};
-use crate::solver::{Options, Problem, Step};
+use crate::solver::{Options, Problem, Start, Step};
 
 /// A settled state.
 #[derive(Clone, Debug)]
@@ -78,7 +77,7 @@ impl MinimumTracker {
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
         let start = self.free.enter(from);
-        let relaxed = relax_from(&mut self.free, start, options, observe)?;
+        let relaxed = relax_from(&self.free, start, options, observe)?;
         Ok(self.settled(relaxed, false))
     }
 
@@ -99,24 +98,20 @@ impl MinimumTracker {
         }
         self.held.set_rests(&rests, &rests, 1.0);
         let start = self.held.enter(&from.without_tension());
-        let relaxed = relax_from(&mut self.held, start, options, observe)?;
+        let relaxed = relax_from(&self.held, start, options, observe)?;
         Ok(self.settled(relaxed, true))
     }
 
-    /// The place where the last free relaxation ended that did not converge.
-    pub(crate) fn ended(&self, state: &State) -> Configuration {
-        Configuration { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension: None }
-    }
-
-    fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {
-        let model = if held { &self.held } else { &self.free };
-        let rho = model.hinge_angles(&relaxed.x);
+    fn settled(&mut self, relaxed: Relaxed, held: bool) -> Settled {
+        let model = if held { &mut self.held } else { &mut self.free };
+        let place = relaxed.configuration.clone();
+        let Start { x, tension } = model.enter(&place);
+        let rho = model.hinge_angles(&x);
         let hinges = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
-        let others = relaxed.tension.iter().zip(model.compliance()).zip(&self.is_hinge).filter(|(_, hinge)| !**hinge);
+        let others = tension.iter().flatten().zip(model.compliance()).zip(&self.is_hinge).filter(|(_, hinge)| !**hinge);
         let others = others.map(|((t, c), _)| c * t * t);
         let elastic = 0.5 * (hinges.sum::<f64>() + others.sum::<f64>());
         let energy = elastic - self.work.to(&relaxed.state.coordinates);
-        let place = model.configuration(&relaxed.x, Some(relaxed.tension.clone()));
         Settled { place, rho, energy, relaxed }
     }
 }

@@ -202,7 +202,7 @@ fn crumpled(
             Failure::Uncertain { .. } | Failure::Stuck { .. } | Failure::TooManySteps { .. }
                 if error.state.coordinates.iter().all(|x| x.is_finite()) =>
             {
-                Ok(settler.ended(&error.state))
+                Ok(error.configuration.without_tension())
             }
             failure => Err(failure),
         },

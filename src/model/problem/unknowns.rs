@@ -134,6 +134,15 @@ impl Model {
         pieces(count, links.chain((shared..points).map(|k| [0, k])), 0..count)
     }
 
+    /// Makes these coordinates the reference state of a screw, and holds as many coordinates of its axis as `held` says: the
+    /// direction, then the curvature. Returns the unknowns.
+    pub(crate) fn hold_axis(&mut self, held: usize, coordinates: Vec<f64>) -> Vec<f64> {
+        let axis = self.points() - self.domain.shared();
+        self.pinned.retain(|k| !(axis..axis + 2).contains(k));
+        self.pinned.extend(axis..axis + held);
+        self.rebase_gauge(coordinates)
+    }
+
     /// Whether the held coordinates remove the rigid motions of the state `x` nearly as well as newly chosen ones
     /// would. If they do not, they may constrain the shape, and a state that seems to be an equilibrium need not be
     /// one.

@@ -60,10 +60,10 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 }
 
 fn relaxed(cells: [usize; 2]) -> Result<Size, ExperimentError> {
-    let mut pleats = Pleats::new(cells)?;
+    let pleats = Pleats::new(cells)?;
     let (start, clock) = (pleats.model.start(), Instant::now());
     let options = Options { tolerance: TOLERANCE, ..Options::default() };
-    let found = relax_from(&mut pleats.model, start, options, &mut |_| true)?;
+    let found = relax_from(&pleats.model, start, options, &mut |_| true)?;
     let seconds = clock.elapsed().as_secs_f64();
     let error = distance(&found.state.fold_angle, &pleats.rest);
     Ok(Size { cells, unknowns: size(&pleats.model).0, found, error, seconds })

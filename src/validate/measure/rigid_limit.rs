@@ -10,10 +10,10 @@ use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
-use foldwell::analysis::relax::{Relaxed, relax_from};
-use foldwell::model::Model;
+use foldwell::analysis::relax::relax_from;
+use foldwell::model::{Configuration, Model};
 use foldwell::output::figure::chart::{Chart, Point, Series};
-use foldwell::solver::{HessianKind, Options, Problem, Start, Tangent};
+use foldwell::solver::{HessianKind, Options, Problem, Tangent};
 use serde_json::json;
 use std::ops::RangeInclusive;
 
@@ -84,34 +84,35 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 fn size(n: usize) -> Result<Size, ExperimentError> {
     let star = Star::new([n, n], OFF)?;
     let mut model = star.model(f64::INFINITY);
-    let rigid = star.relax(&mut model, Options::default())?;
-    let law = law(&model, &star.model(1.0), &rigid)?;
-    let (mut reached, mut last) = (Vec::new(), Start::from(rigid.x.clone()));
+    let rigid = star.relax(&model, Options::default())?;
+    let law = law(&mut model, &star.model(1.0), &rigid.configuration)?;
+    let (mut reached, mut last) = (Vec::new(), rigid.configuration.without_tension());
     for stiffness in DECADES.rev().map(|decade| 10f64.powi(decade)) {
         let mut model = star.model(stiffness);
-        let start = if stiffness >= STIFFNESS_STARTED_AS_DRAWN { model.start().into() } else { last };
-        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
+        let start = if stiffness >= STIFFNESS_STARTED_AS_DRAWN { model.start().into() } else { model.enter(&last) };
+        let found = relax_from(&model, start, Options::default(), &mut |_| true)?;
         reached.push(Reached {
             stiffness,
             distance: stiffness * distance(&found.state.fold_angle, &rigid.state.fold_angle) / law.distance,
             fall: stiffness * (rigid.state.total() - found.state.total()) / law.energy,
             bars: stiffness * found.state.energy_bars / law.energy,
         });
-        last = Start { x: found.x, tension: Some(found.tension) };
+        last = found.configuration;
     }
     Ok(Size { cells: n, law, reached })
 }
 
 /// Computes the prediction. `unit` is the model with stiffness 1, for the compliances of the bars.
-fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentError> {
+fn law(model: &mut Model, unit: &Model, rigid: &Configuration) -> Result<Law, ExperimentError> {
     let failed = |_| ExperimentError::Other("the rigid state has no inverse".into());
-    let mut tangent = Tangent::at_state(model, &rigid.x, &rigid.tension, HessianKind::Full).map_err(failed)?;
+    let (x, tension) = (model.enter(rigid).x, rigid.tensions());
+    let mut tangent = Tangent::at_state(model, &x, tension, HessianKind::Full).map_err(failed)?;
     tangent.factor(0.0).map_err(failed)?;
-    let stretch: Vec<f64> = unit.compliance().iter().zip(&rigid.tension).map(|(c, t)| c * t).collect();
-    let step = tangent.solve(&vec![0.0; rigid.x.len()], &stretch, 1e-12);
+    let stretch: Vec<f64> = unit.compliance().iter().zip(tension).map(|(c, t)| c * t).collect();
+    let step = tangent.solve(&vec![0.0; x.len()], &stretch, 1e-12);
     Ok(Law {
         distance: tangent.at.largest_measure_change(&step.dx),
-        energy: stretch.iter().zip(&rigid.tension).map(|(s, t)| 0.5 * s * t).sum(),
+        energy: stretch.iter().zip(tension).map(|(s, t)| 0.5 * s * t).sum(),
     })
 }
 

@@ -72,7 +72,7 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 }
 
 fn rigid(star: &Star, method: Method) -> Result<Relaxed, Box<RelaxError>> {
-    star.relax(&mut star.model(f64::INFINITY), RelaxOptions { method, ..RelaxOptions::default() })
+    star.relax(&star.model(f64::INFINITY), RelaxOptions { method, ..RelaxOptions::default() })
 }
 
 fn relaxed(star: &Star, n: usize, seconds: [f64; 2]) -> Result<Size, ExperimentError> {

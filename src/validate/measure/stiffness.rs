@@ -83,8 +83,8 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 /// Returns the fold angles of the rigid state, with which other states are compared, and their error relative to the
 /// exact kinematics, which must be negligible.
 fn exact(star: &Star) -> Result<(Vec<f64>, f64), ExperimentError> {
-    let mut model = star.model(f64::INFINITY);
-    let angles = star.relax(&mut model, Options::default())?.state.fold_angle;
+    let model = star.model(f64::INFINITY);
+    let angles = star.relax(&model, Options::default())?.state.fold_angle;
     match error_to_kinematic(star.assembly.sheet(), star.assembly.tiling(), &model, &angles) {
         Some(error) if error <= 1e-9 => Ok((angles, error)),
         Some(_) => Err(ExperimentError::Other("the rigid state is not that of the exact kinematics".into())),
@@ -93,7 +93,7 @@ fn exact(star: &Star) -> Result<(Vec<f64>, f64), ExperimentError> {
 }
 
 fn by_tension(star: &Star, k: f64) -> Result<Reached, ExperimentError> {
-    let found = star.relax(&mut star.model(k), Options::default())?;
+    let found = star.relax(&star.model(k), Options::default())?;
     let residual = larger(found.residual_force, found.residual_length);
     Ok(Reached { angles: found.state.fold_angle, residual, iterations: found.iterations })
 }

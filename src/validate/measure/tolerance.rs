@@ -21,11 +21,11 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     for (step, tolerance) in TOLERANCES.into_iter().enumerate() {
         bench.step(step, TOLERANCES.len())?;
         let options = Options { tolerance, ..Options::default() };
-        let mut model = star.model(f64::INFINITY);
-        let found = star.relax(&mut model, options)?;
+        let model = star.model(f64::INFINITY);
+        let found = star.relax(&model, options)?;
         let error = error_to_kinematic(star.assembly.sheet(), star.assembly.tiling(), &model, &found.state.fold_angle);
         let error = error.ok_or(ExperimentError::Other("there is no exact state to compare with".into()))?;
-        let again = || _ = star.relax(&mut star.model(f64::INFINITY), options);
+        let again = || _ = star.relax(&star.model(f64::INFINITY), options);
         let seconds = shortest(ROUNDS, &mut [Box::new(again)])[0];
         settings.push(Setting { label: format!("{tolerance:e}"), error, seconds });
     }

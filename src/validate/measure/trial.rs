@@ -94,16 +94,15 @@ impl Trial {
         let assembly = self.assembly().map_err(|error| error.to_string())?;
         let mut model = assembly.model(Gauge::Held);
         let (start, clock) = (model.start(), Instant::now());
-        let found = relax_from(&mut model, start, Options::default(), &mut |_| clock.elapsed() < PATIENCE);
+        let found = relax_from(&model, start, Options::default(), &mut |_| clock.elapsed() < PATIENCE);
         let found = found.map_err(|error| error.failure.to_string())?;
-        let state = State::new(&model, &found.x, &found.tension);
-        let (rigid, angles) = (bars.is_infinite(), state.fold_angle);
+        let (rigid, angles) = (bars.is_infinite(), found.state.fold_angle);
         Ok(TrialResult {
             to_kinematic: rigid
                 .then(|| error_to_kinematic(assembly.sheet(), assembly.tiling(), &model, &angles))
                 .flatten(),
             to_augmented: if rigid { None } else { augmented(&mut model, creases) }.map(|a| distance(&angles, &a)),
-            stretch: stretch(&model, &found.x),
+            stretch: stretch(&model, &found.state.coordinates),
             angles,
         })
     }
@@ -164,11 +163,10 @@ fn augmented(model: &mut Model, creases: f64) -> Option<Vec<f64>> {
 }
 
 /// Returns the largest relative change of the length of a bar, computed from the points.
-fn stretch(model: &Model, x: &[f64]) -> f64 {
-    let coordinates = model.coordinates(x);
+fn stretch(model: &Model, coordinates: &[f64]) -> f64 {
     let bars = model.stiff().iter().filter(|term| !term.is_angle());
     let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    let change = each.map(|(term, k)| term.value(k, model.domain(), &coordinates) / term.spring(k).rest - 1.0);
+    let change = each.map(|(term, k)| term.value(k, model.domain(), coordinates) / term.spring(k).rest - 1.0);
     change.fold(0.0, |most, change| larger(most, change.abs()))
 }
 

@@ -103,9 +103,9 @@ impl Whole {
 
 /// Relaxes a sheet from its drawn state. What is no minimum is no answer.
 pub fn relaxed(assembly: &Assembly) -> Result<Answer, String> {
-    let mut model = assembly.with_best_axis().model(Gauge::Held);
-    let start = model.start();
-    let found = relax_from(&mut model, start, Options::default(), &mut |_| true).map_err(|error| error.to_string())?;
+    let model = assembly.with_best_axis().model(Gauge::Held);
+    let found =
+        relax_from(&model, model.start(), Options::default(), &mut |_| true).map_err(|error| error.to_string())?;
     match found.negative_eigenvalues {
         Some(0) => {}
         Some(count) => return Err(format!("a saddle with {count} negative eigenvalues")),

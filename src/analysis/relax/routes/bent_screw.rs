@@ -23,7 +23,7 @@ const FIRST_AXIS_RAD: f64 = 0.3;
 pub(super) fn is_at_apex(run: &Run<'_>, ending: &Ending) -> bool {
     let Ok(found) = ending else { return false };
     let Some(turns) = run.model.domain().turns(&run.model.coordinates(&found.x)) else { return false };
-    let off = if run.has_moved() { off_rest(run.model, &found.x) } else { 0.0 };
+    let off = if run.has_moved() { off_rest(&run.model, &found.x) } else { 0.0 };
     off > 0.0 && turns.kappa.abs() * run.model.unit_of_length() <= APEX_CURVATURE * off
 }
 
@@ -34,14 +34,14 @@ pub(super) fn is_at_apex(run: &Run<'_>, ending: &Ending) -> bool {
 /// passed over.
 pub(super) fn lowest(run: &mut Run<'_>, ending: Ending) -> Ending {
     let mut found = ending?;
-    let (start, flat) = (run.model.place(), run.model.coordinates(&found.x));
-    let bend = BENT_CURVATURE * off_rest(run.model, &found.x) / run.model.unit_of_length();
+    let (start, flat) = (run.model.clone(), run.model.coordinates(&found.x));
+    let bend = BENT_CURVATURE * off_rest(&run.model, &found.x) / run.model.unit_of_length();
     for axis in 0..AXES {
         for kappa in [bend, -bend] {
             let bent = |run: &mut Run<'_>| {
                 let mut coordinates = flat.clone();
                 run.model.domain().bend(&mut coordinates, FIRST_AXIS_RAD + PI * axis as f64 / AXES as f64, kappa);
-                run.model.go_to(&start);
+                run.model.clone_from(&start);
                 let x = run.model.start_from(coordinates);
                 Some(run.minimize(x))
             };

@@ -58,7 +58,7 @@ pub(super) fn may_help(run: &Run<'_>, ending: &Ending) -> bool {
 
 /// The equilibrium that fold angles reach from the same start; the failure in positions where they reach none.
 pub(super) fn from_the_start(run: &mut Run<'_>, ending: Ending) -> Ending {
-    let Ok(intrinsic) = IntrinsicModel::new(run.model) else { return ending };
+    let Ok(intrinsic) = IntrinsicModel::new(&run.model) else { return ending };
     let x = run.begin_anew();
     solved_and_confirmed(&intrinsic, run, &Start { x, tension: None }).unwrap_or_else(|failure| {
         run.intrinsic_failure = Some(failure);
@@ -103,7 +103,7 @@ fn solved_and_confirmed(
 fn minimize_unless_damped(run: &mut Run<'_>, start: &Start) -> Option<Ending> {
     let (mut steps, mut damped) = (0, false);
     let recorder = &mut run.recorder;
-    let ending = minimize_iterates(run.model, start.clone(), run.options, &mut |at: &Iterate<'_, Model>| {
+    let ending = minimize_iterates(&mut run.model, start.clone(), run.options, &mut |at: &Iterate<'_, Model>| {
         let go_on = recorder.see(at.step, || State::new(at.problem, at.x, at.tension));
         damped = go_on && steps == 1 && at.step.fraction <= DAMPED;
         steps += 1;
@@ -116,11 +116,11 @@ fn minimize_unless_damped(run: &mut Run<'_>, start: &Start) -> Option<Ending> {
 fn form(run: &Run<'_>, start: &Start) -> Result<Option<IntrinsicModel>, Unsupported> {
     match run.method {
         Method::Vertices => Ok(None),
-        Method::Intrinsic => IntrinsicModel::new(run.model).map(Some),
+        Method::Intrinsic => IntrinsicModel::new(&run.model).map(Some),
         // a start that knows its tensions is next to a solution
         Method::Auto if start.tension.is_some() || !run.model.is_free_patch() => Ok(None),
         Method::Auto => {
-            let form = IntrinsicModel::new(run.model).ok();
+            let form = IntrinsicModel::new(&run.model).ok();
             Ok(form.filter(|form| form.interior_vertices() >= FEWEST_VERTICES))
         }
     }
@@ -128,7 +128,7 @@ fn form(run: &Run<'_>, start: &Start) -> Result<Option<IntrinsicModel>, Unsuppor
 
 /// Solves in fold angles, and moves the model to the state found. Returns it as a start.
 fn solve(intrinsic: &IntrinsicModel, run: &mut Run<'_>, start: &Start) -> Result<Start, IntrinsicFailure> {
-    let (shown, recorder) = (&*run.model, &mut run.recorder);
+    let (shown, recorder) = (&run.model, &mut run.recorder);
     let mut seen = |at: &ConstrainedIterate<'_>| recorder.see(&step_of(at.step), || state_of(intrinsic, shown, at));
     let z = intrinsic.variables(shown, &start.x);
     // what confirms the result in positions needs the analysis of their couplings
@@ -140,7 +140,7 @@ fn solve(intrinsic: &IntrinsicModel, run: &mut Run<'_>, start: &Start) -> Result
     if !(angle <= LARGEST_ANGLE_RAD) {
         return Err(IntrinsicFailure::FoldedThrough { angle });
     }
-    Ok(intrinsic.hand_over(run.model, &found.z, &found.multipliers))
+    Ok(intrinsic.hand_over(&mut run.model, &found.z, &found.multipliers))
 }
 
 /// Returns the state of these fold angles and lengths. Tensions of rigid measures are those of the multipliers.

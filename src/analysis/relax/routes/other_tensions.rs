@@ -17,7 +17,7 @@ pub(super) fn are_needed(run: &Run<'_>, ending: &Ending) -> bool {
 pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
     let found = ending?;
     let hidden =
-        matches!(run.model.domain(), Domain::Screw) && rigid_over_others(run.model, &found) > HIDING_FORCE_RATIO;
+        matches!(run.model.domain(), Domain::Screw) && rigid_over_others(&run.model, &found) > HIDING_FORCE_RATIO;
     let found = if hidden { refined(run, found)? } else { found };
     without_self_stress(run, found)
 }
@@ -30,14 +30,14 @@ pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
 fn refined(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
     let options = Options { tolerance: run.options.tolerance / HIDING_FORCE_RATIO, ..run.options };
-    let refine = |run: &mut Run<'_>| Some(run.recorder.minimize(run.model, start, options));
+    let refine = |run: &mut Run<'_>| Some(run.recorder.minimize(&mut run.model, start, options));
     run.prefer(Ok(found), refine, |refined, _| refined.as_ref().map_or_else(is_interruption, |_| true))
 }
 
 /// The equilibrium with tensions of least norm. Where a self stress was large beside them, what was balanced to the tolerance with it need
 /// not be so without: the iteration then goes on from there.
 fn without_self_stress(run: &mut Run<'_>, found: Equilibrium) -> Ending {
-    let settled = tension::settle(run.model, &found);
+    let settled = tension::settle(&run.model, &found);
     let met = found.history.last().is_some_and(|step| step.residual_force <= run.options.tolerance);
     if !met || settled.residuals.force <= run.options.tolerance {
         return Ok(found);

@@ -71,7 +71,7 @@ fn along_rests(run: &mut Run<'_>) -> Option<Ending> {
 /// is left at the target.
 fn along(run: &mut Run<'_>, drive: &dyn Fn(&mut Model) -> DrivenModel<'_>, start: Equilibrium) -> Option<Ending> {
     let ending = follow_minima(run, drive, start);
-    let mut driven = drive(run.model);
+    let mut driven = drive(&mut run.model);
     driven.set_parameter(driven.target());
     ending
 }
@@ -83,8 +83,8 @@ fn follow_minima(
     drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
     mut start: Equilibrium,
 ) -> Option<Ending> {
-    let mut parameter = drive(run.model).parameter();
-    let target = drive(run.model).target();
+    let mut parameter = drive(&mut run.model).parameter();
+    let target = drive(&mut run.model).target();
     let first = run.recorder.steps();
     while run.recorder.steps() < first + MOST_STEPS {
         let Stretch { end, parameter: reached, x, tension } = stretch(run, drive, (parameter, start));
@@ -111,7 +111,7 @@ fn minimum(
     parameter: f64,
     start: Start,
 ) -> Option<Ending> {
-    drive(run.model).set_parameter(parameter);
+    drive(&mut run.model).set_parameter(parameter);
     let settled = run.minimize(start);
     let left = saddle::leave(run, settled);
     let is_wanted = match &left {
@@ -129,11 +129,11 @@ fn farther(
     from: f64,
     x: &[f64],
 ) -> Option<(f64, Ending)> {
-    let (place, target) = (run.model.place(), drive(run.model).target());
-    let way = drive(run.model).parameter_scale() * (target - from).signum();
+    let (place, target) = (run.model.clone(), drive(&mut run.model).target());
+    let way = drive(&mut run.model).parameter_scale() * (target - from).signum();
     PARTS_OF_THE_WAY.into_iter().find_map(|part| {
         let next = if (target - from).abs() <= (part * way).abs() { target } else { from + part * way };
-        run.model.go_to(&place);
+        run.model.clone_from(&place);
         minimum(run, drive, next, x.to_vec().into()).map(|ending| (next, ending))
     })
 }
@@ -163,7 +163,7 @@ fn stretch(
     drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
     (from, start): (f64, Equilibrium),
 ) -> Stretch {
-    let (mut driven, recorder) = (drive(run.model), &mut run.recorder);
+    let (mut driven, recorder) = (drive(&mut run.model), &mut run.recorder);
     driven.set_parameter(from);
     let target = driven.target();
     let settings = PathSettings {

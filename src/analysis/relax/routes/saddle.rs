@@ -41,12 +41,12 @@ pub(super) fn leave(run: &mut Run<'_>, ending: Ending) -> Ending {
 
 /// The lower one of the equilibria on both sides of a saddle; the saddle itself where none is lower.
 fn lower_side(run: &mut Run<'_>, saddle: Equilibrium) -> Ending {
-    let Some(step) = leaving_step(run.model, &saddle) else { return Ok(saddle) };
-    let (place, x, tension) = (run.model.place(), saddle.x.clone(), saddle.tension.clone());
+    let Some(step) = leaving_step(&run.model, &saddle) else { return Ok(saddle) };
+    let (place, x, tension) = (run.model.clone(), saddle.x.clone(), saddle.tension.clone());
     let mut found = Ok(saddle);
     for side in [1.0, -1.0] {
         let beside = |run: &mut Run<'_>| {
-            run.model.go_to(&place);
+            run.model.clone_from(&place);
             Some(run.minimize(Start { x: moved(&x, side, &step), tension: Some(tension.clone()) }))
         };
         found = run.prefer(found, beside, is_better);

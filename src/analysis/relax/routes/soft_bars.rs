@@ -87,7 +87,7 @@ pub(super) fn is_in_doubt(run: &Run<'_>, ending: &Ending) -> bool {
 
 /// Whether forces of rigid measures hide whether the others are balanced.
 pub(super) fn hides_others(run: &Run<'_>, found: &Equilibrium) -> bool {
-    rigid_over_others(run.model, found) > DOUBTFUL_FORCE
+    rigid_over_others(&run.model, found) > DOUBTFUL_FORCE
 }
 
 /// Whether creases are locked: bars that stretch might find their way to another branch than the one that a lock drives.
@@ -171,7 +171,7 @@ fn with_soft_bars(
     let first = if run.soft_steps.is_empty() { run.recorder.steps() } else { run.soft_steps.start };
     run.model.soften_rigid_bars(ratio * run.model.softest_hinge());
     let x = run.model.start_from(coordinates.to_vec());
-    let reached = run.recorder.minimize(run.model, Start { x, tension: tension.cloned() }, options);
+    let reached = run.recorder.minimize(&mut run.model, Start { x, tension: tension.cloned() }, options);
     run.model.soften_rigid_bars(f64::INFINITY);
     run.soft_steps = first..run.recorder.steps();
     reached

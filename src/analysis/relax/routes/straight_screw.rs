@@ -30,7 +30,7 @@ fn curvature(model: &Model, coordinates: &[f64]) -> Option<f64> {
 /// Whether a relaxation of a screw failed with hardly any curvature.
 pub(super) fn is_nearly_straight(run: &Run<'_>, ending: &Ending) -> bool {
     let Err(error) = ending else { return false };
-    let curvature = || curvature(run.model, &run.model.coordinates(&error.x));
+    let curvature = || curvature(&run.model, &run.model.coordinates(&error.x));
     has_failed(run, ending) && curvature().is_some_and(|curvature| curvature <= NEARLY)
 }
 
@@ -47,7 +47,7 @@ pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
         let reached = run.minimize(start);
         let last = reached.as_ref().map_or_else(|error| &error.x, |found| &found.x);
         let mut place = run.model.coordinates(last);
-        let straight = curvature(run.model, &place).is_some_and(|curvature| curvature <= ROUNDING);
+        let straight = curvature(&run.model, &place).is_some_and(|curvature| curvature <= ROUNDING);
         if straight {
             run.model.domain().bend(&mut place, AXIS, 0.0);
         }
