@@ -12,7 +12,7 @@ use super::chart::{self, hinge_angles};
 use super::relax::{Relaxed, relax_from};
 use super::state::{Cylinder, cylinder};
 use super::trace::{Folded, Traced};
-use crate::model::{Assembly, Domain, Drawn, Gauge};
+use crate::model::{Assembly, Configuration, Domain, Drawn, Gauge};
 use crate::numerics::{larger, worst};
 use crate::solver::continuation::End;
 use crate::solver::{Failure, Options, Step};
@@ -232,10 +232,10 @@ impl Track<'_> {
         let mut terms = self.assembly.terms().clone();
         terms.locks.push((crease, state.angles[crease]));
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
-        model.set_angles(&hinge_angles(&model, &self.angles));
         let last = self.known.last().map(|(_, at)| at.clone());
-        let last = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
-        let (here, is_held_as_drawn) = model.start_well_held(last);
+        let coordinates = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
+        let angles = hinge_angles(&model, &self.angles);
+        let (here, is_held_as_drawn) = model.enter_well_held(&Configuration { coordinates, angles, tension: None });
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
         let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));
         let relaxed = relax_from(&model, start, self.options, observe)

@@ -66,7 +66,7 @@ pub struct PathPoint {
     pub x: Vec<f64>,
     /// Tensions of the stiff measures of the assembly's model without drive.
     pub tension: Vec<f64>,
-    /// Angles of the elements, from which angles continue; see [`crate::model::Model::set_angles`].
+    /// Angles of the elements, from which angles continue; see [`crate::model::Model::angles`].
     pub angles: Vec<f64>,
     /// Largest unbalanced force over the largest force of an element.
     pub residual_force: f64,
@@ -348,7 +348,7 @@ impl PathPoint {
     }
 }
 
-/// Values of all angles of a model, in the order of [`Model::set_angles`].
+/// Values of all angles of a model, in the order of [`Model::angles`].
 fn angles_at(model: &Model, x: &[f64]) -> Vec<f64> {
     let all = model.coordinates(x);
     let hinges = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());

@@ -71,9 +71,16 @@ pub fn state(configuration: &Configuration, assembly: &Assembly) -> Option<State
     Some(State { coordinates, ..State::new(&model, &x, &tension) }.with_angles(angles))
 }
 
-/// Where a relaxation starts that knows these tensions, completed by those of rigid measures: with them near an equilibrium, without them
+/// Returns the state of a start. Where its tensions are not known they follow from the geometry.
+pub(crate) fn state_at(model: &Model, start: &Start) -> State {
+    let by_law = || tensions(model, &start.x, &Forces::Unknown);
+    State::new(model, &start.x, &start.tension.clone().unwrap_or_else(by_law))
+}
+
+/// Where a relaxation starts that knows these forces, completed by those of rigid measures: with them near an equilibrium, without them
 /// elsewhere.
-pub(crate) fn start(model: &Model, x: Vec<f64>, mut tensions: Vec<f64>) -> Start {
+pub(crate) fn start(model: &Model, x: Vec<f64>, known: &Forces) -> Start {
+    let mut tensions = tensions(model, &x, known);
     let mut force = unbalanced(model, &x, &tensions);
     while force > BALANCED && model.compliance().contains(&0.0) {
         let Some(better) = completed(model, &x, &tensions) else { break };

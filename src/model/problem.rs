@@ -340,7 +340,7 @@ impl Model {
     }
 
     /// Sets the angles from which angles continue, in the order of [`Model::angles`].
-    pub fn set_angles(&mut self, angles: &[f64]) {
+    pub(super) fn set_angles(&mut self, angles: &[f64]) {
         let mut at = 0;
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
             let count = term.angles().len();

@@ -115,7 +115,7 @@ fn matrix(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<DynamicalMat
     if let Some(StartSpec::Study(name)) = spec.start.as_deref() {
         let mut model = assembly.model(Gauge::Free);
         let Some(saved) = context.earlier.states.get(name).filter(|_| all_springs(assembly)) else { return Ok(None) };
-        model.set_angles(&saved.angles);
+        model.enter(saved);
         return DynamicalMatrix::of_state(&model, &saved.coordinates).map(Some);
     }
     let Some(stiffnesses) = stiffnesses(context.file, assembly) else { return Ok(None) };

@@ -54,10 +54,10 @@ pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Result<Answer,
     let (mut step, mut answer) = (0, Answer::empty(context.study));
     let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(state) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
         return Ok(start::unavailable(context));
     };
-    let state = state.state(&model);
+    let state = model.configuration(&start.x, start.tension);
     let found = modes_at(context.assembly, &state, eigenvalues, &mut || {
         step += 1;
         context.step(step, None)

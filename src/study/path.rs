@@ -51,11 +51,10 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
 pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, StudyError> {
     let (drive, stop) = (drive(context, spec)?, stop(context, spec)?);
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(found) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
         return Ok(start::unavailable(context));
     };
-    let tension = || found.tension_helps.then(|| found.tension.clone());
-    let start = (!found.is_drawn).then(|| model.configuration(&found.x, tension()));
+    let start = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
     let options = PathOptions { switch: spec.switch, stop, ..PathOptions::default() };
     let options = PathOptions {
         tolerance: spec.tolerance.as_ref().map_or(options.tolerance, |tolerance| tolerance.0),

@@ -10,6 +10,7 @@ use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::recorder::KeptState;
 use crate::analysis::relax::{Method, RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
+use crate::analysis::restored;
 use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
@@ -17,7 +18,6 @@ use crate::output::figure::rounded;
 use crate::output::summary::{
     BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, RouteSummary, StudyResult,
 };
-use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::{Failure, Step};
 use std::num::NonZeroUsize;
@@ -48,13 +48,13 @@ pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer,
     let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
         return Ok(start::unavailable(context));
     };
-    let first = State::new(&model, &start.x, &start.tension);
+    let first = restored::state_at(&model, &start);
     let mut options = RelaxOptions { method: method(spec.method), ..RelaxOptions::default() };
     options.keep_every = spec.keep_every.as_ref().and_then(|count| NonZeroUsize::new(count.0 as usize));
     if let Some(tolerance) = &spec.tolerance {
         options.newton.tolerance = tolerance.0;
     }
-    match relax_from(&model, start.for_solver(), options, &mut watcher(context)) {
+    match relax_from(&model, start, options, &mut watcher(context)) {
         Ok(relaxed) => Ok(found(context, spec, &model, &first, relaxed)),
         Err(error) => Ok(not_found(context, &first, &error)),
     }
@@ -68,7 +68,7 @@ fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, 
     let states = reached([first, &relaxed.state], residuals, &relaxed.kept, &relaxed.history);
     let self_intersecting = add_states(&mut answer, context, &states, &shown);
     let angles = states::with_all_angles(context, &relaxed.state).fold_angle;
-    let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, StartSpec::Drawn));
+    let drawn = start::is_drawn(spec.start.as_ref());
     let (branch_point_start, directions) = if drawn { branches::branch_point(assembly) } else { (None, None) };
     let result = RelaxSummary {
         self_intersecting,

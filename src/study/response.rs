@@ -52,10 +52,10 @@ pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), St
 /// Computes the response of the state that the scene names.
 pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answer, StudyError> {
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(state) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
         return Ok(start::unavailable(context));
     };
-    let state = state.state(&model);
+    let state = model.configuration(&start.x, start.tension);
     let response = match response_at(context.assembly, &state) {
         Ok(response) => response,
         Err(error) => return Ok(Answer::failed(context.study, error)),

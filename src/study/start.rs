@@ -14,35 +14,12 @@ use crate::numerics::random::symmetric;
 use crate::output::vtk::{self, VtuMesh};
 use crate::scene::Located;
 use crate::scene::forms::{RandomStart, StartSpec};
-use crate::solver;
+use crate::solver::Start;
 use rand::SeedableRng;
 
-/// The state from which a study starts, in the unknowns of the model with which it was made.
-#[derive(Clone, Debug)]
-pub(crate) struct InitialState {
-    /// The unknowns of the model.
-    pub x: Vec<f64>,
-    /// The tension of every stiff measure of the model. Those of an earlier state are those that were kept; where they
-    /// are missing or disagree with the geometry, they follow from lengths and angles, and those of rigid measures from
-    /// the balance of forces if the state is near an equilibrium.
-    pub tension: Vec<f64>,
-    /// Whether `tension` belongs to a state near an equilibrium, so that Newton's method should begin with it.
-    pub tension_helps: bool,
-    /// Whether this is the drawn state.
-    pub is_drawn: bool,
-}
-
-impl InitialState {
-    /// Returns the start of a relaxation from this state: with the tensions if they help.
-    pub(crate) fn for_solver(&self) -> solver::Start {
-        let tension = self.tension_helps.then(|| self.tension.clone());
-        solver::Start { x: self.x.clone(), tension }
-    }
-
-    /// Returns the same state independent of the numbering of the unknowns, with all its tensions.
-    pub(crate) fn state(self, model: &Model) -> Configuration {
-        model.configuration(&self.x, Some(self.tension))
-    }
+/// Whether a study starts from the drawn state.
+pub(crate) fn is_drawn(start: Option<&Located<StartSpec>>) -> bool {
+    start.is_none_or(|start| matches!(**start, StartSpec::Drawn))
 }
 
 /// Checks that the start, if it is a file, can be read and contains a state of this sheet.
@@ -56,48 +33,27 @@ pub(crate) fn check(context: &Context<'_>, start: Option<&Located<StartSpec>>) -
 /// The unknowns belong to `model`, whose reference state becomes this state: coordinates held against drift keep the
 /// values that they have in it, and angles continue from those that it was kept with, without jumps of `2 pi`. The
 /// model may have any gauge, but only with [`Gauge::Held`](crate::model::Gauge::Held) unknown tensions of rigid
-/// measures can be found.
+/// measures can be found. Tensions are known where forces are balanced, or nearly so, in a state of an earlier study or of a file.
 pub(crate) fn initial_state(
     context: &Context<'_>,
     start: Option<&Located<StartSpec>>,
     model: &mut Model,
-) -> Result<Option<InitialState>, StudyError> {
-    let Some(start) = start else { return Ok(Some(without_forces(model, model.start(), true))) };
-    let (x, forces) = match &**start {
-        StartSpec::Drawn => return Ok(Some(without_forces(model, model.start(), true))),
-        StartSpec::Random(random) => {
-            let x = random_start(random, model);
-            return Ok(Some(without_forces(model, x, false)));
+) -> Result<Option<Start>, StudyError> {
+    let Some(start) = start else { return Ok(Some(model.start().into())) };
+    let earlier = match &**start {
+        StartSpec::Drawn => return Ok(Some(model.start().into())),
+        StartSpec::Random(random) => return Ok(Some(random_start(random, model).into())),
+        StartSpec::File(_) => {
+            start_file(context, start)?.map(|(coordinates, mesh)| from_mesh(context, model, coordinates, &mesh))
         }
-        StartSpec::File(_) => match start_file(context, start)? {
-            Some((coordinates, mesh)) => from_mesh(context, model, coordinates, &mesh),
-            None => return Ok(None),
-        },
-        StartSpec::Study(name) => match from_study(context, name, model) {
-            Some(found) => found,
-            None => return Ok(None),
-        },
+        StartSpec::Study(name) => from_study(context, name, model),
     };
-    Ok(Some(earlier(model, x, &forces)))
+    Ok(earlier.map(|(x, forces)| restored::start(model, x, &forces)))
 }
 
 /// Returns the answer of a study whose start study has no final state.
 pub(crate) fn unavailable(context: &Context<'_>) -> Answer {
     Answer::failed(context.study, "the study from which it starts did not converge")
-}
-
-/// Returns a state of which no force is known.
-fn without_forces(model: &Model, x: Vec<f64>, is_drawn: bool) -> InitialState {
-    let tension = restored::tensions(model, &x, &Forces::Unknown);
-    InitialState { x, tension, tension_helps: false, is_drawn }
-}
-
-/// Returns an earlier state of which these forces are known.
-fn earlier(model: &Model, x: Vec<f64>, known: &Forces) -> InitialState {
-    let tension = restored::tensions(model, &x, known);
-    let solver::Start { x, tension: completed } = restored::start(model, x, tension.clone());
-    let tension_helps = completed.is_some();
-    InitialState { x, tension: completed.unwrap_or(tension), tension_helps, is_drawn: false }
 }
 
 /// Returns the unknowns of the state in which an earlier study ended, and its forces; `None` if it ended in no state of

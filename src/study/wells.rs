@@ -103,10 +103,10 @@ struct FoundWells {
 pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer, StudyError> {
     let assembly = context.assembly;
     let mut model = assembly.model(Gauge::Held);
-    let Some(state) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
         return Ok(start::unavailable(context));
     };
-    let centre = (!state.is_drawn).then(|| state.state(&model));
+    let centre = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
     let step = AtomicUsize::new(0);
     let watch = |of: Option<usize>| context.step(step.fetch_add(1, Ordering::Relaxed) + 1, of);
     let count = spec.starts.as_ref().map_or(STARTS, |count| count.0) as usize;

@@ -5,8 +5,8 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::modes::{SPARSE_EIGENVALUES, decomposed_dense};
 use foldwell::analysis::restored;
 use foldwell::analysis::state::State;
-use foldwell::model::Gauge;
 use foldwell::model::Terms;
+use foldwell::model::{Configuration, Gauge};
 use foldwell::solver::Problem;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -177,8 +177,7 @@ fn windings_come_back() {
     let mut given = vec![f64::NAN; case.edges()];
     given[hinge] = case.drawn_angles()[hinge] + TAU;
     let angles = restored::angles(&model, &given);
-    model.set_angles(&angles);
-    let x = model.start_from(case.drawn().coordinates.clone());
+    let x = model.enter(&Configuration { coordinates: case.drawn().coordinates.clone(), angles, tension: None }).x;
     let tension = vec![0.0; model.layout().stiff.len()];
     let state = State::new(&model, &x, &tension);
     for (edge, angle) in case.drawn_angles().iter().enumerate().filter(|(_, angle)| !angle.is_nan()) {

@@ -19,9 +19,8 @@ use foldwell::{Pattern, RIGID, Rest, Sheet, generate};
 fn relaxed(assembly: &Assembly) -> (Relaxed, Model) {
     let model = assembly.model(Gauge::Held);
     let relaxed = relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
-    let angles = model.angles();
     let mut free = assembly.model(Gauge::Free);
-    free.set_angles(&angles);
+    free.enter(&relaxed.configuration);
     (relaxed, free)
 }
 

@@ -2,7 +2,7 @@
 
 use super::{HeldState, LandscapeError};
 use crate::kinematics::FoldingModes;
-use crate::model::{Assembly, Boundary, Model};
+use crate::model::{Assembly, Boundary, Configuration, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
 use crate::solver::Problem;
@@ -31,8 +31,8 @@ pub struct HeldSheet {
     repeating: Vec<Option<usize>>,
     /// Rest values as drawn, in the same order.
     rests: Vec<f64>,
-    /// Angles as drawn, from which angles continue.
-    angles: Vec<f64>,
+    /// The drawn state.
+    drawn: Configuration,
 }
 
 impl HeldSheet {
@@ -72,8 +72,8 @@ impl HeldSheet {
             .collect::<Vec<_>>();
         let free = across(&basis, locked)?;
         let motions = motions.iter().map(|motion| model.without_drift(motion)).collect();
-        let (rests, angles) = (model.rests(), model.angles());
-        Ok(Self { basis, motions, free, repeating, rests, angles, bending: None, model })
+        let (rests, drawn) = (model.rests(), model.configuration(&model.start(), None));
+        Ok(Self { basis, motions, free, repeating, rests, drawn, bending: None, model })
     }
 
     /// Rates of the rest angles of the mode that makes the curvature tensor `[k11, k22, k12]`.
@@ -140,8 +140,7 @@ impl HeldSheet {
 
     /// The unknowns of the drawn state, made the one from which angles continue.
     pub fn drawn(&mut self) -> Vec<f64> {
-        self.model.set_angles(&self.angles);
-        self.model.start()
+        self.model.enter(&self.drawn).x
     }
 
     /// No change of place.

@@ -76,7 +76,7 @@ pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<Mo
         return Ok(ModuliOf::NoBars);
     }
     let mut model = assembly.model(Gauge::Free);
-    model.set_angles(&state.angles);
+    model.enter(state);
     let Some(cell) = PeriodicCell::of_state(assembly, &state.coordinates, model)? else {
         return Ok(ModuliOf::RolledUp);
     };

@@ -246,7 +246,7 @@ fn from_softness(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
-    let mut settler = MinimumTracker::new(&assembly.with_bars_at_most(stiffness), strength);
+    let settler = MinimumTracker::new(&assembly.with_bars_at_most(stiffness), strength);
     let mut soft = Vec::new();
     for well in between {
         let place = &wells[well].settled.place;
@@ -261,13 +261,13 @@ fn from_softness(
     if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART * way {
         return Err(BarrierError::OneWell { stiffness });
     }
-    let row = string(&mut settler, [&soft[0], &soft[1]], bend, &mut |_| go_on()).map_err(failed)?;
+    let row = string(&settler, [&soft[0], &soft[1]], bend, &mut |_| go_on()).map_err(failed)?;
     let path: Vec<(f64, f64)> =
         string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
     let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
     let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
     let around = [top - 1, top, top + 1].map(|at| row[at].clone());
-    let first = near_top(assembly, stiffness, &mut settler, around, go_on)?;
+    let first = near_top(assembly, stiffness, &settler, around, go_on)?;
     let Followed { pass, heights, singular } = followed(assembly, first, stiffness)?;
     let own =
         if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { assembly.bar_stiffness() };
@@ -300,7 +300,7 @@ fn same_shape(wells: &[Well], between: [usize; 2]) -> bool {
 fn near_top(
     assembly: &Assembly,
     stiffness: f64,
-    settler: &mut MinimumTracker,
+    settler: &MinimumTracker,
     mut around: [Settled; 3],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Pass, BarrierError> {

@@ -139,7 +139,7 @@ fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Opti
         } else {
             strength *= WEAKER * WEAKER;
         }
-        settler = MinimumTracker::new(assembly, strength);
+        settler.strength = strength;
     }
     settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)
 }
@@ -173,7 +173,7 @@ fn descent(
         (place, target) = (found.place, found.rho);
         if strength > STRENGTH {
             strength = (strength / WEAKER).max(STRENGTH);
-            settler = MinimumTracker::new(assembly, strength);
+            settler.strength = strength;
         } else {
             weak += 1;
         }

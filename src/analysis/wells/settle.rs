@@ -1,14 +1,14 @@
-//! Relaxations that relax_from_state on from each other, freely or held near given fold angles.
+//! Relaxations that go on from each other, freely or held near given fold angles.
 //!
 //! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the minimum of
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
 //! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
 
 use super::work::Work;
-use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
+use crate::analysis::relax::{RelaxError, Relaxed, relax_model};
 use crate::analysis::restored;
 use crate::model::{Assembly, Configuration, Gauge, Model};
-use crate::solver::{Options, Problem, Start, Step};
+use crate::solver::{Options, Problem, Step};
 
 /// A settled state.
 #[derive(Clone, Debug)]
@@ -25,10 +25,9 @@ pub struct Settled {
 
 /// A model that can be held near given fold angles.
 pub struct MinimumTracker {
-    free: Model,
-    held: Model,
+    model: Model,
     /// How much stiffer than its creases is what holds the sheet.
-    strength: f64,
+    pub strength: f64,
     /// Numbers of the elastic hinges among all elements, their rest angles and stiffnesses.
     hinges: Vec<usize>,
     rest: Vec<f64>,
@@ -41,24 +40,23 @@ pub struct MinimumTracker {
 impl MinimumTracker {
     /// The settler of an assembly; what holds it near fold angles is `strength` times as stiff as its creases.
     pub fn new(assembly: &Assembly, strength: f64) -> Self {
-        let (free, mut held) = (assembly.model(Gauge::Held), assembly.model(Gauge::Held));
-        held.scale_hinges(1.0 + strength);
-        let hinges = free.elastic_hinges();
-        let (rest, stiffness) = free.hinge_springs().iter().map(|spring| (spring.rest, spring.stiffness)).unzip();
-        let soft: usize = free.soft().iter().map(|term| term.len()).sum();
-        let mut is_hinge = vec![false; free.compliance().len()];
+        let model = assembly.model(Gauge::Held);
+        let hinges = model.elastic_hinges();
+        let (rest, stiffness) = model.hinge_springs().iter().map(|spring| (spring.rest, spring.stiffness)).unzip();
+        let soft: usize = model.soft().iter().map(|term| term.len()).sum();
+        let mut is_hinge = vec![false; model.compliance().len()];
         hinges.iter().filter_map(|number| number.checked_sub(soft)).for_each(|measure| is_hinge[measure] = true);
-        Self { free, held, strength, hinges, rest, stiffness, is_hinge, work: Work::new(assembly) }
+        Self { model, strength, hinges, rest, stiffness, is_hinge, work: Work::new(assembly) }
     }
 
     /// The drawn state.
     pub(crate) fn drawn(&self) -> Configuration {
-        self.free.configuration(&self.free.start(), None)
+        self.model.configuration(&self.model.start(), None)
     }
 
     /// The state with these coordinates, whose angles continue from these fold angles of all edges.
     pub(crate) fn at(&self, coordinates: Vec<f64>, fold_angle: &[f64]) -> Configuration {
-        Configuration { coordinates, angles: restored::angles(&self.free, fold_angle), tension: None }
+        Configuration { coordinates, angles: restored::angles(&self.model, fold_angle), tension: None }
     }
 
     /// Stiffness of the elastic hinges: the metric.
@@ -71,14 +69,12 @@ impl MinimumTracker {
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
     pub(crate) fn free(
-        &mut self,
+        &self,
         from: &Configuration,
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
-        let start = self.free.enter(from);
-        let relaxed = relax_from(&self.free, start, options, observe)?;
-        Ok(self.settled(relaxed, false))
+        self.settled(self.model.clone(), from, options, observe)
     }
 
     /// The same held near these fold angles of the elastic hinges.
@@ -86,32 +82,37 @@ impl MinimumTracker {
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
     pub fn near(
-        &mut self,
+        &self,
         from: &Configuration,
         target: &[f64],
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
-        let mut rests = self.held.rests();
+        let mut held = self.model.clone();
+        held.scale_hinges(1.0 + self.strength);
+        let mut rests = held.rests();
         for ((hinge, rest), target) in self.hinges.iter().zip(&self.rest).zip(target) {
             rests[*hinge] = (rest + self.strength * target) / (1.0 + self.strength);
         }
-        self.held.set_rests(&rests, &rests, 1.0);
-        let start = self.held.enter(&from.without_tension());
-        let relaxed = relax_from(&self.held, start, options, observe)?;
-        Ok(self.settled(relaxed, true))
+        held.set_rests(&rests, &rests, 1.0);
+        self.settled(held, &from.without_tension(), options, observe)
     }
 
-    fn settled(&mut self, relaxed: Relaxed, held: bool) -> Settled {
-        let model = if held { &mut self.held } else { &mut self.free };
-        let place = relaxed.configuration.clone();
-        let Start { x, tension } = model.enter(&place);
-        let rho = model.hinge_angles(&x);
+    fn settled(
+        &self,
+        mut model: Model,
+        from: &Configuration,
+        options: Options,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Settled, Box<RelaxError>> {
+        let start = model.enter(from);
+        let (relaxed, model, x) = relax_model(model, start, options, observe)?;
+        let (rho, place) = (model.hinge_angles(&x), relaxed.configuration.clone());
         let hinges = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
-        let others = tension.iter().flatten().zip(model.compliance()).zip(&self.is_hinge).filter(|(_, hinge)| !**hinge);
+        let others = place.tensions().iter().zip(model.compliance()).zip(&self.is_hinge).filter(|(_, hinge)| !**hinge);
         let others = others.map(|((t, c), _)| c * t * t);
         let elastic = 0.5 * (hinges.sum::<f64>() + others.sum::<f64>());
         let energy = elastic - self.work.to(&relaxed.state.coordinates);
-        Settled { place, rho, energy, relaxed }
+        Ok(Settled { place, rho, energy, relaxed })
     }
 }

@@ -73,6 +73,7 @@ pub fn relax_around(
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Outcome> {
     let centre = state.map(|state| Centre::new(assembly, state));
+    let settler = MinimumTracker::new(assembly, 1.0);
     parallel::map_with_state(
         starts.count,
         || true,
@@ -80,7 +81,7 @@ pub fn relax_around(
             if !*going {
                 return Outcome::Interrupted;
             }
-            let found = one(assembly, centre.as_ref(), starts, number);
+            let found = one((assembly, &settler), centre.as_ref(), starts, number);
             *going = go_on();
             found
         },
@@ -132,9 +133,15 @@ impl<'a> Centre<'a> {
     }
 }
 
-fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number: usize) -> Outcome {
+/// The outcome of the start with this number; `settler` relaxes the sheet with its own bars and rest angles.
+fn one(
+    (assembly, settler): (&Assembly, &MinimumTracker),
+    centre: Option<&Centre<'_>>,
+    starts: &Starts,
+    number: usize,
+) -> Outcome {
     if let Some(Centre { state, .. }) = centre.filter(|_| number == 0) {
-        let found = released(assembly, state, starts.options);
+        let found = released(settler, state, starts.options);
         if matches!(found, Outcome::Well(_)) {
             return found;
         }
@@ -142,15 +149,16 @@ fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number
     let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
     numbers.set_stream(number as u64);
     let mut within = |size: f64| size * symmetric(&mut numbers);
-    let mut assembly = assembly.clone();
-    if assembly.boundary() == Boundary::Screw && centre.is_none() {
-        assembly = assembly.with_axis(within(0.5 * PI));
-    }
-    let softness = if holds_shape(&assembly) { SOFT_ON_PINS[number % SOFT_ON_PINS.len()] } else { SOFT };
+    let turned = (assembly.boundary() == Boundary::Screw && centre.is_none()).then(|| {
+        let turned = assembly.with_axis(within(0.5 * PI));
+        (MinimumTracker::new(&turned, 1.0), turned)
+    });
+    let (settler, assembly) = turned.as_ref().map_or((settler, assembly), |(settler, turned)| (settler, turned));
+    let softness = if holds_shape(assembly) { SOFT_ON_PINS[number % SOFT_ON_PINS.len()] } else { SOFT };
     let mut last = Outcome::Saddle;
     for _ in 0..TRIES {
-        last = match crumpled(&assembly, centre, (starts.spread, softness), &mut within) {
-            Ok(place) => released(&assembly, &place.without_tension(), starts.options),
+        last = match crumpled(assembly, centre, (starts.spread, softness), &mut within) {
+            Ok(place) => released(settler, &place.without_tension(), starts.options),
             Err(failure) => Outcome::Failed(failure),
         };
         if matches!(last, Outcome::Well(_)) {
@@ -161,8 +169,8 @@ fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number
 }
 
 /// Relaxes the sheet with its own bars and rest angles from a state, and returns the outcome.
-fn released(assembly: &Assembly, from: &Configuration, options: Options) -> Outcome {
-    match MinimumTracker::new(assembly, 1.0).free(from, options, &mut |_| true) {
+fn released(settler: &MinimumTracker, from: &Configuration, options: Options) -> Outcome {
+    match settler.free(from, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
         Ok(found) if found.relaxed.negative_eigenvalues != Some(0) => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
@@ -190,7 +198,7 @@ fn crumpled(
         // loads that the sheet bears could fold soft bars over
         terms.loads.clear();
     }
-    let mut settler = MinimumTracker::new(&assembly.with_terms(terms), 1.0);
+    let settler = MinimumTracker::new(&assembly.with_terms(terms), 1.0);
     let mut from = match centre {
         Some(Centre { state, angles }) => settler.at(state.coordinates.clone(), angles),
         None => settler.drawn(),

@@ -31,7 +31,7 @@ const STRING_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 /// # Errors
 /// [`Failure`] of a relaxation on the way, or [`Failure::Interrupted`].
 pub(crate) fn string(
-    settler: &mut MinimumTracker,
+    settler: &MinimumTracker,
     [from, to]: [&Settled; 2],
     bend: u64,
     observe: &mut dyn FnMut(&Step) -> bool,
@@ -52,7 +52,7 @@ pub(crate) fn string(
 /// # Errors
 /// [`Failure`] of a relaxation between them, or [`Failure::Interrupted`].
 pub(crate) fn refined(
-    settler: &mut MinimumTracker,
+    settler: &MinimumTracker,
     [before, top, after]: [Settled; 3],
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<[Settled; 3], Failure> {
@@ -84,7 +84,7 @@ fn sideways(settler: &MinimumTracker, [from, to]: [&Settled; 2], bend: u64) -> V
 
 /// States on the way between the fold angles of two wells, each from the one before it, from both ends.
 fn grown(
-    settler: &mut MinimumTracker,
+    settler: &MinimumTracker,
     [from, to]: [&Settled; 2],
     sideways: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,
@@ -106,7 +106,7 @@ fn grown(
 
 /// One sweep; the largest movement of a state.
 fn sweep(
-    settler: &mut MinimumTracker,
+    settler: &MinimumTracker,
     row: &mut [Settled],
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<f64, Failure> {

@@ -2,6 +2,7 @@
 
 use super::{LEFT_WING, Model, POSE, RIGHT_WING};
 use crate::math::rotation::inverse_left_jacobian;
+use crate::model::configuration::Configuration;
 use crate::model::domain::Domain;
 use crate::model::element::Elements;
 use crate::model::gauge;
@@ -150,10 +151,10 @@ impl Model {
         self.gauge_quality(x) >= LEAST_SEPARATION_RATIO
     }
 
-    /// Makes these coordinates the reference state, as [`start_from`](Self::start_from) does, and chooses anew what is held if it would
+    /// Makes a state the reference state, as [`enter`](Self::enter) does, and chooses anew what is held if it would
     /// not hold rigid motions well: steps from here may then have no room. Returns the unknowns, and whether the same is held.
-    pub(crate) fn start_well_held(&mut self, coordinates: Vec<f64>) -> (Vec<f64>, bool) {
-        let x = self.start_from(coordinates);
+    pub(crate) fn enter_well_held(&mut self, state: &Configuration) -> (Vec<f64>, bool) {
+        let x = self.enter(state).x;
         let is_well_held = self.gauge_quality(&x) >= WELL_HELD;
         (if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) }, is_well_held)
     }
