@@ -194,9 +194,9 @@ pub fn resume_path(
     record: PathRecord,
     callbacks: PathCallbacks<'_>,
 ) -> Result<Vec<PathBranch>, PathFailure> {
-    let mut model = assembly.model(Gauge::Held);
+    let model = assembly.model(Gauge::Held);
     let measures = model.compliance().len();
-    let (mut driven, first) = begin(&mut model, drive, start, options)?;
+    let (mut driven, first) = begin(model, drive, start, options)?;
     let settings = PathSettings {
         tolerance: options.tolerance,
         max_step: options.max_step,
@@ -219,13 +219,13 @@ struct Seen<'a> {
     callbacks: PathCallbacks<'a>,
 }
 
-impl PathObserver<DrivenModel<'_>> for Seen<'_> {
-    fn state(&mut self, branch: usize, driven: &DrivenModel<'_>, marked: &MarkedState) -> bool {
+impl PathObserver<DrivenModel> for Seen<'_> {
+    fn state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) -> bool {
         self.known_state(branch, driven, marked);
         self.branches[branch].last().is_none_or(|point| (self.callbacks.observe)(branch, point))
     }
 
-    fn known_state(&mut self, branch: usize, driven: &DrivenModel<'_>, marked: &MarkedState) {
+    fn known_state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) {
         self.branches.resize_with(self.branches.len().max(branch + 1), Vec::new);
         self.branches[branch].push(point(driven, marked, self.measures));
     }
@@ -240,18 +240,18 @@ impl PathObserver<DrivenModel<'_>> for Seen<'_> {
 /// # Errors
 /// [`DriveError`] if it has none.
 pub fn check_drive(assembly: &Assembly, drive: &Drive) -> Result<(), DriveError> {
-    let mut model = assembly.model(Gauge::Held);
+    let model = assembly.model(Gauge::Held);
     let drawn = model.values(&model.start());
-    DrivenModel::new(&mut model, drive, drawn, false).map(|_| ())
+    DrivenModel::new(model, drive, drawn, false).map(|_| ())
 }
 
 /// Makes the driven model and finds its equilibrium at the beginning.
-fn begin<'m>(
-    model: &'m mut Model,
+fn begin(
+    mut model: Model,
     drive: &Drive,
     start: Option<Configuration>,
     options: &PathOptions,
-) -> Result<(DrivenModel<'m>, Start), PathFailure> {
+) -> Result<(DrivenModel, Start), PathFailure> {
     let drawn = model.values(&model.start());
     let restarted = start.is_some();
     let tension = start.and_then(|state| {
@@ -261,7 +261,7 @@ fn begin<'m>(
         }
         tension
     });
-    let driven = DrivenModel::new(model, drive, drawn, restarted)?;
+    let mut driven = DrivenModel::new(model, drive, drawn, restarted)?;
     let x = driven.model.start();
     let (x, tension) = if let Some(mut tension) = tension {
         // an equilibrium of any stability: the path's own iteration finds what the new support carries
@@ -271,14 +271,14 @@ fn begin<'m>(
         let newton = Options { tolerance: options.tolerance, ..Options::default() };
         let (relaxed, model, x) =
             relax_model(driven.model.clone(), x, newton, &mut |_| true).map_err(|error| error.failure)?;
-        *driven.model = model;
+        driven.model = model;
         (x, relaxed.configuration.tension.unwrap_or_default())
     };
     let x = driven.about_best_axis(x, &tension);
     Ok((driven, Start { x, tension: Some(tension) }))
 }
 
-fn point(driven: &DrivenModel<'_>, marked: &MarkedState, measures: usize) -> PathPoint {
+fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoint {
     let MarkedState { state, mark, work, .. } = marked;
     let PathState { x, tension, parameter, conjugate: [conjugate, _], .. } = state;
     PathPoint {
@@ -286,10 +286,10 @@ fn point(driven: &DrivenModel<'_>, marked: &MarkedState, measures: usize) -> Pat
         drive: driven.drive_at(*parameter),
         reaction: driven.reaction_of(*conjugate, *parameter),
         work: driven.work_of(*work, *conjugate, *parameter),
-        state: State::new(driven.model, x, tension),
+        state: State::new(&driven.model, x, tension),
         x: x.clone(),
         tension: tension[..measures].to_vec(),
-        angles: angles_at(driven.model, x),
+        angles: angles_at(&driven.model, x),
         residual_force: state.residual_force,
         residual_length: state.residual_length,
         negative_eigenvalues: state.negative_eigenvalues,
@@ -304,7 +304,7 @@ fn branch_point(mark: PathMark) -> Option<BranchPoint> {
     Some(BranchPoint { multiplicity, half_branches: None })
 }
 
-fn event(driven: &DrivenModel<'_>, mark: PathMark) -> Option<PathEvent> {
+fn event(driven: &DrivenModel, mark: PathMark) -> Option<PathEvent> {
     match (mark, driven.is_load()) {
         (PathMark::ParameterTurns, true) => Some(PathEvent::LimitLoad),
         (PathMark::ParameterTurns, false) => Some(PathEvent::LimitDisplacement),

@@ -57,20 +57,20 @@ impl<'a> Stops<'a> {
     }
 
     /// 1 where faces pass through each other, -1 elsewhere.
-    fn crosses(&mut self, driven: &DrivenModel<'_>, state: &PathState) -> Option<f64> {
+    fn crosses(&mut self, driven: &DrivenModel, state: &PathState) -> Option<f64> {
         let finder = self.crossing.as_mut()?;
-        let shown = State::new(driven.model, &state.x, &state.tension);
+        let shown = State::new(&driven.model, &state.x, &state.tension);
         let any = finder.marks(self.assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any;
         Some(if any { 1.0 } else { -1.0 })
     }
 }
 
-impl Watch<DrivenModel<'_>> for Stops<'_> {
-    fn values(&mut self, driven: &DrivenModel<'_>, state: &PathState) -> Vec<f64> {
+impl Watch<DrivenModel> for Stops<'_> {
+    fn values(&mut self, driven: &DrivenModel, state: &PathState) -> Vec<f64> {
         let coordinates = driven.model.coordinates(&state.x);
         let mut values = vec![f64::NAN; 3];
         values[CURVATURE] = self.curvature(&coordinates).unwrap_or(f64::NAN);
-        values[CREASE_ANGLE] = self.angle(driven.model, &coordinates).unwrap_or(f64::NAN);
+        values[CREASE_ANGLE] = self.angle(&driven.model, &coordinates).unwrap_or(f64::NAN);
         values[CROSSING] = self.crosses(driven, state).unwrap_or(f64::NAN);
         values
     }

@@ -16,9 +16,9 @@ use std::sync::Arc;
 ///
 /// The parameter is the driven value, except for the stiffness of elements that have tensions as unknowns, of which it
 /// is the reciprocal: an infinite stiffness is the parameter zero.
-pub struct DrivenModel<'m> {
+pub struct DrivenModel {
     /// The model, with the supports that the drive moves.
-    pub model: &'m mut Model,
+    pub model: Model,
     quantity: Driven,
     parameter: f64,
     target: f64,
@@ -29,13 +29,13 @@ pub struct DrivenModel<'m> {
     first: Vec<f64>,
 }
 
-impl<'m> DrivenModel<'m> {
+impl DrivenModel {
     /// Makes a model driven from its reference state. `drawn` are the values of all measures in the drawn state
     /// ([`Model::values`]); `loaded` says whether loads and rest values act in full in the reference state.
     ///
     /// # Errors
     /// [`DriveError`] if the drive has no effect on this model.
-    pub fn new(model: &'m mut Model, drive: &Drive, drawn: Vec<f64>, loaded: bool) -> Result<Self, DriveError> {
+    pub fn new(mut model: Model, drive: &Drive, drawn: Vec<f64>, loaded: bool) -> Result<Self, DriveError> {
         let first = model.compliance.len();
         let quantity = drive.quantity.clone();
         let begin = f64::from(u8::from(loaded));
@@ -43,12 +43,12 @@ impl<'m> DrivenModel<'m> {
             Driven::Part { part, axis } => {
                 let pose = model.points() + POSE * part + axis;
                 model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3);
-                (Effect::prescribed(model, first..first + 1), 0.0, drive.to)
+                (Effect::prescribed(&model, first..first + 1), 0.0, drive.to)
             }
             Driven::Vertices { vertices, direction } => {
                 let along = |v: &usize| (0..3).map(|axis| (3 * v + axis, direction[axis])).collect();
                 model.support_moved(vertices.iter().map(along).collect(), false);
-                (Effect::prescribed(model, first..first + vertices.len()), 0.0, drive.to)
+                (Effect::prescribed(&model, first..first + vertices.len()), 0.0, drive.to)
             }
             Driven::Loads if model.loads.is_empty() => return Err(DriveError::NoLoads),
             Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
@@ -62,8 +62,8 @@ impl<'m> DrivenModel<'m> {
                 let offsets = locks.iter().map(|(k, spring)| (*k, spring.rest - from)).collect();
                 (Effect::Prescribed(offsets), from, drive.to)
             }
-            Driven::Rest => (Effect::rest(model, drawn), begin, drive.to),
-            Driven::Stiffness(kind) => Effect::stiffness(model, *kind, drive.to)?,
+            Driven::Rest => (Effect::rest(&model, drawn), begin, drive.to),
+            Driven::Stiffness(kind) => Effect::stiffness(&model, *kind, drive.to)?,
         };
         if !((target - parameter).abs() > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
@@ -73,18 +73,18 @@ impl<'m> DrivenModel<'m> {
 
     /// Makes a model whose rest values, those of locks and supports included, go from some at 0 to others at 1: one of each measure,
     /// as [`Model::values`] gives them.
-    pub(crate) fn by_rests(model: &'m mut Model, [from, to]: [Vec<f64>; 2]) -> Self {
+    pub(crate) fn by_rests(model: Model, [from, to]: [Vec<f64>; 2]) -> Self {
         let effect = Effect::Rest { drawn: from, given: to };
         Self::driven(model, Driven::Rest, [0.0, 1.0], effect)
     }
 
     /// Makes a model whose rigid bars have this stiffness `EA`, a force, and become rigid.
-    pub(crate) fn by_stiffening(model: &'m mut Model, stiffness: f64) -> Self {
+    pub(crate) fn by_stiffening(model: Model, stiffness: f64) -> Self {
         let effect = Effect::Compliance(model.rigid_bars().collect());
         Self::driven(model, Driven::Stiffness(TermKind::Bars), [stiffness.recip(), 0.0], effect)
     }
 
-    fn driven(model: &'m mut Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {
+    fn driven(model: Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {
         let (first, way) = (model.base.clone(), (target - parameter).abs());
         let mut driven = Self { model, quantity, parameter, target, way, effect, first };
         driven.set_parameter(parameter);
@@ -202,7 +202,7 @@ impl Model {
     }
 }
 
-impl ParametrizedProblem for DrivenModel<'_> {
+impl ParametrizedProblem for DrivenModel {
     fn parameter(&self) -> f64 {
         self.parameter
     }
@@ -314,7 +314,7 @@ impl ParametrizedProblem for DrivenModel<'_> {
     }
 }
 
-impl Problem for DrivenModel<'_> {
+impl Problem for DrivenModel {
     fn layout(&self) -> &Arc<Layout> {
         self.model.layout()
     }

@@ -129,10 +129,10 @@ fn rates_of_drives() {
     for quantity in drives {
         let what = format!("{quantity:?}");
         let pinned = Terms { pins: vec![(8, [true; 3])], ..all.clone() };
-        let mut model = assembly.with_terms(pinned).model(Gauge::Held);
+        let model = assembly.with_terms(pinned).model(Gauge::Held);
         let drawn = model.values(&model.start());
         let drive = Drive { quantity, to: 0.37 };
-        let mut driven = DrivenModel::new(&mut model, &drive, drawn, false).unwrap();
+        let mut driven = DrivenModel::new(model, &drive, drawn, false).unwrap();
         let mut numbers = Numbers::new(5);
         let x: Vec<f64> = driven.model.start().iter().map(|x| x + numbers.within(0.05)).collect();
         let tension = numbers.many(driven.layout().stiff.len(), 1.0);

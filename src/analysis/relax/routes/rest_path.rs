@@ -69,22 +69,25 @@ fn along_rests(run: &mut Run<'_>) -> Option<Ending> {
 
 /// Follows a path of minima from a start to its target, where it ends with a minimum. `None` where it does not lead there; the model
 /// is left at the target.
-fn along(run: &mut Run<'_>, drive: &dyn Fn(&mut Model) -> DrivenModel<'_>, start: Equilibrium) -> Option<Ending> {
+fn along(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, start: Equilibrium) -> Option<Ending> {
     let ending = follow_minima(run, drive, start);
-    let mut driven = drive(&mut run.model);
-    driven.set_parameter(driven.target());
+    let target = drive(run.model.clone()).target();
+    drive_to(run, drive, target);
     ending
+}
+
+/// Takes the model to a value of the parameter.
+fn drive_to(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: f64) {
+    let mut driven = drive(run.model.clone());
+    driven.set_parameter(parameter);
+    run.model = driven.model;
 }
 
 /// Follows a path while it is stable. Where it becomes unstable it is left to the lower side, and goes on from the minimum there;
 /// where no step of the path leads on, as next to the apex of a screw, from a minimum a little farther.
-fn follow_minima(
-    run: &mut Run<'_>,
-    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
-    mut start: Equilibrium,
-) -> Option<Ending> {
-    let mut parameter = drive(&mut run.model).parameter();
-    let target = drive(&mut run.model).target();
+fn follow_minima(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, mut start: Equilibrium) -> Option<Ending> {
+    let driven = drive(run.model.clone());
+    let (mut parameter, target) = (driven.parameter(), driven.target());
     let first = run.recorder.steps();
     while run.recorder.steps() < first + MOST_STEPS {
         let Stretch { end, parameter: reached, x, tension } = stretch(run, drive, (parameter, start));
@@ -105,13 +108,8 @@ fn follow_minima(
 }
 
 /// The minimum next to a start at a parameter; `None` where none is found, an error where the observer asks to stop.
-fn minimum(
-    run: &mut Run<'_>,
-    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
-    parameter: f64,
-    start: Start,
-) -> Option<Ending> {
-    drive(&mut run.model).set_parameter(parameter);
+fn minimum(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: f64, start: Start) -> Option<Ending> {
+    drive_to(run, drive, parameter);
     let settled = run.minimize(start);
     let left = saddle::leave(run, settled);
     let is_wanted = match &left {
@@ -123,14 +121,10 @@ fn minimum(
 
 /// Minimises a little farther on the way from a state at which no step of the path leads on: as far as that succeeds. Returns the
 /// parameter there with the ending; `None` where it succeeds nowhere.
-fn farther(
-    run: &mut Run<'_>,
-    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
-    from: f64,
-    x: &[f64],
-) -> Option<(f64, Ending)> {
-    let (place, target) = (run.model.clone(), drive(&mut run.model).target());
-    let way = drive(&mut run.model).parameter_scale() * (target - from).signum();
+fn farther(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, from: f64, x: &[f64]) -> Option<(f64, Ending)> {
+    let (place, driven) = (run.model.clone(), drive(run.model.clone()));
+    let target = driven.target();
+    let way = driven.parameter_scale() * (target - from).signum();
     PARTS_OF_THE_WAY.into_iter().find_map(|part| {
         let next = if (target - from).abs() <= (part * way).abs() { target } else { from + part * way };
         run.model.clone_from(&place);
@@ -158,12 +152,8 @@ struct Stretch {
 }
 
 /// Follows a path from an equilibrium at a parameter as far as it is stable.
-fn stretch(
-    run: &mut Run<'_>,
-    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
-    (from, start): (f64, Equilibrium),
-) -> Stretch {
-    let (mut driven, recorder) = (drive(&mut run.model), &mut run.recorder);
+fn stretch(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, (from, start): (f64, Equilibrium)) -> Stretch {
+    let (mut driven, recorder) = (drive(run.model.clone()), &mut run.recorder);
     driven.set_parameter(from);
     let target = driven.target();
     let settings = PathSettings {
@@ -176,7 +166,7 @@ fn stretch(
     let begin = Start { x: start.x.clone(), tension: Some(start.tension.clone()) };
     let (mut end, mut furthest) = (StretchEnd::Lost, from);
     let reached = reach(&mut driven, begin, &settings, &mut |driven, state| {
-        if !recorder.see(&step_of(driven, state), || State::new(driven.model, &state.x, &state.tension)) {
+        if !recorder.see(&step_of(driven, state), || State::new(&driven.model, &state.x, &state.tension)) {
             end = StretchEnd::Interrupted;
         } else if state.negative_eigenvalues.is_some_and(|count| count > 0) {
             end = StretchEnd::Unstable;
@@ -198,11 +188,12 @@ fn stretch(
         Ok(Reached::Lost(state)) => (state.parameter, state),
         Err(_) => return Stretch { end, parameter: from, x: start.x, tension: start.tension },
     };
+    run.model = driven.model;
     Stretch { end, parameter, x: state.x, tension: state.tension }
 }
 
 /// The record of a state of a path among the steps of a relaxation.
-fn step_of(driven: &DrivenModel<'_>, state: &PathState) -> Step {
+fn step_of(driven: &DrivenModel, state: &PathState) -> Step {
     let stored = state.tension.iter().zip(driven.compliance()).map(|(t, c)| 0.5 * c * t * t);
     Step {
         energy: driven.energy(&state.x) + stored.sum::<f64>(),

@@ -14,7 +14,7 @@ use crate::solver::{HessianKind, Tangent};
 /// Shift of the Hessian, which holds the direction of the axis and motions that cost no energy.
 const SHIFT: f64 = 1e-9;
 
-impl DrivenModel<'_> {
+impl DrivenModel {
     /// The unknowns of a straight screw with these tensions, with the axis about which the drive bends it with the least work. A state that
     /// is no straight screw stays as it is.
     pub(crate) fn about_best_axis(&self, x: Vec<f64>, tension: &[f64]) -> Vec<f64> {
