@@ -152,7 +152,9 @@ pub(crate) fn relax_model(
 ) -> Result<(Relaxed, Model, Vec<f64>), Box<RelaxError>> {
     let start = start.into();
     let mut run = Run::new(model, &start, options.into(), observe);
-    let mut ending = fold_angles::begin(&mut run, start);
+    let straight = straight_screw::begins_straight(&run);
+    let begin = if straight { straight_screw::begin } else { fold_angles::begin };
+    let mut ending = begin(&mut run, start);
     let in_angles = run.intrinsic_failure.is_none() && run.recorder.history().iter().any(|step| step.intrinsic);
     run.note(if in_angles { "fold angles" } else { "positions" }, 0, &ending);
     for route in &ROUTES {

@@ -7,6 +7,11 @@ use crate::solver::linearization::HessianKind;
 use crate::solver::problem::{Problem, Residuals};
 use crate::solver::tangent::Tangent;
 
+/// Number of steps after which a minimisation that comes no further is given up: one in which the energy falls by no more than this part
+/// of itself, and the least force by no more than half.
+const STALLED_STEPS: usize = 30;
+const STALLED_FALL: f64 = 1e-9;
+
 /// The present shift, and how eagerly a lower one is tried.
 pub(super) struct Shift {
     /// Shift of the last factorization, in units of the metric.
@@ -115,6 +120,15 @@ impl<'a, P: Problem> Newton<'a, P> {
     pub(super) fn rounding_force(&self) -> f64 {
         let at = &self.tangent.at;
         f64::EPSILON * max_abs(&self.x) * at.pattern().largest_diagonal(&at.hessian) / at.largest_force
+    }
+
+    /// Whether the last steps brought neither a lower energy nor a smaller force.
+    pub(super) fn stalled(&self) -> bool {
+        let Some(last) = self.history.len().checked_sub(STALLED_STEPS + 1) else { return false };
+        let (before, since) = self.history.split_at(last + 1);
+        let least = |steps: &[Step]| steps.iter().fold(f64::INFINITY, |least, step| least.min(step.residual_force));
+        let fall = before[last].energy - since[since.len() - 1].energy;
+        fall <= STALLED_FALL * before[last].energy.abs() && least(since) > 0.5 * least(before)
     }
 
     /// Whether the force is rounding error that no further step makes smaller. A start that knows its tensions is where

@@ -84,6 +84,9 @@ fn run<P: Problem>(
             (fraction, finished) = (1.0, true);
             continue;
         }
+        if newton.stalled() {
+            return Err(Failure::Stuck { force, length });
+        }
         if newton.history.len() > options.iterations {
             return Err(Failure::TooManySteps { iterations: options.iterations, force, length });
         }

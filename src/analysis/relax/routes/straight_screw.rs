@@ -42,8 +42,28 @@ pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
     let last = ending.as_ref().map_or_else(|error| &error.x, |found| &found.x);
     let mut coordinates = run.model.coordinates(last);
     run.model.domain().bend(&mut coordinates, AXIS, 0.0);
-    let mut start = Start::from(run.model.hold_axis(2, coordinates));
-    for left in [1, 0] {
+    let start = Start::from(run.model.hold_axis(2, coordinates));
+    with_axis_held(run, start, &[1, 0])
+}
+
+/// Whether a relaxation starts next to an equilibrium without curvature.
+pub(crate) fn begins_straight(run: &Run<'_>) -> bool {
+    let is_straight = |curvature| curvature <= ROUNDING;
+    run.is_restarted() && curvature(&run.model, &run.start.coordinates).is_some_and(is_straight)
+}
+
+/// The equilibrium next to a straight start, about an axis that keeps its direction unless the sheet bends.
+///
+/// # Errors
+/// As [`relaxed`].
+pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
+    let start = Start { x: run.model.hold_axis(1, run.start.coordinates.clone()), ..start };
+    with_axis_held(run, start, &[0])
+}
+
+/// Relaxes from a start, each time with fewer coordinates of the axis held: as many as `left` says, one after the other.
+fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending {
+    for &left in left {
         let reached = run.minimize(start);
         let last = reached.as_ref().map_or_else(|error| &error.x, |found| &found.x);
         let mut place = run.model.coordinates(last);
