@@ -70,7 +70,7 @@ pub enum Failure {
     /// The force does not vanish, but to first order the rigid measures leave no motion that relieves it.
     #[error("singular start: to first order the rigid measures leave no motion that relieves the force")]
     SingularStart,
-    /// No step along the Newton direction lowers the merit.
+    /// No step along the Newton direction lowers the merit, or the last ones lowered it by next to nothing.
     #[error("no step lowers the energy: residual force {force:.2e}, residual length {length:.2e}")]
     Stuck {
         /// Scaled residual force.
