@@ -8,7 +8,7 @@ use crate::solver::problem::{Problem, Residuals};
 use crate::solver::tangent::Tangent;
 
 /// Number of steps after which a minimisation that comes no further is given up: one in which the energy falls by no more than this part
-/// of itself, and the least force by no more than half.
+/// of itself, and the least residuals by no more than half.
 const STALLED_STEPS: usize = 30;
 const STALLED_FALL: f64 = 1e-9;
 
@@ -122,13 +122,18 @@ impl<'a, P: Problem> Newton<'a, P> {
         f64::EPSILON * max_abs(&self.x) * at.pattern().largest_diagonal(&at.hessian) / at.largest_force
     }
 
-    /// Whether the last steps brought neither a lower energy nor a smaller force.
+    /// Whether the last steps brought neither a lower energy nor smaller residuals.
     pub(super) fn stalled(&self) -> bool {
-        let Some(last) = self.history.len().checked_sub(STALLED_STEPS + 1) else { return false };
-        let (before, since) = self.history.split_at(last + 1);
-        let least = |steps: &[Step]| steps.iter().fold(f64::INFINITY, |least, step| least.min(step.residual_force));
-        let fall = before[last].energy - since[since.len() - 1].energy;
-        fall <= STALLED_FALL * before[last].energy.abs() && least(since) > 0.5 * least(before)
+        // the start, which may meet the rigid measures as drawn, is left out
+        let Some(count) = self.history.len().checked_sub(STALLED_STEPS + 1) else { return false };
+        let (before, since) = self.history[1..].split_at(count);
+        let [Some(from), Some(to)] = [before, since].map(<[Step]>::last) else { return false };
+        let is_as_large = |residual: fn(&Step) -> f64| {
+            let least = |steps: &[Step]| steps.iter().map(residual).fold(f64::INFINITY, f64::min);
+            least(since) > 0.5 * least(before)
+        };
+        let is_as_high = from.energy - to.energy <= STALLED_FALL * from.energy.abs();
+        is_as_high && is_as_large(|step| step.residual_force) && is_as_large(|step| step.residual_length)
     }
 
     /// Whether the force is rounding error that no further step makes smaller. A start that knows its tensions is where
