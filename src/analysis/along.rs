@@ -9,7 +9,7 @@
 //! stay off it by what the creases pull them.
 
 use super::chart::{self, hinge_angles};
-use super::relax::{Relaxed, relax_from};
+use super::relax::{Relaxed, relax_model};
 use super::state::{Cylinder, cylinder};
 use super::trace::{Folded, Traced};
 use crate::model::{Assembly, Configuration, Domain, Drawn, Gauge};
@@ -238,7 +238,7 @@ impl Track<'_> {
         let (here, is_held_as_drawn) = model.enter_well_held(&Configuration { coordinates, angles, tension: None });
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
         let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));
-        let relaxed = relax_from(&model, start, self.options, observe)
+        let (relaxed, model, _) = relax_model(model, start, self.options, observe)
             .map_err(|error| AlongFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);

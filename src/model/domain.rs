@@ -73,7 +73,7 @@ pub(crate) struct Placed {
     by_shared: Option<SharedMatrix>,
 }
 
-/// What takes a vertex to its copy in another cell.
+/// The motion that takes a vertex of cell (0, 0) to its copy in another cell.
 enum Motion {
     Translation(Vec3),
     Screw(ScrewMotion),
