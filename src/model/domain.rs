@@ -297,16 +297,9 @@ impl Domain {
 
 /// Returns the derivatives of a position by the two lattice vectors.
 fn by_lattice(shift: [i32; 2]) -> SharedMatrix {
-    let [n1, n2] = shift.map(f64::from);
-    SharedMatrix::from_fn(|axis, k| {
-        if k == axis {
-            n1
-        } else if k == 3 + axis {
-            n2
-        } else {
-            0.0
-        }
-    })
+    let mut by_shared = SharedMatrix::zeros();
+    (0..2).for_each(|k| by_shared.fixed_columns_mut::<3>(3 * k).fill_diagonal(f64::from(shift[k])));
+    by_shared
 }
 
 /// Adds `block` to `to`, with its first entry at `(row, column)`.

@@ -143,7 +143,7 @@ pub fn relax_from(
     relax_model(model.clone(), start, options, observe).map(|(relaxed, _, _)| relaxed)
 }
 
-/// The same with a model that goes to the equilibrium, which is returned with the unknowns there.
+/// Relaxes as [`relax_from`] does, and returns the model at the equilibrium too, with its unknowns there: for those who go on with it.
 pub(crate) fn relax_model(
     model: Model,
     start: impl Into<Start>,
