@@ -83,21 +83,16 @@ fn screws_of_parallelograms_stay_straight() {
     }
 }
 
-/// Claim: a direct way that stands still next to zero curvature may be given up long before its 200 steps, and the straight state that is
-/// then found is an equilibrium again when it starts with its tensions. Source: without the rule every direct way that fails so takes all
-/// of its steps. Tolerance: rounding decides which of twenty starts stand still; four do, and two are asked for.
+/// Claim: a direct way that stands still next to zero curvature may be given up long before its 200 steps. Source: without the rule every
+/// direct way that fails so takes all of its steps. Tolerance: rounding decides which of twenty starts stand still; four do, and two are
+/// asked for.
 #[test]
 fn standstills_are_given_up() {
     let screw = folded("miura", "screw", f64::INFINITY, false);
-    let mut given_up = 0;
-    for seed in 1..=20 {
-        let found = from_near(&screw, 0.03, seed);
-        let direct = &found.routes[0];
-        given_up += usize::from(matches!(direct.failure, Some(Failure::Stuck { .. })) && direct.iterations < 100);
-        let mut model = screw.model(Gauge::Held);
-        let start = model.enter(&found.configuration);
-        let again = relax_from(&model, start, Options::default(), &mut |_| true).unwrap();
-        assert_eq!(again.iterations, 0, "seed {seed}: {:?}", again.routes);
-    }
-    assert!(given_up >= 2, "{given_up}");
+    let given_up = |seed: &u64| {
+        let direct = from_near(&screw, 0.03, *seed).routes[0];
+        matches!(direct.failure, Some(Failure::Stuck { .. })) && direct.iterations < 100
+    };
+    let count = (1..=20).filter(given_up).count();
+    assert!(count >= 2, "{count}");
 }
