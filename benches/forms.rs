@@ -76,8 +76,7 @@ impl System {
     /// Changes the stiffness of the bars without changing the linearization.
     fn set_stiffness(&mut self, k: f64) {
         let model = &self.model;
-        let lengths = model.stiff().iter().flat_map(|term| (0..term.len()).map(|e| term.spring(e).rest));
-        self.compliance = lengths.map(|length| length / k).collect();
+        self.compliance = model.stiff().map(|bar| bar.spring.rest / k).collect();
     }
 
     fn unit(&self) -> f64 {

@@ -40,8 +40,8 @@ impl Forms {
         let terms = Terms { bars, creases: hinges(), facets, pins, guides, parts, ..Terms::default() };
         let measures = assembly.with_terms(terms).model(Gauge::Free);
         let of = |angle: bool| {
-            let terms = measures.stiff().iter().filter(move |term| term.is_angle() == angle);
-            terms.flat_map(|term| (0..term.len()).map(|k| term.edge(k))).collect::<Vec<_>>()
+            let elements = measures.stiff().filter(move |element| element.is_angle() == angle);
+            elements.map(|element| element.edge()).collect::<Vec<_>>()
         };
         let (lengths, hinges) = (of(false), of(true));
         let count = lengths.len();

@@ -8,7 +8,7 @@
 //! state, is not relaxed again: there a locked crease does not say about which axis the sheet folds. Rigid bars must meet every rigid state to rounding; softer ones
 //! stay off it by what the creases pull them.
 
-use super::chart::{self, hinge_angles};
+use super::chart;
 use super::relax::{Relaxed, relax_model};
 use super::state::{Cylinder, cylinder};
 use super::trace::{Folded, Traced};
@@ -234,7 +234,7 @@ impl Track<'_> {
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
         let last = self.known.last().map(|(_, at)| at.clone());
         let coordinates = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
-        let angles = hinge_angles(&model, &self.angles);
+        let angles = model.angles_among(&self.angles);
         let (here, is_held_as_drawn) = model.enter_well_held(&Configuration { coordinates, angles, tension: None });
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
         let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));

@@ -8,7 +8,7 @@ use super::trace::Folded;
 use super::tube;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
-use crate::model::{Boundary, Model};
+use crate::model::Boundary;
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
@@ -54,10 +54,4 @@ pub(crate) fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     coordinates.extend([0.0, curvature]);
     coordinates.extend([step(0), step(1), chords[0].dot(&x), chords[1].dot(&x)]);
     coordinates
-}
-
-/// The angles of the model's hinges among those of all edges: from them angles continue.
-pub(crate) fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
-    let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
-    terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
 }

@@ -7,10 +7,9 @@
 
 use crate::kinematics::closure::DIRECTION;
 use crate::kinematics::{Closing, Closure};
-use crate::model::{Domain, Model, TermKind};
-use crate::numerics::dense::{
-    NullSpace, full_svd, least_squares, least_squares_of_sums, rank_of_sums, symmetric_eigenvalues,
-};
+use crate::model::{Domain, Element, Model, TermKind};
+use crate::numerics::dense::{NullSpace, least_squares, least_squares_of_sums, symmetric_eigenvalues};
+use crate::numerics::root::Search;
 use crate::numerics::{DenseMatrix, worst};
 use crate::sheet::{Sheet, Tiling};
 use crate::solver::Implicit;
@@ -89,9 +88,8 @@ fn rests_at_drawn_lengths(sheet: &Sheet, tiling: &Tiling, model: &Model) -> bool
         let [i, j] = sheet.edges[tiling.edges[edge].edge].key.ends().map(|end| sheet.position(end));
         (rest - (j - i).norm()).abs() <= SAME_LENGTH * (i.norm() + j.norm() + rest)
     };
-    let bars = model.stiff().iter().filter(|term| term.kind() == TermKind::Bars);
-    let mut rests = bars.flat_map(|term| (0..term.len()).map(|k| (term.edge(k), term.spring(k).rest)));
-    rests.all(as_drawn)
+    let mut bars = model.stiff().filter(|element| element.kind() == TermKind::Bars);
+    bars.all(|bar| as_drawn((bar.edge(), bar.spring.rest)))
 }
 
 impl Springs {
@@ -110,15 +108,13 @@ impl Springs {
         let mut rest = DVector::zeros(edges);
         let mut start: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
         let mut rigid = Vec::new();
-        for term in model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle()) {
-            for k in 0..term.len() {
-                let (edge, spring) = (term.edge(k), term.spring(k));
-                if spring.stiffness.is_infinite() {
-                    start[edge] = spring.rest;
-                    rigid.push(edge);
-                } else {
-                    (stiffness[edge], rest[edge]) = (spring.stiffness, spring.rest);
-                }
+        for hinge in model.elements().filter(Element::is_angle) {
+            let (edge, spring) = (hinge.edge(), hinge.spring);
+            if spring.stiffness.is_infinite() {
+                start[edge] = spring.rest;
+                rigid.push(edge);
+            } else {
+                (stiffness[edge], rest[edge]) = (spring.stiffness, spring.rest);
             }
         }
         let closure = Closure::of_tiling(sheet, tiling).ok()?.with_locked(&rigid);
@@ -143,39 +139,20 @@ impl Springs {
         let mut closing = Closing::new(&self.closure, self.start.clone());
         let mut x = closing.folding(start);
         for _ in 0..STEPS {
-            self.close(&mut closing, &mut x)?;
+            x = close(&mut closing, x)?;
             let along = self.along(&closing, &x)?;
             let step = along.step()?;
             let longest = step.amax();
             let part = (LONGEST_ANGLE_STEP_RAD / longest).min(1.0);
             x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += part * d);
             if longest <= LAST_ANGLE_CHANGE_RAD {
-                self.close(&mut closing, &mut x)?;
+                x = close(&mut closing, x)?;
                 let angles = closing.angles(&x);
                 let along = self.along(&closing, &x)?;
                 let (energy, residual) = (self.energy(&angles), self.closure.residual(&angles).amax());
                 let (negative_eigenvalues, error) = (along.negative()?, residual / along.least);
                 return Some(Stationary { angles, energy, negative_eigenvalues, residual, error });
             }
-        }
-        None
-    }
-
-    /// The closed state nearest to `x`, across the tangents there.
-    fn close(&self, closing: &mut Closing<'_>, x: &mut [f64]) -> Option<()> {
-        let mut residual = vec![0.0; closing.equations()];
-        let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
-        for _ in 0..CORRECTIONS {
-            closing.linearize(x, &mut residual, &mut jacobian);
-            if residual.iter().all(|component| component.abs() <= CLOSURE_RESIDUAL) {
-                return Some(());
-            }
-            let svd = full_svd(&jacobian).ok()?;
-            let rank = rank_of_sums(&svd.singular_values, DIRECTION).ok()?.rank;
-            let parts = svd.u.columns(0, rank).tr_mul(&DVector::from_column_slice(&residual));
-            let scaled = DVector::from_fn(rank, |k, _| parts[k] / svd.singular_values[k]);
-            let step = svd.v.columns(0, rank) * scaled;
-            x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x -= d);
         }
         None
     }
@@ -218,4 +195,15 @@ impl Along {
         }
         Some(symmetric_eigenvalues(&self.hessian).ok()?.iter().filter(|value| **value < 0.0).count())
     }
+}
+
+/// The closed state nearest to `x`, across the tangents there.
+fn close(closing: &mut Closing<'_>, x: Vec<f64>) -> Option<Vec<f64>> {
+    let search = Search { most_steps: CORRECTIONS, residual: CLOSURE_RESIDUAL, terms: DIRECTION };
+    search.root(x, |x| {
+        let mut residual = DVector::zeros(closing.equations());
+        let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
+        closing.linearize(x, residual.as_mut_slice(), &mut jacobian);
+        (residual, jacobian)
+    })
 }

@@ -4,7 +4,7 @@ mod stops;
 
 use super::relax::relax_model;
 use super::state::State;
-use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gauge, Model};
+use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Element, Gauge, Model};
 use crate::solver::path::{
     self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathObserver, PathSettings, PathState,
 };
@@ -351,6 +351,5 @@ impl PathPoint {
 /// Values of all angles of a model, in the order of [`Model::angles`].
 fn angles_at(model: &Model, x: &[f64]) -> Vec<f64> {
     let all = model.coordinates(x);
-    let hinges = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
-    hinges.flat_map(|term| (0..term.len()).map(|k| term.value(k, model.domain(), &all))).collect()
+    model.elements().filter(Element::is_angle).map(|hinge| hinge.value(&all)).collect()
 }

@@ -4,7 +4,7 @@
 //! of finite stiffness follow from the geometry, and those of rigid measures from the balance of forces.
 
 use super::state::State;
-use crate::model::{Assembly, Configuration, Elements, Gauge, Model};
+use crate::model::{Assembly, Configuration, Gauge, Model, TermKind};
 use crate::solver::{HessianKind, Linearization, Problem, Residuals, Start, Tangent};
 
 /// Scaled disagreement of a measure and its tension up to which the tension is taken.
@@ -117,12 +117,12 @@ fn completed(model: &Model, x: &[f64], tensions: &[f64]) -> Option<Vec<f64>> {
 fn by_law(model: &Model, gaps: &[f64]) -> Vec<f64> {
     let (compliance, scale) = (model.compliance(), model.gap_scale());
     let mut tension = vec![0.0; gaps.len()];
-    let mut first = 0;
-    for term in model.stiff() {
-        let measures = first..first + term.len();
-        first = measures.end;
-        if measures.clone().any(|k| gaps[k].abs() > ROUNDING * scale[k]) {
-            measures.filter(|&k| compliance[k] > 0.0).for_each(|k| tension[k] = gaps[k] / compliance[k]);
+    for kind in TermKind::ALL {
+        let measures = model.stiff().enumerate().filter(|(_, element)| element.kind() == kind).map(|(k, _)| k);
+        let measures: Vec<usize> = measures.collect();
+        if measures.iter().any(|&k| gaps[k].abs() > ROUNDING * scale[k]) {
+            let elastic = measures.into_iter().filter(|&k| compliance[k] > 0.0);
+            elastic.for_each(|k| tension[k] = gaps[k] / compliance[k]);
         }
     }
     tension
@@ -132,13 +132,10 @@ fn by_law(model: &Model, gaps: &[f64]) -> Vec<f64> {
 fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_law: &[f64]) -> Vec<f64> {
     let coordinates = model.coordinates(x);
     let mut left = torque.to_vec();
-    for term in model.soft() {
-        for k in 0..term.len() {
-            let spring = term.spring(k);
-            left[term.edge(k)] -= spring.stiffness * (term.value(k, model.domain(), &coordinates) - spring.rest);
-        }
+    for element in model.soft() {
+        left[element.edge()] -= element.spring.force(element.value(&coordinates));
     }
-    let measures: Vec<(bool, usize)> = model.stiff().iter().flat_map(|term| measured(term.as_ref())).collect();
+    let measures: Vec<(bool, usize)> = model.stiff().map(|element| (element.is_angle(), element.edge())).collect();
     let mut last = vec![usize::MAX; torque.len()];
     for (row, (_, edge)) in measures.iter().enumerate().filter(|(_, (angle, _))| *angle) {
         last[*edge] = row;
@@ -159,15 +156,8 @@ fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_la
     tensions
 }
 
-/// Whether the elements of a term are angles, and the edge of each.
-fn measured(term: &dyn Elements) -> impl Iterator<Item = (bool, usize)> {
-    (0..term.len()).map(|k| (term.is_angle(), term.edge(k)))
-}
-
 /// The angles from which those of the model continue: those of the edges where they are known, its own elsewhere.
 pub fn angles(model: &Model, fold_angle: &[f64]) -> Vec<f64> {
-    let hinges = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
-    let edges = hinges.flat_map(|term| (0..term.len()).map(|k| term.edge(k)));
-    let known = |(own, edge): (f64, usize)| Some(fold_angle[edge]).filter(|angle| angle.is_finite()).unwrap_or(own);
-    model.angles().into_iter().zip(edges).map(known).collect()
+    let known = |(own, angle): (f64, f64)| if angle.is_finite() { angle } else { own };
+    model.angles().into_iter().zip(model.angles_among(fold_angle)).map(known).collect()
 }

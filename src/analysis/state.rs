@@ -1,7 +1,7 @@
 //! A state of a model, edge by edge and as a cylinder.
 
 use crate::math::Vec3;
-use crate::model::{Domain, Drawn, Elements, Model, TermKind, Turns};
+use crate::model::{Domain, Drawn, Element, Model, TermKind, Turns};
 use crate::solver::Problem;
 use std::f64::consts::TAU;
 
@@ -72,8 +72,7 @@ impl State {
     /// The state of a model with these unknowns and tensions of the stiff measures. Stiff measures have the energy of their tensions, without cancellation.
     pub fn new(model: &Model, x: &[f64], tension: &[f64]) -> Self {
         let coordinates = model.coordinates(x);
-        let value = |term: &dyn Elements, k: usize| term.value(k, model.domain(), &coordinates);
-        let measured = Self::of_measures(model, value, |row, _, _| tension[row]);
+        let measured = Self::of_measures(model, |element| element.value(&coordinates), |row, _| tension[row]);
         Self { coordinates, ..measured }
     }
 
@@ -81,25 +80,18 @@ impl State {
     /// at these values. It has no coordinates.
     pub(super) fn of_measures(
         model: &Model,
-        value: impl Fn(&dyn Elements, usize) -> f64,
-        tension: impl Fn(usize, &dyn Elements, usize) -> f64,
+        value: impl Fn(&Element<'_>) -> f64,
+        tension: impl Fn(usize, &Element<'_>) -> f64,
     ) -> Self {
         let mut state = Self::empty(vec![], model.edges());
-        for term in model.soft() {
-            for k in 0..term.len() {
-                let (spring, value) = (term.spring(k), value(term.as_ref(), k));
-                let off = value - spring.rest;
-                state.add(term.as_ref(), k, value, [spring.stiffness * off, 0.5 * spring.stiffness * off * off]);
-            }
+        for element in model.soft() {
+            let value = value(&element);
+            state.add(&element, value, [element.spring.force(value), element.spring.energy(value)]);
         }
-        let mut row = 0;
-        for term in model.stiff() {
-            for k in 0..term.len() {
-                let (value, tension) = (value(term.as_ref(), k), tension(row, term.as_ref(), k));
-                let energy = 0.5 * model.compliance()[row] * tension * tension;
-                state.add(term.as_ref(), k, value, [tension, energy]);
-                row += 1;
-            }
+        for (row, element) in model.stiff().enumerate() {
+            let tension = tension(row, &element);
+            let energy = 0.5 * model.compliance()[row] * tension * tension;
+            state.add(&element, value(&element), [tension, energy]);
         }
         state
     }
@@ -111,18 +103,18 @@ impl State {
         self
     }
 
-    /// Adds element `k` of a term, whose measure has this value and which has this force and this energy.
-    fn add(&mut self, term: &dyn Elements, k: usize, value: f64, [force, energy]: [f64; 2]) {
-        let (edge, spring) = (term.edge(k), term.spring(k));
-        if term.is_angle() {
-            (self.fold_angle[edge], self.rest_angle[edge]) = (value, spring.rest);
+    /// Adds an element whose measure has this value and which has this force and this energy.
+    fn add(&mut self, element: &Element<'_>, value: f64, [force, energy]: [f64; 2]) {
+        let (edge, rest) = (element.edge(), element.spring.rest);
+        if element.is_angle() {
+            (self.fold_angle[edge], self.rest_angle[edge]) = (value, rest);
             add_known(&mut self.torque[edge], force);
         } else {
-            self.strain[edge] = value / spring.rest - 1.0;
+            self.strain[edge] = value / rest - 1.0;
             add_known(&mut self.tension[edge], force);
         }
         self.energy[edge] += energy;
-        match term.kind() {
+        match element.kind() {
             TermKind::Bars => self.energy_bars += energy,
             TermKind::Creases => self.energy_creases += energy,
             TermKind::Facets => self.energy_facets += energy,

@@ -5,10 +5,10 @@
 //! hinges of one kind may be of both sorts.
 
 use super::boundary::Drawn;
-use super::element::{Element, Elements, Spring, Term, TermKind};
+use super::element::{Elements, Spring, Term, TermKind};
 use super::measure::{FoldAngle, Length};
 use super::part::Part;
-use super::problem::{Gauge, Model, Parts, Support};
+use super::problem::{Bodies, Conditions, Equations, Gauge, Model, Support};
 use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, Terms};
 use crate::math::Vec3;
@@ -18,16 +18,28 @@ use crate::sheet::tiling::{Site, TiledEdge, Tiling};
 /// Ratio of a hinge's stiffness to the softest stiffness above which the hinge has a tension as unknown.
 const STIFF_RATIO: f64 = 1e4;
 
-type Elementwise = Vec<Box<dyn Elements>>;
+/// Terms, and the springs of all their elements.
+#[derive(Default)]
+struct Listed {
+    terms: Vec<Box<dyn Elements>>,
+    springs: Vec<Spring>,
+}
+
+impl Listed {
+    fn push(&mut self, (term, springs): (impl Elements + 'static, Vec<Spring>)) {
+        self.terms.push(Box::new(term));
+        self.springs.extend(springs);
+    }
+}
 
 /// Builds the model of a tiling, without the kinds of hinges that `terms` does not have.
 pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
-    let (mut soft, mut stiff): (Elementwise, Elementwise) = (vec![], vec![]);
+    let (mut soft, mut stiff) = (Listed::default(), Listed::default());
     let mean_edge = drawn.mean_edge(tiling);
     let in_part = inside_a_part(&terms.parts, tiling.positions.len());
     let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
     if let Some(given) = &terms.bars {
-        stiff.push(Box::new(bars(drawn, tiling, given, &in_part)));
+        stiff.push(bars(drawn, tiling, given, &in_part));
     }
     let softest = softest(terms);
     let kinds =
@@ -41,9 +53,9 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         let here = |edge: usize| tiling.edges[edge].kind == kind && moves(edge) && !hinges.stiffness.of(edge).is_nan();
         for (list, tension) in [(&mut soft, false), (&mut stiff, true)] {
             let wanted = |edge| here(edge) && has_tension(edge) == tension;
-            let term = hinge_term(term, drawn, tiling, wanted, hinges);
-            if !term.is_empty() {
-                list.push(Box::new(term));
+            let (term, springs) = hinge_term(term, drawn, tiling, wanted, hinges);
+            if !springs.is_empty() {
+                list.push((term, springs));
             }
         }
     }
@@ -52,24 +64,23 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         terms.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
         let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
         let rigid = Hinges { stiffness: f64::INFINITY.into(), rest };
-        stiff.push(Box::new(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge] && moves(edge), &rigid)));
+        stiff.push(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge] && moves(edge), &rigid));
     }
     let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
     let loads = net_loads(terms, drawn.coordinates.len(), &pinned);
-    Model::new(Parts {
+    let equations = Equations {
         domain: drawn.domain.clone(),
         drawn: drawn.coordinates.clone(),
-        soft,
-        stiff,
-        pinned,
-        parts: terms.parts.clone(),
-        supports: terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect(),
-        loads,
+        bodies: Bodies::new(&terms.parts, &drawn.coordinates),
+        soft: soft.terms,
+        stiff: stiff.terms,
         edges: tiling.edges.len(),
         mean_edge,
         gauge,
-    })
+    };
+    let supports = terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect();
+    Model::new(equations, [soft.springs, stiff.springs].concat(), Conditions { pinned, supports, loads })
 }
 
 /// Returns the force on every coordinate, zero where a pin takes it up. The list is empty if all forces are zero, so
@@ -108,19 +119,20 @@ fn softest(terms: &Terms) -> f64 {
     given.map(Stiffness::softest).fold(f64::INFINITY, f64::min)
 }
 
-fn bars(drawn: &Drawn, tiling: &Tiling, bars: &Bars, rigid: impl Fn(&[Site]) -> bool) -> Term<Length, 2, 6> {
-    let element = |(edge, tiled): (usize, &TiledEdge)| {
+fn bars(
+    drawn: &Drawn,
+    tiling: &Tiling,
+    bars: &Bars,
+    rigid: impl Fn(&[Site]) -> bool,
+) -> (Term<Length, 2, 6>, Vec<Spring>) {
+    let edges = tiling.edges.iter().enumerate();
+    let there = edges.filter(|(edge, tiled)| !rigid(&tiled.ends) && !bars.stiffness.of(*edge).is_nan());
+    let bar = |(edge, tiled): (usize, &TiledEdge)| {
         let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
-        let stiffness = bars.stiffness.of(edge);
-        (!stiffness.is_nan()).then(|| Element {
-            sites: tiled.ends,
-            spring: Spring { stiffness: stiffness / rest, rest },
-            edge,
-        })
+        ((tiled.ends, edge), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })
     };
-    let elements =
-        tiling.edges.iter().enumerate().filter(|(_, tiled)| !rigid(&tiled.ends)).filter_map(element).collect();
-    Term::new(TermKind::Bars, elements, &drawn.domain, &drawn.coordinates)
+    let (elements, springs) = there.map(bar).unzip();
+    (Term::new(TermKind::Bars, elements), springs)
 }
 
 fn hinge_term(
@@ -129,15 +141,12 @@ fn hinge_term(
     tiling: &Tiling,
     wanted: impl Fn(usize) -> bool,
     hinges: &Hinges,
-) -> Term<FoldAngle, 4, 12> {
-    let element = |edge: usize| {
+) -> (Term<FoldAngle, 4, 12>, Vec<Spring>) {
+    let hinge = |edge: usize| {
         let sites = tiling.edges[edge].hinge()?;
-        let spring = Spring {
-            stiffness: hinges.stiffness.of(edge) * drawn.distance(&tiling.edges[edge].ends),
-            rest: hinges.rest[edge],
-        };
-        Some(Element { sites, spring, edge })
+        let stiffness = hinges.stiffness.of(edge) * drawn.distance(&tiling.edges[edge].ends);
+        Some(((sites, edge), Spring { stiffness, rest: hinges.rest[edge] }))
     };
-    let elements = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(element).collect();
-    Term::new(kind, elements, &drawn.domain, &drawn.coordinates)
+    let (elements, springs) = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(hinge).unzip();
+    (Term::new(kind, elements), springs)
 }

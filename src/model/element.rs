@@ -1,4 +1,4 @@
-//! Terms of the energy: lists of elements with the same measure, each element with a spring law.
+//! Terms of the energy: lists of elements with the same measure; and the elements of a model, each with a spring law.
 
 use super::domain::{Domain, Site};
 use super::measure::Measure;
@@ -14,6 +14,18 @@ pub struct Spring {
     pub stiffness: f64,
     /// Value without force: a length, or an angle in radians.
     pub rest: f64,
+}
+
+impl Spring {
+    /// Returns the force, or the torque, at a value: the derivative of the energy.
+    pub fn force(&self, value: f64) -> f64 {
+        self.stiffness * (value - self.rest)
+    }
+
+    /// Returns the energy at a value.
+    pub fn energy(&self, value: f64) -> f64 {
+        0.5 * self.force(value) * (value - self.rest)
+    }
 }
 
 /// The kind of the elements of a term. Code that treats kinds differently must match all of them.
@@ -34,7 +46,7 @@ impl TermKind {
     pub(crate) const ALL: [Self; 4] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks];
 
     /// Returns the name of this kind in a scene.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Bars => "bars",
             Self::Creases => "creases",
@@ -44,26 +56,13 @@ impl TermKind {
     }
 }
 
-/// One element: its points, its spring law, and the edge of the sheet to which it belongs.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Element<const N: usize> {
-    /// The points, in the order of the measure's arguments.
-    pub sites: [Site; N],
-    /// The spring law.
-    pub spring: Spring,
-    /// Number of the element's edge in the tiling.
-    pub edge: usize,
-}
-
 /// A term: a list of elements with the same measure `M` of `N` points, which have `D = 3 N` coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Term<M, const N: usize, const D: usize> {
     /// The kind of the elements.
-    pub kind: TermKind,
-    /// The elements.
-    pub elements: Vec<Element<N>>,
-    /// Values in the last accepted state, from which angles continue; empty for lengths.
-    last: Vec<f64>,
+    kind: TermKind,
+    /// The points of each element, in the order of the measure's arguments, and the number of its edge in the tiling.
+    elements: Vec<([Site; N], usize)>,
     measure: PhantomData<M>,
 }
 
@@ -71,7 +70,7 @@ pub(crate) struct Term<M, const N: usize, const D: usize> {
 /// ones.
 #[derive(Default)]
 pub struct Local {
-    /// Value of the measure, continued from the last accepted state.
+    /// Value of the measure.
     pub value: f64,
     /// Gradient in the element's coordinates.
     pub gradient: Vec<f64>,
@@ -100,78 +99,38 @@ impl Local {
     }
 }
 
-/// The interface of a term to the model, independent of its measure.
-pub trait Elements: Send + Sync {
-    /// Returns a copy.
-    fn boxed(&self) -> Box<dyn Elements>;
+/// The measures of a term, independent of the number of their points. They never change: springs and the angles from which values
+/// continue belong to a [`Model`](super::Model).
+pub(super) trait Elements: Send + Sync {
     /// Returns the kind of the elements.
     fn kind(&self) -> TermKind;
-    /// Returns the name of the kind in a scene.
-    fn name(&self) -> &'static str {
-        self.kind().name()
-    }
     /// Returns the number of elements.
     fn len(&self) -> usize;
-    /// Whether there are no elements.
-    fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
     /// Whether the values are angles.
     fn is_angle(&self) -> bool;
     /// Whether the elements are hinges; see [`Measure::HINGE`].
     fn is_hinge(&self) -> bool;
     /// Returns the points of element `k`.
     fn sites(&self, k: usize) -> &[Site];
-    /// Returns the spring law of element `k`.
-    fn spring(&self, k: usize) -> Spring;
-    /// Replaces the spring law of element `k`.
-    fn set_spring(&mut self, k: usize, spring: Spring);
     /// Returns the number of the edge to which element `k` belongs.
     fn edge(&self, k: usize) -> usize;
-    /// Returns the value of element `k` at the coordinates `x`; angles continue from the last accepted state.
+    /// Returns the value of element `k` at the coordinates `x`; angles are between -pi and pi.
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
     /// Puts value and gradient of element `k` at the coordinates `x` into `out`, and its Hessian if it is wanted.
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local);
     /// Returns the Taylor series of element `k` along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not
     /// valid for screws.
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor;
-    /// Makes `x` the accepted state, from which angles continue.
-    fn accept(&mut self, domain: &Domain, x: &[f64]);
-    /// Returns the angles of the last accepted state; empty for lengths.
-    fn angles(&self) -> &[f64];
-    /// Sets the angles from which values continue.
-    fn set_angles(&mut self, angles: &[f64]);
 }
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
-    /// Makes a term of these elements; angles continue from their values at the coordinates `x`.
-    pub(crate) fn new(kind: TermKind, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
-        let mut term = Self { kind, elements, last: Vec::new(), measure: PhantomData };
-        if M::ANGLE {
-            term.last = term.elements.iter().map(|e| M::value(&domain.points(x, &e.sites))).collect();
-        }
-        term
-    }
-
-    fn continued(&self, k: usize, value: f64) -> f64 {
-        match self.last.get(k) {
-            Some(last) if (last - value).abs() > PI => value + TAU * ((last - value) / TAU).round(),
-            _ => value,
-        }
+    /// Makes a term of elements, each given by its points and its edge.
+    pub(crate) fn new(kind: TermKind, elements: Vec<([Site; N], usize)>) -> Self {
+        Self { kind, elements, measure: PhantomData }
     }
 }
 
-impl Clone for Box<dyn Elements> {
-    fn clone(&self) -> Self {
-        self.boxed()
-    }
-}
-
-impl<M: Measure<N, D> + Clone + Send + Sync + 'static, const N: usize, const D: usize> Elements for Term<M, N, D> {
-    fn boxed(&self) -> Box<dyn Elements> {
-        Box::new(self.clone())
-    }
-
+impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements for Term<M, N, D> {
     fn kind(&self) -> TermKind {
         self.kind
     }
@@ -189,32 +148,24 @@ impl<M: Measure<N, D> + Clone + Send + Sync + 'static, const N: usize, const D: 
     }
 
     fn sites(&self, k: usize) -> &[Site] {
-        &self.elements[k].sites
-    }
-
-    fn spring(&self, k: usize) -> Spring {
-        self.elements[k].spring
-    }
-
-    fn set_spring(&mut self, k: usize, spring: Spring) {
-        self.elements[k].spring = spring;
+        &self.elements[k].0
     }
 
     fn edge(&self, k: usize) -> usize {
-        self.elements[k].edge
+        self.elements[k].1
     }
 
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
-        self.continued(k, M::value(&domain.points(x, &self.elements[k].sites)))
+        M::value(&domain.points(x, &self.elements[k].0))
     }
 
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
-        let sites = &self.elements[k].sites;
+        let sites = &self.elements[k].0;
         out.gradient.clear();
         out.hessian.clear();
         let mut measure =
             |points: &[Vec3; N]| if want_hessian { M::hessian(points, &mut out.hessian) } else { M::gradient(points) };
-        let value = if domain.shared() == 0 {
+        out.value = if domain.shared() == 0 {
             let (value, gradient) = measure(&domain.points(x, sites));
             out.gradient.extend_from_slice(gradient.as_slice());
             value
@@ -227,24 +178,77 @@ impl<M: Measure<N, D> + Clone + Send + Sync + 'static, const N: usize, const D: 
             domain.pull_gradient(&placed, &gradient, &mut out.gradient);
             value
         };
-        out.value = self.continued(k, value);
     }
 
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor {
-        M::along(&self.elements[k].sites.map(|site| domain.path(x, site)))
+        M::along(&self.elements[k].0.map(|site| domain.path(x, site)))
+    }
+}
+
+/// One element of a model: its measure, its spring law, and the angle from which its own continues.
+#[derive(Clone, Copy)]
+pub struct Element<'a> {
+    /// Its number among the elements of the model, soft ones first.
+    pub number: usize,
+    /// Its spring law.
+    pub spring: Spring,
+    /// Its angle in the last accepted state, in radians; not a number for a length.
+    pub(super) last: f64,
+    pub(super) domain: &'a Domain,
+    pub(super) term: &'a dyn Elements,
+    /// Its number in the term.
+    pub(super) index: usize,
+}
+
+impl<'a> Element<'a> {
+    /// Returns the kind of the element.
+    pub fn kind(&self) -> TermKind {
+        self.term.kind()
     }
 
-    fn accept(&mut self, domain: &Domain, x: &[f64]) {
-        for k in 0..self.last.len() {
-            self.last[k] = self.value(k, domain, x);
-        }
+    /// Whether its value is an angle.
+    pub fn is_angle(&self) -> bool {
+        self.term.is_angle()
     }
 
-    fn angles(&self) -> &[f64] {
-        &self.last
+    /// Whether it is a hinge of finite stiffness.
+    pub(crate) fn is_elastic_hinge(&self) -> bool {
+        self.is_angle() && self.spring.stiffness.is_finite()
     }
 
-    fn set_angles(&mut self, angles: &[f64]) {
-        self.last.copy_from_slice(angles);
+    /// Returns its points: the two ends of a bar, or the two ends of a hinge and then its left and right wing.
+    pub fn sites(&self) -> &'a [Site] {
+        self.term.sites(self.index)
     }
+
+    /// Returns the number of its edge in the tiling.
+    pub fn edge(&self) -> usize {
+        self.term.edge(self.index)
+    }
+
+    /// Returns its value at the coordinates `x`, a length or an angle in radians, which continues from the last accepted state.
+    pub fn value(&self, x: &[f64]) -> f64 {
+        continued(self.last, self.term.value(self.index, self.domain, x))
+    }
+
+    /// Puts value and gradient at the coordinates `x` into `out`, and the Hessian if it is wanted.
+    pub(crate) fn local(&self, x: &[f64], want_hessian: bool, out: &mut Local) {
+        self.term.local(self.index, self.domain, x, want_hessian, out);
+        out.value = continued(self.last, out.value);
+    }
+
+    /// Returns the Taylor series of its value along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not valid for screws.
+    pub(crate) fn along(&self, x: &[&[f64]; 3]) -> Taylor {
+        self.term.along(self.index, self.domain, x)
+    }
+
+    /// The same element where another domain gives the points.
+    pub(crate) fn on(self, domain: &'a Domain) -> Self {
+        Self { domain, ..self }
+    }
+}
+
+/// An angle continued without a jump from the last one; other values, which have none, stay as they are.
+fn continued(last: f64, value: f64) -> f64 {
+    if (last - value).abs() > PI { value + TAU * ((last - value) / TAU).round() } else { value }
 }

@@ -51,7 +51,7 @@ pub(crate) use domain::Turns;
 pub use domain::{Domain, Site};
 pub use drive::{Drive, DriveError, Driven};
 pub(crate) use element::Local;
-pub use element::{Elements, Spring, TermKind};
+pub use element::{Element, Spring, TermKind};
 pub use mass::Mass;
 pub use part::Part;
 pub use problem::driving::DrivenModel;

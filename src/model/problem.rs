@@ -1,9 +1,8 @@
 //! The model: terms on a domain, with pins, loads and a gauge, as the problem that the solver minimises.
 
 use super::domain::Domain;
-use super::element::{Elements, Spring};
+use super::element::{Element, Elements, Spring};
 use super::gauge;
-use super::part::Part;
 use crate::math::Vec3;
 use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::Cliques;
@@ -23,7 +22,8 @@ mod support;
 mod turning;
 mod unknowns;
 
-use bodies::{Bodies, POSE};
+pub(super) use bodies::Bodies;
+use bodies::POSE;
 pub(crate) use support::Support;
 
 /// Ranges of the coordinates of a hinge's two wings among the coordinates of its element.
@@ -34,22 +34,51 @@ pub(super) const RIGHT_WING: Range<u32> = 9..12;
 /// rigid motions count as dependent.
 const DEPENDENT: f64 = 1e-9;
 
-/// The mechanical model of a sheet: its terms on a domain, with held coordinates and loads.
+/// What stays the same in all runs of a solver: measures on a domain, and rigid parts.
+pub(super) struct Equations {
+    /// The map from coordinates to points.
+    pub domain: Domain,
+    /// Coordinates of the drawn state, whose lengths turn a stiffness per length into that of an element.
+    pub drawn: Vec<f64>,
+    /// Vertices that move as rigid bodies.
+    pub bodies: Bodies,
+    /// Terms that enter with their energy.
+    pub soft: Vec<Box<dyn Elements>>,
+    /// Terms that enter with a tension as an unknown for each element.
+    pub stiff: Vec<Box<dyn Elements>>,
+    /// Number of edges of the tiling; the edge numbers of elements are below it.
+    pub edges: usize,
+    /// Unit of length to which the gaps of bars are relative: the mean edge length.
+    pub mean_edge: f64,
+    /// The treatment of rigid motions.
+    pub gauge: Gauge,
+}
+
+/// What holds and loads a sheet.
+pub(super) struct Conditions {
+    /// Indices of the coordinates held by pins and by the boundary conditions.
+    pub pinned: Vec<usize>,
+    /// Linear functions of the coordinates that keep their values.
+    pub supports: Vec<Support>,
+    /// Force on each coordinate; empty without loads.
+    pub loads: Vec<f64>,
+}
+
+/// The mechanical model of a sheet: its terms on a domain, with springs, held coordinates and loads. Clones share what never changes.
 #[derive(Clone)]
 pub struct Model {
-    domain: Domain,
+    equations: Arc<Equations>,
+    /// The springs of all elements, soft ones first.
+    springs: Vec<Spring>,
+    /// Angles of all elements in the last accepted state, from which angles continue; not numbers for lengths.
+    last: Vec<f64>,
     /// Generalised coordinates of the reference state, which is the drawn state or the one that replaced it: those of
     /// all points, then the poses of rigid parts. Held coordinates keep these values.
     base: Vec<f64>,
-    /// Coordinates of the drawn state, whose lengths turn a stiffness per length into that of an element.
-    drawn: Vec<f64>,
-    bodies: Bodies,
     supports: Vec<Support>,
     pinned: Vec<usize>,
     /// Index of the coordinate of each unknown.
     free: Vec<u32>,
-    soft: Vec<Box<dyn Elements>>,
-    stiff: Vec<Box<dyn Elements>>,
     loads: Vec<f64>,
     /// Factor of all loads: 1 unless a path drives it.
     load_factor: f64,
@@ -58,9 +87,6 @@ pub struct Model {
     layout: Arc<Layout>,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
-    edges: usize,
-    mean_edge: f64,
-    gauge: Gauge,
     /// Sizes of the shared unknowns in units of their coordinates; empty if unknowns and coordinates are the same.
     units: Vec<f64>,
 }
@@ -75,62 +101,29 @@ pub enum Gauge {
     Free,
 }
 
-/// The parts of a model, the argument of [`Model::new`].
-pub(crate) struct Parts {
-    /// The map from coordinates to points.
-    pub domain: Domain,
-    /// Coordinates of the drawn state.
-    pub drawn: Vec<f64>,
-    /// Terms that enter with their energy.
-    pub soft: Vec<Box<dyn Elements>>,
-    /// Terms that enter with a tension as an unknown for each element.
-    pub stiff: Vec<Box<dyn Elements>>,
-    /// Indices of the coordinates held by pins and by the boundary conditions.
-    pub pinned: Vec<usize>,
-    /// Vertices that move as rigid bodies, on a patch.
-    pub parts: Vec<Part>,
-    /// Linear functions of the coordinates that keep their values.
-    pub supports: Vec<Support>,
-    /// Force on each coordinate; empty without loads.
-    pub loads: Vec<f64>,
-    /// Number of edges of the tiling; the edge numbers of elements are below it.
-    pub edges: usize,
-    /// Unit of length to which the gaps of bars are relative: the mean edge length.
-    pub mean_edge: f64,
-    /// The treatment of rigid motions.
-    pub gauge: Gauge,
-}
-
 impl Model {
-    /// Makes a model of its parts.
-    pub(crate) fn new(parts: Parts) -> Self {
-        let Parts { domain, drawn, soft, stiff, pinned, parts, supports, loads, edges, mean_edge, gauge } = parts;
-        let bodies = Bodies::new(&parts, &drawn);
-        let mut base = drawn.clone();
-        base.resize(base.len() + bodies.coordinates(), 0.0);
-        let (free, layout) = (Vec::new(), Layout::new(Vec::new(), Cliques::new(), Cliques::new()));
-        let (compliance, gap_scale) = (vec![], vec![]);
+    /// Makes a model with the springs of all elements, soft ones first, in the drawn state.
+    pub(super) fn new(equations: Equations, springs: Vec<Spring>, conditions: Conditions) -> Self {
+        let Conditions { pinned, supports, loads } = conditions;
+        let mut base = equations.drawn.clone();
+        base.resize(base.len() + equations.bodies.coordinates(), 0.0);
         let mut model = Self {
-            domain,
+            equations: Arc::new(equations),
+            last: vec![f64::NAN; springs.len()],
+            springs,
             base,
-            drawn,
-            bodies,
             supports,
             pinned,
-            free,
-            soft,
-            stiff,
+            free: vec![],
             loads,
             load_factor: 1.0,
             turning: vec![],
-            layout,
-            compliance,
-            gap_scale,
-            edges,
-            mean_edge,
-            gauge,
+            layout: Layout::new(Vec::new(), Cliques::new(), Cliques::new()),
+            compliance: vec![],
+            gap_scale: vec![],
             units: vec![],
         };
+        model.accept_angles(&model.base[..model.points()].to_vec());
         model.units = model.units_at(&model.base);
         model.count_measures();
         model.choose_unknowns();
@@ -139,16 +132,15 @@ impl Model {
 
     /// Lists compliance and natural size of all stiff measures: those of the terms, then the supports.
     fn count_measures(&mut self) {
-        let springs = self.stiff.iter().flat_map(|term| (0..term.len()).map(|k| (term.is_angle(), term.spring(k))));
-        let of_terms = springs.map(|(angle, spring)| (angle, 1.0 / spring.stiffness));
-        let measures = of_terms.chain(self.supports.iter().map(|support| (support.is_angle, 0.0)));
+        let of_terms = self.stiff().map(|element| (element.is_angle(), 1.0 / element.spring.stiffness));
+        let measures = of_terms.chain(self.supports.iter().map(|support| (support.is_angle, 0.0))).collect::<Vec<_>>();
         (self.gap_scale, self.compliance) =
-            measures.map(|(angle, c)| (if angle { 1.0 } else { self.mean_edge }, c)).unzip();
+            measures.into_iter().map(|(angle, c)| (if angle { 1.0 } else { self.equations.mean_edge }, c)).unzip();
     }
 
     /// Number of the coordinates of points, the first of the generalised coordinates.
     fn points(&self) -> usize {
-        self.base.len() - self.bodies.coordinates()
+        self.base.len() - self.equations.bodies.coordinates()
     }
 
     /// Makes `coordinates` the reference state and chooses the held coordinates anew at that state. Returns its
@@ -169,7 +161,7 @@ impl Model {
     /// Extracts the unknowns from all coordinates. Without rigid parts they may also be rates, of which it extracts
     /// those of the unknowns.
     pub fn unknowns(&self, coordinates: &[f64]) -> Vec<f64> {
-        if self.bodies.is_empty() {
+        if self.equations.bodies.is_empty() {
             return self.extracted(coordinates);
         }
         self.extracted(&self.with_poses(coordinates.to_vec()))
@@ -183,10 +175,10 @@ impl Model {
     /// Completes the coordinates of all points by the poses of parts that are closest to them. Coordinates of poses
     /// that are not free keep their drawn values, zero.
     fn with_poses(&self, mut coordinates: Vec<f64>) -> Vec<f64> {
-        if !self.bodies.is_empty() {
+        if !self.equations.bodies.is_empty() {
             coordinates.resize(self.base.len(), 0.0);
-            self.bodies.find_poses(&mut coordinates, &self.base);
-            self.bodies.place(&mut coordinates);
+            self.equations.bodies.find_poses(&mut coordinates, &self.base);
+            self.equations.bodies.place(&mut coordinates);
         }
         coordinates
     }
@@ -194,13 +186,17 @@ impl Model {
     /// Returns the sizes of the shared unknowns at a state. With [`Gauge::Free`] there are none, since spectra and
     /// ranks are those of the coordinates themselves.
     fn units_at(&self, coordinates: &[f64]) -> Vec<f64> {
-        if self.gauge == Gauge::Free { vec![] } else { self.domain.units(coordinates, self.mean_edge) }
+        if self.equations.gauge == Gauge::Free {
+            vec![]
+        } else {
+            self.equations.domain.units(coordinates, self.equations.mean_edge)
+        }
     }
 
     /// Returns the size of an unknown in units of its coordinate.
     fn unit(&self, coordinate: usize) -> f64 {
         if let Some(pose) = coordinate.checked_sub(self.points()) {
-            return if pose % POSE < 3 { 1.0 } else { 1.0 / self.mean_edge };
+            return if pose % POSE < 3 { 1.0 } else { 1.0 / self.equations.mean_edge };
         }
         let first = self.points() - self.units.len();
         coordinate.checked_sub(first).map_or(1.0, |shared| self.units[shared])
@@ -210,7 +206,7 @@ impl Model {
     pub fn velocity(&self, rates: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.base.len()];
         self.free.iter().zip(rates).for_each(|(&k, rate)| all[k as usize] = *rate * self.unit(k as usize));
-        self.bodies.set_velocities(&self.base, &mut all);
+        self.equations.bodies.set_velocities(&self.base, &mut all);
         all.truncate(self.points());
         all
     }
@@ -218,7 +214,7 @@ impl Model {
     /// Subtracts from velocities of all coordinates the rigid motion of the reference state that is closest to them
     /// on the held coordinates. If coordinates are held only against drift, they have zero velocity afterwards.
     pub(crate) fn without_drift(&self, velocity: &[f64]) -> Vec<f64> {
-        let motions = gauge::rigid_motions(&self.domain, &self.base[..self.points()], true);
+        let motions = gauge::rigid_motions(&self.equations.domain, &self.base[..self.points()], true);
         let held: Vec<usize> = (0..velocity.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
         let rows = nalgebra::DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
         let right = nalgebra::DVector::from_fn(held.len(), |row, _| velocity[held[row]]);
@@ -232,7 +228,7 @@ impl Model {
     /// pinned ones keep those of the drawn state, and angles continue from the last accepted state. Returns the
     /// unknowns.
     pub fn start_from(&mut self, mut coordinates: Vec<f64>) -> Vec<f64> {
-        if !matches!(self.domain, Domain::Screw) {
+        if !matches!(self.equations.domain, Domain::Screw) {
             self.pinned.iter().for_each(|&k| coordinates[k] = self.base[k]);
         }
         self.base = self.with_poses(coordinates);
@@ -260,109 +256,117 @@ impl Model {
     fn generalised(&self, x: &[f64]) -> Vec<f64> {
         let mut all = self.base.clone();
         self.free.iter().zip(x).for_each(|(&k, value)| all[k as usize] = *value * self.unit(k as usize));
-        self.bodies.place(&mut all);
+        self.equations.bodies.place(&mut all);
         all
     }
 
     /// Whether there are loads, supports or rigid parts, or pins other than the coordinates that a screw holds.
     pub(crate) fn held_or_loaded(&self) -> bool {
-        let supported = !self.supports.is_empty() || !self.bodies.is_empty();
-        supported || !self.loads.is_empty() || (!matches!(self.domain, Domain::Screw) && !self.pinned.is_empty())
+        let supported = !self.supports.is_empty() || !self.equations.bodies.is_empty();
+        supported
+            || !self.loads.is_empty()
+            || (!matches!(self.equations.domain, Domain::Screw) && !self.pinned.is_empty())
     }
 
     /// Whether the sheet is a patch without pins, supports, rigid parts and loads.
     pub(crate) fn is_free_patch(&self) -> bool {
-        matches!(self.domain, Domain::Patch) && !self.held_or_loaded()
+        matches!(self.equations.domain, Domain::Patch) && !self.held_or_loaded()
     }
 
     /// Returns the map from coordinates to points.
     pub fn domain(&self) -> &Domain {
-        &self.domain
+        &self.equations.domain
     }
 
     /// Returns the number of edges of the tiling; not every edge needs to have an element.
     pub(crate) fn edges(&self) -> usize {
-        self.edges
+        self.equations.edges
     }
 
-    /// Returns the terms that enter with their energy.
-    pub fn soft(&self) -> &[Box<dyn Elements>] {
-        &self.soft
+    /// Returns all elements, soft ones first.
+    pub fn elements(&self) -> impl Iterator<Item = Element<'_>> {
+        self.soft().chain(self.stiff())
     }
 
-    /// Returns the terms that enter with tensions.
-    pub fn stiff(&self) -> &[Box<dyn Elements>] {
-        &self.stiff
+    /// Returns the elements that enter with their energy.
+    pub fn soft(&self) -> impl Iterator<Item = Element<'_>> {
+        self.elements_of(&self.equations.soft, 0)
     }
 
-    /// Returns the rest values of all elements, soft terms first, and the prescribed values of supports.
+    /// Returns the elements that enter with tensions.
+    pub fn stiff(&self) -> impl Iterator<Item = Element<'_>> {
+        self.elements_of(&self.equations.stiff, self.soft_elements())
+    }
+
+    fn elements_of<'a>(
+        &'a self,
+        terms: &'a [Box<dyn Elements>],
+        first: usize,
+    ) -> impl Iterator<Item = Element<'a>> + 'a {
+        let of_terms = terms.iter().flat_map(|term| (0..term.len()).map(move |index| (term.as_ref(), index)));
+        of_terms.zip(first..).map(|((term, index), number)| self.element(term, index, number))
+    }
+
+    fn element<'a>(&'a self, term: &'a dyn Elements, index: usize, number: usize) -> Element<'a> {
+        let (spring, last) = (self.springs[number], self.last[number]);
+        Element { number, spring, last, domain: &self.equations.domain, term, index }
+    }
+
+    /// Number of elements that enter with their energy.
+    pub fn soft_elements(&self) -> usize {
+        self.equations.soft.iter().map(|term| term.len()).sum()
+    }
+
+    /// Returns the rest values of all elements, soft ones first, and the prescribed values of supports.
     pub(crate) fn rests(&self) -> Vec<f64> {
-        let of_terms = self.terms().flat_map(|term| (0..term.len()).map(|k| term.spring(k).rest));
-        of_terms.chain(self.supports.iter().map(|support| support.rest)).collect()
+        let of_springs = self.springs.iter().map(|spring| spring.rest);
+        of_springs.chain(self.supports.iter().map(|support| support.rest)).collect()
     }
 
-    /// Returns the values of the measures of all elements at the unknowns `x`, soft terms first, and of supports.
+    /// Returns the values of the measures of all elements at the unknowns `x`, soft ones first, and of supports.
     pub fn values(&self, x: &[f64]) -> Vec<f64> {
         let generalised = self.generalised(x);
-        let all = &generalised[..self.points()];
-        let of_terms = self.terms().flat_map(|term| (0..term.len()).map(|k| term.value(k, &self.domain, all)));
-        of_terms.chain(self.supports.iter().map(|support| support.value(&generalised))).collect()
+        let of_elements = self.elements().map(|element| element.value(&generalised[..self.points()]));
+        of_elements.chain(self.supports.iter().map(|support| support.value(&generalised))).collect()
     }
 
     /// Sets the rest values to `origin + part (target - origin)`, and exactly to `target` if `part` is 1. Both lists
-    /// have one value for each element, soft terms first, and one for each support.
+    /// have one value for each element, soft ones first, and one for each support.
     pub(crate) fn set_rests(&mut self, origin: &[f64], target: &[f64], part: f64) {
         let between = |k: usize| if part == 1.0 { target[k] } else { origin[k] + part * (target[k] - origin[k]) };
-        let mut at = 0;
-        for term in self.soft.iter_mut().chain(&mut self.stiff) {
-            for k in 0..term.len() {
-                term.set_spring(k, Spring { rest: between(at), ..term.spring(k) });
-                at += 1;
-            }
-        }
-        self.supports.iter_mut().zip(at..).for_each(|(support, k)| support.rest = between(k));
+        self.springs.iter_mut().zip(0..).for_each(|(spring, k)| spring.rest = between(k));
+        self.supports.iter_mut().zip(self.springs.len()..).for_each(|(support, k)| support.rest = between(k));
     }
 
-    /// Multiplies the stiffness of each element of the soft terms by its factor.
+    /// Multiplies the stiffness of each soft element by its factor.
     pub fn scale_soft(&mut self, factors: &[f64]) {
-        let mut factors = factors.iter();
-        for term in &mut self.soft {
-            for (k, factor) in (0..term.len()).zip(factors.by_ref()) {
-                let spring = term.spring(k);
-                term.set_spring(k, Spring { stiffness: factor * spring.stiffness, ..spring });
-            }
-        }
+        let count = self.soft_elements();
+        self.springs[..count].iter_mut().zip(factors).for_each(|(spring, factor)| spring.stiffness *= factor);
     }
 
-    /// Returns the angles of the last accepted state, from which angles continue.
+    /// Returns the angles of the last accepted state, from which angles continue: those of hinges, soft ones first.
     pub fn angles(&self) -> Vec<f64> {
-        self.terms().flat_map(|term| term.angles().iter().copied()).collect()
+        self.elements().filter(Element::is_angle).map(|element| element.last).collect()
     }
 
     /// Sets the angles from which angles continue, in the order of [`Model::angles`].
     pub(super) fn set_angles(&mut self, angles: &[f64]) {
-        let mut at = 0;
-        for term in self.soft.iter_mut().chain(&mut self.stiff) {
-            let count = term.angles().len();
-            term.set_angles(&angles[at..at + count]);
-            at += count;
-        }
+        let numbers: Vec<usize> = self.elements().filter(Element::is_angle).map(|element| element.number).collect();
+        numbers.into_iter().zip(angles).for_each(|(number, angle)| self.last[number] = *angle);
+    }
+
+    /// Returns the angles of the hinges, in the order of [`Model::angles`], among those of all edges.
+    pub(crate) fn angles_among(&self, fold_angles: &[f64]) -> Vec<f64> {
+        self.elements().filter(Element::is_angle).map(|hinge| fold_angles[hinge.edge()]).collect()
     }
 
     /// Makes the angles continue from these fold angles of the edges; not a number: where there is no hinge.
     pub(crate) fn continue_from(&mut self, fold_angles: &[f64]) {
-        for term in self.soft.iter_mut().chain(&mut self.stiff).filter(|term| term.is_angle()) {
-            let angles: Vec<f64> = (0..term.len()).map(|k| fold_angles[term.edge(k)]).collect();
-            term.set_angles(&angles);
-        }
-    }
-
-    fn terms(&self) -> impl Iterator<Item = &dyn Elements> {
-        self.soft.iter().chain(&self.stiff).map(AsRef::as_ref)
+        self.set_angles(&self.angles_among(fold_angles));
     }
 
     /// Returns the parts that carry loads, with their loads.
     fn loaded_parts(&self) -> Vec<(usize, Vec<(usize, Vec3)>)> {
-        if self.loads.is_empty() { vec![] } else { self.bodies.loaded(&self.loads) }
+        if self.loads.is_empty() { vec![] } else { self.equations.bodies.loaded(&self.loads) }
     }
 }

@@ -11,6 +11,7 @@
 //! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, orders, smaller factors by open cliques |
 //! | [`fronts`] | the sparse `L D L^T`, on several threads |
 //! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
+//! | [`root`] | roots by Newton's method with shortest steps |
 //! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
 //! | [`polynomial`], [`fourier`], [`homotopy`] | roots; trigonometric polynomials; all solutions of quadrics |
 //! | [`parallel`], [`random`] | loops over the caller's threads; random numbers |
@@ -59,6 +60,7 @@ pub mod parallel;
 pub(crate) mod polynomial;
 pub mod random;
 pub(crate) mod rank;
+pub(crate) mod root;
 pub mod sparse;
 pub mod tearing;
 pub mod vector;

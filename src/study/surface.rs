@@ -6,7 +6,7 @@ use super::error::StudyError;
 use super::supported;
 use super::trace::enter_folded;
 use super::{energies, states};
-use crate::analysis::chart::{hinge_angles, screw_coordinates};
+use crate::analysis::chart::screw_coordinates;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
@@ -161,7 +161,7 @@ fn add_files(
     answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
     if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
         add_mesh(answer, context, mesh(context.assembly, surface, &rows), max_curvature);
-        let angles = hinge_angles(&context.assembly.model(Gauge::Held), &last.angles);
+        let angles = context.assembly.model(Gauge::Held).angles_among(&last.angles);
         answer.state = Some(Configuration { coordinates: state.coordinates.clone(), angles, tension: None });
     }
 }

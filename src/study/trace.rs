@@ -7,7 +7,7 @@ use super::states::{self, Shown};
 use super::trajectory::{Path, is_tube, summary};
 use super::{branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
-use crate::analysis::chart::{coordinates_in, hinge_angles};
+use crate::analysis::chart::coordinates_in;
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
@@ -129,7 +129,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
 
 /// Makes the state with these coordinates and fold angles of all edges the reference state of a model, and returns it.
 pub(crate) fn enter_folded(model: &mut Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
-    let folded = Configuration { coordinates, angles: hinge_angles(model, angles), tension: None };
+    let folded = Configuration { coordinates, angles: model.angles_among(angles), tension: None };
     model.enter(&folded);
     state_at(model, folded.coordinates, angles)
 }
@@ -241,7 +241,7 @@ fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option
         (None, Some(folded)) => (coordinates_in(assembly.boundary(), folded), &folded.angles),
         (None, None) => return None,
     };
-    Some(Configuration { coordinates, angles: hinge_angles(model, angles), tension: None })
+    Some(Configuration { coordinates, angles: model.angles_among(angles), tension: None })
 }
 
 /// Returns a relaxed state with the fold angles of all edges.

@@ -122,7 +122,11 @@ fn small_sheets_start_no_threads() {
 /// Returns names and sizes of a model's terms, soft and stiff.
 fn terms(case: &Assembly, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
     let model = case.model_of(terms, Gauge::Held);
-    [model.soft(), model.stiff()].map(|list| list.iter().map(|term| (term.name(), term.len())).collect())
+    let names = [true, false].map(|soft| {
+        let of_list = model.elements().filter(|element| (element.number < model.soft_elements()) == soft);
+        of_list.map(|element| element.kind().name()).collect::<Vec<_>>()
+    });
+    names.map(|names| names.chunk_by(|a, b| a == b).map(|chunk| (chunk[0], chunk.len())).collect())
 }
 
 /// Claim: a model has the requested terms and no others: no hinges for bars only, no bars for hinges only, no facets

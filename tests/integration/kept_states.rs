@@ -24,9 +24,9 @@ fn relaxed(model: &Model, method: Method, keep_every: Option<usize>) -> Relaxed 
 /// The work of the tensions on the gaps of bars that are still open, `sum t (L - L0 - t/k)`, which the merit of a history
 /// counts and the energy of a state does not. `t/k` times `t` is twice the energy of the bars.
 fn work_on_gaps(model: &Model, state: &State) -> f64 {
-    let bars = model.stiff().iter().filter(|term| term.kind() == TermKind::Bars);
-    let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term.edge(k), term.spring(k).rest)));
-    each.map(|(edge, rest)| state.tension[edge] * state.strain[edge] * rest).sum::<f64>() - 2.0 * state.energy_bars
+    let bars = model.stiff().filter(|element| element.kind() == TermKind::Bars);
+    let work = bars.map(|bar| state.tension[bar.edge()] * state.strain[bar.edge()] * bar.spring.rest);
+    work.sum::<f64>() - 2.0 * state.energy_bars
 }
 
 /// The drawn angles of all edges plus those of the folding mode that rolls the star cell about its first lattice vector.

@@ -189,11 +189,10 @@ fn balanced(case: &Assembly, size: f64, seed: u64) -> Vec<f64> {
         sum + numbers.within(1.0) * found.eigenvectors.column(k)
     });
     let moments = size / sum.amax() * sum;
-    let term = &model.stiff()[0];
     let mut rest = vec![0.0; case.edges()];
-    for k in 0..term.len() {
-        let [a, b] = case.tiling().edges[term.edge(k)].ends.map(|site| case.tiling().positions[site.vertex]);
-        rest[term.edge(k)] = moments[k] / (a - b).norm();
+    for (element, moment) in model.stiff().zip(&moments) {
+        let [a, b] = case.tiling().edges[element.edge()].ends.map(|site| case.tiling().positions[site.vertex]);
+        rest[element.edge()] = moment / (a - b).norm();
     }
     rest
 }

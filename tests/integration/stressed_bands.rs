@@ -10,7 +10,7 @@ use foldwell::analysis::bloch::bands::DynamicalMatrix;
 use foldwell::analysis::modes::modes_at;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::Configuration;
-use foldwell::model::{Assembly, Builder, Elements, Gauge, Mass, Model};
+use foldwell::model::{Assembly, Builder, Gauge, Mass, Model};
 use foldwell::sheet::generate::Random;
 use foldwell::solver::Options;
 use foldwell::{Pattern, RIGID, Rest, Sheet, generate};
@@ -39,12 +39,7 @@ fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> Configurati
     let coordinates: Vec<f64> =
         many.drawn().coordinates.iter().enumerate().map(|(k, x)| x + moved[k % moved.len()]).collect();
     let model = many.model(Gauge::Free);
-    let force = |(term, k): (&dyn Elements, usize)| {
-        let spring = term.spring(k);
-        spring.stiffness * (term.value(k, model.domain(), &coordinates) - spring.rest)
-    };
-    let stiff = model.stiff().iter().flat_map(|term| (0..term.len()).map(move |k| (term.as_ref(), k)));
-    let tension = Some(stiff.map(force).collect());
+    let tension = Some(model.stiff().map(|element| element.spring.force(element.value(&coordinates))).collect());
     let angles = model.angles();
     Configuration { coordinates, angles, tension }
 }

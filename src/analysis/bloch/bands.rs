@@ -13,7 +13,7 @@
 use super::BlochError;
 use super::rigidity::power;
 use crate::math::fold_angle::fold_angle_gradient;
-use crate::model::{Elements, Local, Model, Site, Spring};
+use crate::model::{Local, Model, Site};
 use crate::numerics::DenseMatrix;
 use crate::numerics::complex::{ComplexMatrix, hermitian_eigenvalues};
 use crate::numerics::dense::eigenvalue_rounding;
@@ -46,15 +46,14 @@ impl Element {
     }
 
     /// A spring that carries a force, with the first and second derivatives of its measure.
-    fn stretched(term: &dyn Elements, k: usize, local: &Local) -> Self {
-        let Spring { stiffness, rest } = term.spring(k);
-        let corners = term.sites(k).iter().map(|&Site { vertex, shift }| Corner { vertex, shift }).collect();
-        let force = stiffness * (local.value - rest);
+    fn stretched(element: &crate::model::Element<'_>, local: &Local) -> Self {
+        let (stiffness, force) = (element.spring.stiffness, element.spring.force(local.value));
+        let corners = element.sites().iter().map(|&Site { vertex, shift }| Corner { vertex, shift }).collect();
         let second = |row: usize, column: usize| {
             let (low, high) = (row.min(column), row.max(column));
             local.hessian[high * (high + 1) / 2 + low]
         };
-        let n = 3 * term.sites(k).len();
+        let n = local.gradient.len();
         let hessian = DenseMatrix::from_fn(n, n, |row, column| {
             stiffness * (local.gradient[row] * local.gradient[column]) + force * second(row, column)
         });
@@ -110,14 +109,12 @@ impl DynamicalMatrix {
     /// [`BlochError::RigidElement`] where an element has no finite stiffness.
     pub fn of_state(model: &Model, coordinates: &[f64]) -> Result<Self, BlochError> {
         let (mut elements, mut local) = (Vec::new(), Local::default());
-        for term in model.soft().iter().chain(model.stiff()) {
-            for k in 0..term.len() {
-                if term.spring(k).stiffness.is_infinite() {
-                    return Err(BlochError::RigidElement { kind: term.name() });
-                }
-                term.local(k, model.domain(), coordinates, true, &mut local);
-                elements.push(Element::stretched(term.as_ref(), k, &local));
+        for element in model.elements() {
+            if element.spring.stiffness.is_infinite() {
+                return Err(BlochError::RigidElement { kind: element.kind().name() });
             }
+            element.local(coordinates, true, &mut local);
+            elements.push(Element::stretched(&element, &local));
         }
         Ok(Self { vertices: (coordinates.len() - model.domain().shared()) / 3, elements })
     }

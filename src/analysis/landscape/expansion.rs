@@ -75,9 +75,8 @@ impl Expansion {
 
 /// The second, third and fourth powers of all measures, soft ones and stiff ones, along a path of all coordinates.
 fn powers(model: &Model, path: &[&[f64]; 3]) -> [TermValues; 3] {
-    let of = |power: usize, terms: &[Box<dyn crate::model::Elements>]| -> Vec<f64> {
-        let elements = terms.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-        elements.map(|(term, k)| term.along(k, model.domain(), path).0[power]).collect()
-    };
-    [2, 3, 4].map(|power| (of(power, model.soft()), of(power, model.stiff())))
+    let series: Vec<_> = model.elements().map(|element| element.along(path).0).collect();
+    let (soft, stiff) = series.split_at(model.soft_elements());
+    let of = |power: usize, series: &[[f64; 5]]| series.iter().map(|series| series[power]).collect();
+    [2, 3, 4].map(|power| (of(power, soft), of(power, stiff)))
 }

@@ -2,7 +2,7 @@
 
 use super::{HeldState, LandscapeError};
 use crate::kinematics::FoldingModes;
-use crate::model::{Assembly, Boundary, Configuration, Model};
+use crate::model::{Assembly, Boundary, Configuration, Element, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
 use crate::solver::Problem;
@@ -62,14 +62,8 @@ impl HeldSheet {
         locked: &[usize],
         repeating: impl Fn(usize) -> usize,
     ) -> Result<Self, LandscapeError> {
-        let floats = |term: &dyn crate::model::Elements, k: usize| {
-            let soft = term.is_angle() && term.spring(k).stiffness.is_finite();
-            soft.then(|| repeating(term.edge(k)))
-        };
-        let terms = model.soft().iter().chain(model.stiff());
-        let repeating = terms
-            .flat_map(|term| (0..term.len()).map(|k| floats(term.as_ref(), k)).collect::<Vec<_>>())
-            .collect::<Vec<_>>();
+        let floats = |element: Element<'_>| element.is_elastic_hinge().then(|| repeating(element.edge()));
+        let repeating = model.elements().map(floats).collect();
         let free = across(&basis, locked)?;
         let motions = motions.iter().map(|motion| model.without_drift(motion)).collect();
         let (rests, drawn) = (model.rests(), model.configuration(&model.start(), None));
@@ -130,10 +124,8 @@ impl HeldSheet {
     /// Stiffness of the hinge over every edge of the repeating piece, per radian; zero where none is soft.
     pub fn stiffness(&self) -> Vec<f64> {
         let mut all = vec![0.0; self.basis.nrows()];
-        let terms = self.model.soft().iter().chain(self.model.stiff());
-        let springs = terms.flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
-        for (edge, stiffness) in self.repeating.iter().zip(springs) {
-            edge.iter().for_each(|&edge| all[edge] = stiffness);
+        for (edge, element) in self.repeating.iter().zip(self.model.elements()) {
+            edge.iter().for_each(|&edge| all[edge] = element.spring.stiffness);
         }
         all
     }

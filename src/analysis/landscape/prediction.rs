@@ -12,7 +12,7 @@
 
 use super::settling::{self, Settling, TermValues};
 use super::{HeldSheet, LandscapeError};
-use crate::model::{Elements, Model};
+use crate::model::Model;
 use crate::numerics::DenseMatrix;
 use crate::solver::{HessianKind, Problem};
 use nalgebra::DVector;
@@ -99,14 +99,12 @@ fn each_curvature(model: &Model, v: &[f64], mut call: impl FnMut(usize, &[usize]
     let x = model.coordinates(&model.start());
     let shared = x.len() - model.domain().shared()..x.len();
     let mut local = Default::default();
-    let terms: [&[Box<dyn Elements>]; 2] = [model.soft(), model.stiff()];
-    let elements = terms.into_iter().flatten().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    for (element, (term, k)) in elements.enumerate() {
-        term.local(k, model.domain(), &x, true, &mut local);
-        let vertices = term.sites(k).iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
+    for element in model.elements() {
+        element.local(&x, true, &mut local);
+        let vertices = element.sites().iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
         let places: Vec<usize> = vertices.chain(shared.clone()).collect();
         let moving: Vec<f64> = places.iter().map(|&place| v[place]).collect();
-        call(element, &places, &product(&local.hessian, &moving));
+        call(element.number, &places, &product(&local.hessian, &moving));
     }
 }
 

@@ -154,20 +154,17 @@ impl<'a> Samples<'a> {
 
 /// The energy of all soft elements if each were off its rest value by the rounding of its value.
 fn rounding(held: &HeldSheet, place: &HeldState) -> f64 {
-    let terms = held.model.soft().iter();
-    let stiffness = terms.flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
     let off = |value: &f64| ROUNDINGS * f64::EPSILON * value.abs().max(1.0);
-    stiffness.zip(held.model.values(&place.x)).map(|(k, value)| 0.5 * k * off(&value).powi(2)).sum()
+    let soft = held.model.soft().zip(held.model.values(&place.x));
+    soft.map(|(element, value)| 0.5 * element.spring.stiffness * off(&value).powi(2)).sum()
 }
 
 /// The largest torque on a direction of rest angles, over its size.
 fn unbalanced(held: &HeldSheet, directions: &[TermValues], place: &HeldState) -> f64 {
     let model = &held.model;
-    let stiffness = model.soft().iter().flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
-    let values = model.values(&place.x);
-    let off = values.iter().zip(model.rests()).map(|(value, rest)| value - rest);
+    let springs = model.soft().map(|element| element.spring.stiffness).zip(model.off_rest(&place.x));
     let (torques, least): (Vec<f64>, Vec<f64>) =
-        stiffness.zip(off).map(|(k, off)| (k * off, k * off.abs().max(LEAST_ANGLE))).unzip();
+        springs.map(|(k, off)| (k * off, k * off.abs().max(LEAST_ANGLE))).unzip();
     let sum = |soft: &[f64], stiff: &[f64], weigh: fn(f64) -> f64| -> DVector<f64> {
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weigh(a * b)).sum::<f64>();
         DVector::from_vec(directions.iter().map(|(on, along)| product(soft, on) + product(stiff, along)).collect())

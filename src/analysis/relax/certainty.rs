@@ -2,6 +2,7 @@
 
 use super::rigid_forces::rigid_over_others;
 use crate::model::{Domain, Model};
+use crate::numerics::vector::max_abs;
 use crate::solver::{Equilibrium, HessianKind, Problem, Tangent};
 
 /// Largest angle, in radians, by which a converged state may still be off.
@@ -46,8 +47,5 @@ pub(super) fn next_change(tangent: &mut Tangent, tension: &[f64]) -> Option<f64>
 
 /// The largest angle between a soft hinge and its rest, in radians.
 pub(super) fn off_rest(model: &Model, x: &[f64]) -> f64 {
-    let coordinates = model.coordinates(x);
-    let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    let off = hinges.map(|(term, k)| term.value(k, model.domain(), &coordinates) - term.spring(k).rest);
-    off.fold(0.0, |largest, off| largest.max(off.abs()))
+    max_abs(&model.off_rest(x))
 }

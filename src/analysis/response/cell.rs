@@ -2,7 +2,7 @@
 
 use super::error::ResponseError;
 use crate::math::Vec3;
-use crate::model::{Assembly, Domain, Elements, Model, Site};
+use crate::model::{Assembly, Domain, Element, Model, Site};
 use crate::sheet::{Corner, Sheet};
 
 /// Rotation of a cell in radians below which the state counts as spatially periodic: the axis of a screw is known to
@@ -29,12 +29,10 @@ pub(super) struct PeriodicCell {
     pub coordinates: Vec<f64>,
 }
 
-/// An element of the cell: a term of the model, and the number of the element in it.
+/// An element of the cell.
 pub(super) struct CellElement<'a> {
-    /// The term.
-    pub term: &'a dyn Elements,
-    /// Number of the element in the term.
-    pub number: usize,
+    /// The element of the model, with its points on the torus of the state.
+    pub element: Element<'a>,
     /// Vertices of the cell and their cells at the points of the element.
     pub places: Vec<Site>,
 }
@@ -86,13 +84,12 @@ impl PeriodicCell {
     fn check_even(&self, assembly: &Assembly) -> Result<(), ResponseError> {
         let edges = &assembly.tiling().edges;
         let close = |a: f64, b: f64| a == b || (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(1.0);
-        for element in self.elements(assembly) {
-            let (term, spring) = (element.term, element.term.spring(element.number));
-            let edge = edges[term.edge(element.number)].edge;
-            let same = (0..term.len()).filter(|&k| edges[term.edge(k)].edge == edge).collect::<Vec<_>>();
-            let even = |k: &usize| {
-                let other = term.spring(*k);
-                close(spring.stiffness, other.stiffness) && close(spring.rest, other.rest)
+        for CellElement { element, .. } in self.elements(assembly) {
+            let (spring, edge) = (element.spring, edges[element.edge()].edge);
+            let same = self.model.elements().filter(|other| other.kind() == element.kind());
+            let same: Vec<_> = same.filter(|other| edges[other.edge()].edge == edge).collect();
+            let even = |other: &Element<'_>| {
+                close(spring.stiffness, other.spring.stiffness) && close(spring.rest, other.spring.rest)
             };
             if same.len() % (self.cells[0] * self.cells[1]) != 0 || !same.iter().all(even) {
                 return Err(ResponseError::UnevenCells { edge });
@@ -109,14 +106,12 @@ impl PeriodicCell {
             let shift = [0, 1].map(|k| cell[k] as i32 + site.shift[k] * self.cells[k] as i32);
             Site { vertex: site.vertex % vertices, shift }
         };
-        let mut found = Vec::new();
-        for term in self.model.soft().iter().chain(self.model.stiff()) {
-            for number in (0..term.len()).filter(|&k| edges[term.edge(k)].cell == [0, 0]) {
-                let places = term.sites(number).iter().map(place).collect();
-                found.push(CellElement { term: term.as_ref(), number, places });
-            }
-        }
-        found
+        let here = self.model.elements().filter(|element| edges[element.edge()].cell == [0, 0]);
+        let placed = |element: Element<'a>| {
+            let places = element.sites().iter().map(place).collect();
+            CellElement { element: element.on(&self.domain), places }
+        };
+        here.map(placed).collect()
     }
 
     /// Area of the cell, between the lattice vectors.

@@ -38,8 +38,8 @@ pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates 
     let moving: Vec<[Moving; 2]> = (0..MACROSCOPIC).map(|component| lattice_motions(cell, component)).collect();
     let mut local = Local::default();
     for (row, element) in elements.iter().enumerate() {
-        element.term.local(element.number, &cell.domain, &cell.coordinates, false, &mut local);
-        let unit = if element.term.is_angle() { length } else { 1.0 };
+        element.element.local(&cell.coordinates, false, &mut local);
+        let unit = if element.element.is_angle() { length } else { 1.0 };
         for (k, place) in element.places.iter().enumerate() {
             let gradient = Vec3::from_column_slice(&local.gradient[3 * k..3 * k + 3]) * unit;
             terms = larger(terms, gradient.amax());

@@ -77,7 +77,7 @@ impl Springs {
         let (area, found) = (cell.area(), rates(cell, elements));
         let (length, units) = (area.sqrt(), units(area.sqrt()));
         let vertices = found.by_vertices.ncols() - 3;
-        let angle = |row: usize| elements[row].term.is_angle();
+        let angle = |row: usize| elements[row].element.is_angle();
         // lengths in units of `length`; vertex 0 does not move
         let rows = DenseMatrix::from_fn(elements.len(), vertices + MACROSCOPIC, |row, column| {
             match column.checked_sub(vertices) {
@@ -86,7 +86,7 @@ impl Springs {
             }
         });
         let spring = |row: usize| {
-            let spring = elements[row].term.spring(elements[row].number);
+            let spring = elements[row].element.spring;
             let unit = if angle(row) { 1.0 } else { area };
             (row, unit * spring.stiffness, unit * spring.rest.recip())
         };

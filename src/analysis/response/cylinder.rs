@@ -106,13 +106,11 @@ impl<'a> Rolled<'a> {
         let mut rates = vec![0.0; self.assembly.sheet().edges.len()];
         let mut local = Local::default();
         let shared = &velocity[velocity.len() - self.domain().shared()..];
-        for term in self.hinges.stiff().iter().chain(self.hinges.soft()) {
-            for k in 0..term.len() {
-                term.local(k, self.domain(), &self.coordinates, false, &mut local);
-                let points = term.sites(k).iter().flat_map(|site| &velocity[3 * site.vertex..3 * site.vertex + 3]);
-                let rate = points.chain(shared).zip(&local.gradient).map(|(v, g)| v * g).sum();
-                rates[self.assembly.tiling().edges[term.edge(k)].edge] = rate;
-            }
+        for hinge in self.hinges.elements() {
+            hinge.local(&self.coordinates, false, &mut local);
+            let points = hinge.sites().iter().flat_map(|site| &velocity[3 * site.vertex..3 * site.vertex + 3]);
+            let rate = points.chain(shared).zip(&local.gradient).map(|(v, g)| v * g).sum();
+            rates[self.assembly.tiling().edges[hinge.edge()].edge] = rate;
         }
         rates
     }

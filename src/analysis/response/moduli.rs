@@ -97,11 +97,11 @@ pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<Mo
 }
 
 /// Returns how far an element of finite stiffness is off its rest value: an angle in radians, or a length relative to it.
-fn off_rest(cell: &PeriodicCell, element: &CellElement<'_>) -> f64 {
-    let spring = element.term.spring(element.number);
+fn off_rest(cell: &PeriodicCell, CellElement { element, .. }: &CellElement<'_>) -> f64 {
+    let spring = element.spring;
     if spring.stiffness.is_infinite() {
         return 0.0;
     }
-    let off = element.term.value(element.number, &cell.domain, &cell.coordinates) - spring.rest;
-    if element.term.is_angle() { off.abs() } else { off.abs() / spring.rest }
+    let off = element.value(&cell.coordinates) - spring.rest;
+    if element.is_angle() { off.abs() } else { off.abs() / spring.rest }
 }

@@ -379,7 +379,6 @@ fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Opti
     if !assembly.terms().loads.is_empty() || flatten(assembly.sheet()).is_err() {
         return None;
     }
-    let springs = assembly.model(Gauge::Held).hinge_springs();
-    let energy = springs.iter().map(|spring| 0.5 * spring.stiffness * spring.rest * spring.rest).sum::<f64>();
+    let energy = assembly.model(Gauge::Held).elastic_hinges().map(|hinge| hinge.spring.energy(0.0)).sum::<f64>();
     ((energy - limit.energy).abs() <= ERRORS_OF_LIMIT * limit.error).then_some(energy)
 }

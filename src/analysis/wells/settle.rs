@@ -41,11 +41,9 @@ impl MinimumTracker {
     /// The settler of an assembly; what holds it near fold angles is `strength` times as stiff as its creases.
     pub fn new(assembly: &Assembly, strength: f64) -> Self {
         let model = assembly.model(Gauge::Held);
-        let hinges = model.elastic_hinges();
-        let (rest, stiffness) = model.hinge_springs().iter().map(|spring| (spring.rest, spring.stiffness)).unzip();
-        let soft: usize = model.soft().iter().map(|term| term.len()).sum();
-        let mut is_hinge = vec![false; model.compliance().len()];
-        hinges.iter().filter_map(|number| number.checked_sub(soft)).for_each(|measure| is_hinge[measure] = true);
+        let hinges = model.elastic_hinges().map(|hinge| hinge.number).collect();
+        let (rest, stiffness) = model.elastic_hinges().map(|hinge| (hinge.spring.rest, hinge.spring.stiffness)).unzip();
+        let is_hinge = model.stiff().map(|element| element.is_elastic_hinge()).collect();
         Self { model, strength, hinges, rest, stiffness, is_hinge, work: Work::new(assembly) }
     }
 

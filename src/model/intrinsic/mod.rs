@@ -15,7 +15,7 @@ mod unsupported;
 mod word;
 
 use super::configuration::Configuration;
-use super::element::{Elements, TermKind};
+use super::element::{Element, TermKind};
 use super::problem::Model;
 use crate::numerics::sparse::FIXED;
 use crate::solver::constrained::{Block, Blocks, ConstrainedProblem};
@@ -96,12 +96,10 @@ impl IntrinsicModel {
     pub fn variables(&self, model: &Model, x: &[f64]) -> Vec<f64> {
         let mut z = self.target.clone();
         let all = model.coordinates(x);
-        for term in model.soft().iter().chain(model.stiff()) {
-            let values = if term.is_angle() { &self.angles } else { &self.lengths };
-            for k in 0..term.len() {
-                if let Value::Variable(variable) = values[term.edge(k)] {
-                    z[variable as usize] = term.value(k, model.domain(), &all);
-                }
+        for element in model.elements() {
+            let values = if element.is_angle() { &self.angles } else { &self.lengths };
+            if let Value::Variable(variable) = values[element.edge()] {
+                z[variable as usize] = element.value(&all);
             }
         }
         z
@@ -154,16 +152,9 @@ impl IntrinsicModel {
     /// tensions that balance. Returns the start of a minimisation from there.
     pub fn hand_over(&self, model: &mut Model, z: &[f64], multipliers: &[f64]) -> Start {
         let FoldedUp { coordinates, angles, torques, forces, .. } = self.folded_up(model, z, multipliers);
-        let continued = terms(model)
-            .filter(|term| !term.angles().is_empty())
-            .flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<f64>>())
-            .collect();
-        let tension = model.stiff().iter().flat_map(|term| {
-            let of_edges = if term.is_angle() { &torques } else { &forces };
-            (0..term.len()).map(|k| of_edges[term.edge(k)]).collect::<Vec<f64>>()
-        });
-        let tension = Some(tension.collect());
-        model.enter(&Configuration { coordinates, angles: continued, tension })
+        let force = |element: Element<'_>| if element.is_angle() { &torques } else { &forces }[element.edge()];
+        let tension = Some(model.stiff().map(force).collect());
+        model.enter(&Configuration { coordinates, angles: model.angles_among(&angles), tension })
     }
 }
 
@@ -201,10 +192,6 @@ impl ConstrainedProblem for IntrinsicModel {
     }
 }
 
-fn terms(model: &Model) -> impl Iterator<Item = &dyn Elements> {
-    model.soft().iter().chain(model.stiff()).map(AsRef::as_ref)
-}
-
 /// The laws of all bars and hinges by their edges, and the topology that follows from their vertices.
 struct Collected {
     bars: Vec<Law>,
@@ -218,22 +205,19 @@ impl Collected {
         let edges = model.edges();
         let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
         let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
-        for term in terms(model) {
-            for k in 0..term.len() {
-                let (edge, spring) = (term.edge(k), term.spring(k));
-                let law = Law { rest: spring.rest, compliance: 1.0 / spring.stiffness };
-                match (term.kind(), term.sites(k)) {
-                    (TermKind::Bars, &[i, j]) => {
-                        bars[edge] = Some(law);
-                        ends[edge] = [i.vertex, j.vertex];
-                    }
-                    (TermKind::Creases | TermKind::Facets | TermKind::Locks, &[i, j, left, right]) => {
-                        let lock = term.kind() == TermKind::Locks;
-                        hinges[edge] = if lock { Some(law) } else { hinges[edge].or(Some(law)) };
-                        wings.push([i, j, left, right].map(|site| site.vertex));
-                    }
-                    _ => return Err(Unsupported::Topology),
+        for element in model.elements() {
+            let (edge, kind) = (element.edge(), element.kind());
+            let law = Law { rest: element.spring.rest, compliance: 1.0 / element.spring.stiffness };
+            match (kind, element.sites()) {
+                (TermKind::Bars, &[i, j]) => {
+                    bars[edge] = Some(law);
+                    ends[edge] = [i.vertex, j.vertex];
                 }
+                (TermKind::Creases | TermKind::Facets | TermKind::Locks, &[i, j, left, right]) => {
+                    hinges[edge] = if kind == TermKind::Locks { Some(law) } else { hinges[edge].or(Some(law)) };
+                    wings.push([i, j, left, right].map(|site| site.vertex));
+                }
+                _ => return Err(Unsupported::Topology),
             }
         }
         let missing = |edge: usize| Unsupported::NoBar { edge };

@@ -18,7 +18,7 @@ pub(super) const POSE: usize = 6;
 
 /// The parts of a model.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Bodies {
+pub(crate) struct Bodies {
     bodies: Vec<Body>,
     /// Number of the part of every vertex; empty without parts.
     part_of: Vec<Option<usize>>,
@@ -35,7 +35,7 @@ struct Body {
 
 impl Bodies {
     /// Makes the parts of a patch whose vertices have these coordinates in the drawn state.
-    pub(super) fn new(parts: &[Part], drawn: &[f64]) -> Self {
+    pub(crate) fn new(parts: &[Part], drawn: &[f64]) -> Self {
         if parts.is_empty() {
             return Self::default();
         }

@@ -3,9 +3,9 @@
 mod axis;
 mod effect;
 
-use super::{Model, POSE, Spring, Support};
+use super::{Model, POSE, Support};
 use crate::model::drive::{Drive, DriveError, Driven};
-use crate::model::element::{Elements, Local, TermKind};
+use crate::model::element::{Element, Local, TermKind};
 use crate::numerics::vector::dot;
 use crate::solver::path::{ParametrizedProblem, Rates};
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem};
@@ -57,9 +57,10 @@ impl DrivenModel {
                 (Effect::Loads { origin }, begin, drive.to)
             }
             Driven::Lock(edges) => {
-                let locks = model.numbered_stiff(TermKind::Locks, |edge| edges.contains(&edge));
-                let from = locks.first().map(|(_, spring)| spring.rest).ok_or(DriveError::NotLocked)?;
-                let offsets = locks.iter().map(|(k, spring)| (*k, spring.rest - from)).collect();
+                let locks = model.stiff_of(TermKind::Locks).filter(|(_, lock)| edges.contains(&lock.edge()));
+                let locks: Vec<(usize, f64)> = locks.map(|(measure, lock)| (measure, lock.spring.rest)).collect();
+                let from = locks.first().map(|(_, rest)| *rest).ok_or(DriveError::NotLocked)?;
+                let offsets = locks.iter().map(|(k, rest)| (*k, rest - from)).collect();
                 (Effect::Prescribed(offsets), from, drive.to)
             }
             Driven::Rest => (Effect::rest(&model, drawn), begin, drive.to),
@@ -136,10 +137,10 @@ impl Model {
         let mut rates = vec![0.0; self.free.len()];
         let all = self.generalised(x);
         let points = self.points();
-        let mut of_poses = vec![0.0; self.bodies.coordinates()];
+        let mut of_poses = vec![0.0; self.equations.bodies.coordinates()];
         let mut local = Local::default();
         for (part, forces) in self.loaded_parts() {
-            self.bodies.load(part, &forces, &all, &mut local);
+            self.equations.bodies.load(part, &forces, &all, &mut local);
             of_poses[POSE * part..POSE * (part + 1)].copy_from_slice(&local.gradient);
         }
         for (rate, &k) in rates.iter_mut().zip(&self.free) {
@@ -161,43 +162,23 @@ impl Model {
         self.choose_unknowns();
     }
 
-    /// Returns the springs of the stiff elements of a kind on these edges, each with its number among the measures.
-    fn numbered_stiff(&self, kind: TermKind, on: impl Fn(usize) -> bool) -> Vec<(usize, Spring)> {
-        let all = self.stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-        let wanted = all.enumerate().filter(|(_, (term, k))| term.kind() == kind && on(term.edge(*k)));
-        wanted.map(|(number, (term, k))| (number, term.spring(k))).collect()
+    /// Returns the stiff elements of a kind, each with its number among the stiff measures.
+    pub(super) fn stiff_of(&self, kind: TermKind) -> impl Iterator<Item = (usize, Element<'_>)> {
+        self.stiff().enumerate().filter(move |(_, element)| element.kind() == kind)
     }
 
     /// Returns the length in the drawn state between the first two points of an element: of its edge.
-    pub(super) fn length_of(&self, term: &dyn Elements, k: usize) -> f64 {
-        let sites = term.sites(k);
-        (self.domain.point(&self.drawn, sites[1]) - self.domain.point(&self.drawn, sites[0])).norm()
-    }
-
-    fn length_of_stiff(&self, number: usize) -> f64 {
-        let mut all = self.stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-        all.nth(number).map_or(f64::NAN, |(term, k)| self.length_of(term.as_ref(), k))
+    pub(super) fn length_of(&self, element: &Element<'_>) -> f64 {
+        let [from, to] = [0, 1].map(|n| self.equations.domain.point(&self.equations.drawn, element.sites()[n]));
+        (to - from).norm()
     }
 
     /// Sets the prescribed value of a stiff measure: the rest value of an element, or that of a support.
     fn prescribe(&mut self, measure: usize, rest: f64) {
-        let mut left = measure;
-        for term in &mut self.stiff {
-            if left < term.len() {
-                return term.set_spring(left, Spring { rest, ..term.spring(left) });
-            }
-            left -= term.len();
-        }
-        self.supports[left].rest = rest;
-    }
-
-    fn set_soft_stiffness(&mut self, number: usize, stiffness: f64) {
-        let mut left = number;
-        for term in &mut self.soft {
-            if left < term.len() {
-                return term.set_spring(left, Spring { stiffness, ..term.spring(left) });
-            }
-            left -= term.len();
+        let number = self.soft_elements() + measure;
+        match number.checked_sub(self.springs.len()) {
+            None => self.springs[number].rest = rest,
+            Some(support) => self.supports[support].rest = rest,
         }
     }
 }
@@ -238,7 +219,7 @@ impl ParametrizedProblem for DrivenModel {
             Effect::Loads { .. } => model.load_factor = value,
             Effect::Rest { drawn, given } => model.set_rests(drawn, given, value),
             Effect::Compliance(units) => units.iter().for_each(|(k, unit)| model.compliance[*k] = value * unit),
-            Effect::Stiffness(units) => units.iter().for_each(|(k, unit)| model.set_soft_stiffness(*k, value * unit)),
+            Effect::Stiffness(units) => units.iter().for_each(|(k, unit)| model.springs[*k].stiffness = value * unit),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Model, POSE};
 use crate::model::Site;
-use crate::model::element::{Elements, Local};
+use crate::model::element::{Element, Elements, Local};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -20,9 +20,9 @@ const SHORTEST_ARMS: f64 = 1e4;
 /// element and no load gives forces a size.
 const LEAST_GAP: f64 = 1e-3;
 
-/// Returns the terms, each with the number of its first element among the elements of all terms.
-fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn Elements)> {
-    let mut end = 0;
+/// Returns the terms, each with the number of its first element, which is this one for the first of them.
+fn numbered(terms: &[Box<dyn Elements>], first: usize) -> impl Iterator<Item = (usize, &dyn Elements)> {
+    let mut end = first;
     terms.iter().map(move |term| {
         end += term.len();
         (end - term.len(), term.as_ref())
@@ -43,7 +43,7 @@ impl Problem for Model {
     }
 
     fn unit_of_length(&self) -> f64 {
-        self.mean_edge
+        self.equations.mean_edge
     }
 
     fn largest_change(&self) -> f64 {
@@ -53,11 +53,10 @@ impl Problem for Model {
     fn energy(&self, x: &[f64]) -> f64 {
         let all = self.coordinates(x);
         let mut energy = -self.load_factor * self.load_displacement(&all);
-        for term in &self.soft {
+        for (first, term) in numbered(&self.equations.soft, 0) {
             let cost = |k: usize, energy: &mut f64| {
-                let spring = term.spring(k);
-                let off = term.value(k, &self.domain, &all) - spring.rest;
-                *energy = 0.5 * spring.stiffness * off * off;
+                let element = self.element(term, k, first + k);
+                *energy = element.spring.energy(element.value(&all));
             };
             parallel::compute_and_consume(term.len(), cost, |_, value| energy += value);
         }
@@ -68,8 +67,11 @@ impl Problem for Model {
         let generalised = self.generalised(x);
         let all = &generalised[..self.points()];
         let mut gaps = Vec::with_capacity(self.compliance.len());
-        for term in &self.stiff {
-            let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, all) - term.spring(k).rest;
+        for (first, term) in numbered(&self.equations.stiff, self.soft_elements()) {
+            let gap = |k: usize, gap: &mut f64| {
+                let element = self.element(term, k, first + k);
+                *gap = element.value(all) - element.spring.rest;
+            };
             parallel::compute_and_consume(term.len(), gap, |_, gap| gaps.push(*gap));
         }
         gaps.extend(self.supports.iter().map(|support| support.value(&generalised) - support.rest));
@@ -97,7 +99,7 @@ impl Problem for Model {
         let mut all = self.generalised(x);
         let points = self.points();
         self.accept_angles(&all[..points]);
-        let moved = self.domain.recentre(&mut all[..points], self.mean_edge);
+        let moved = self.equations.domain.recentre(&mut all[..points], self.equations.mean_edge);
         let units = self.units_at(&all[..points]);
         if moved || units != self.units {
             self.units = units;
@@ -119,10 +121,9 @@ impl Problem for Model {
 
 impl Model {
     /// Lets fold angles continue from the state with these coordinates; the unknowns and their units stay as they are.
-    pub(super) fn accept_angles(&mut self, points: &[f64]) {
-        for term in self.soft.iter_mut().chain(&mut self.stiff) {
-            term.accept(&self.domain, points);
-        }
+    pub(in crate::model) fn accept_angles(&mut self, points: &[f64]) {
+        let value = |element: Element<'_>| if element.is_angle() { element.value(points) } else { f64::NAN };
+        self.last = self.elements().map(value).collect();
     }
 
     /// Displacement of the loads, each along its force and weighted by it, from the origin; the energy falls by it times
@@ -143,7 +144,7 @@ impl Model {
         let first = self.soft_elements();
         let mut local = Local::default();
         for (number, (part, forces)) in self.loaded_parts().into_iter().enumerate() {
-            self.bodies.load(part, &forces, all, &mut local);
+            self.equations.bodies.load(part, &forces, all, &mut local);
             Self::scale(&mut local, &self.pose_units());
             let (gradient, hessian) = (&local.gradient, &local.hessian);
             // its measure is the potential itself, of stiffness zero
@@ -153,7 +154,7 @@ impl Model {
 
     /// Sizes of the unknowns of a pose in units of its coordinates.
     fn pose_units(&self) -> [f64; POSE] {
-        let angle = 1.0 / self.mean_edge;
+        let angle = 1.0 / self.equations.mean_edge;
         [1.0, 1.0, 1.0, angle, angle, angle]
     }
 
@@ -167,10 +168,10 @@ impl Model {
 
     fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
         let full = kind == HessianKind::Full;
-        for (first, term) in numbered(&self.soft) {
+        for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
             let add = |k: usize, local: &Local| {
-                let spring = term.spring(k);
+                let spring = self.springs[first + k];
                 let off = local.value - spring.rest;
                 let force = spring.stiffness * off;
                 out.energy += 0.5 * force * off;
@@ -179,26 +180,27 @@ impl Model {
                 let (gradient, hessian) = (&local.gradient, &local.hessian);
                 out.add_soft(first + k, &SoftElement { stiffness: spring.stiffness, force, gradient, hessian });
             };
-            parallel::compute_and_consume(term.len(), self.locals(term, all, full), add);
+            parallel::compute_and_consume(term.len(), self.locals((first, term), all, full), add);
         }
     }
 
     fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
-        let sizes = self.gap_scale.iter().map(|scale| scale / self.mean_edge);
+        let sizes = self.gap_scale.iter().map(|scale| scale / self.equations.mean_edge);
         out.sizes.iter_mut().zip(sizes).for_each(|(out, size)| *out = size);
-        for (first, term) in numbered(&self.stiff) {
+        let soft = self.soft_elements();
+        for (first, term) in numbered(&self.equations.stiff, soft) {
             let most = self.most_arm(term);
             let add = |k: usize, local: &Local| {
-                let measure = first + k;
-                out.gaps[measure] = local.value - term.spring(k).rest;
+                let measure = first + k - soft;
+                out.gaps[measure] = local.value - self.springs[first + k].rest;
                 let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * tension[measure].abs());
                 out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
                 out.add_stiff(measure, tension[measure], &local.hessian);
             };
-            parallel::compute_and_consume(term.len(), self.locals(term, all, true), add);
+            parallel::compute_and_consume(term.len(), self.locals((first, term), all, true), add);
         }
-        if self.soft.is_empty() && self.loads.is_empty() {
+        if self.equations.soft.is_empty() && self.loads.is_empty() {
             out.largest_force = out.largest_force.max(self.least_force(out));
         }
     }
@@ -206,7 +208,7 @@ impl Model {
     /// Largest gradient of a measure that counts where forces are given a size: those of angles grow without bound as a triangle
     /// collapses, and would hide every other force.
     fn most_arm(&self, term: &dyn Elements) -> f64 {
-        if term.is_angle() { SHORTEST_ARMS / self.mean_edge } else { f64::INFINITY }
+        if term.is_angle() { SHORTEST_ARMS / self.equations.mean_edge } else { f64::INFINITY }
     }
 
     /// Returns the force to which those of a model without soft elements and loads are relative where all of them
@@ -236,17 +238,17 @@ impl Model {
     /// into a [`Local`].
     fn locals<'a>(
         &'a self,
-        term: &'a dyn Elements,
+        (first, term): (usize, &'a dyn Elements),
         all: &'a [f64],
         want_hessian: bool,
     ) -> impl Fn(usize, &mut Local) + Sync + Send + 'a {
         let points = &all[..self.points()];
         move |k, local| {
-            term.local(k, &self.domain, points, want_hessian, local);
+            self.element(term, k, first + k).local(points, want_hessian, local);
             local.measure_in(&self.units);
-            if self.bodies.touch(term.sites(k)) {
-                self.bodies.pull(term.sites(k), all, local);
-                let of_point = |site: &Site| match self.bodies.part_of(site.vertex) {
+            if self.equations.bodies.touch(term.sites(k)) {
+                self.equations.bodies.pull(term.sites(k), all, local);
+                let of_point = |site: &Site| match self.equations.bodies.part_of(site.vertex) {
                     Some(_) => self.pose_units().to_vec(),
                     None => vec![1.0; 3],
                 };

@@ -18,7 +18,7 @@ impl Model {
     pub(crate) fn kept(&self, coordinates: &[f64]) -> Vec<Kept> {
         let mut generalised = coordinates.to_vec();
         generalised.resize(self.base.len(), 0.0);
-        self.bodies.find_all_poses(&mut generalised, &self.base);
+        self.equations.bodies.find_all_poses(&mut generalised, &self.base);
         let motions = self.rigid_motions(&generalised, true);
         let held = self.held_by_conditions(motions.len());
         let value = |k: usize| match k.checked_sub(self.base.len()) {
@@ -37,7 +37,7 @@ impl Model {
 
     /// Whether vertices move as rigid parts.
     pub(crate) fn has_parts(&self) -> bool {
-        !self.bodies.is_empty()
+        !self.equations.bodies.is_empty()
     }
 
     /// Returns which generalised coordinates pins and parts hold, then that the values of supports are kept.
@@ -45,7 +45,7 @@ impl Model {
         let mut held = vec![false; count];
         self.pinned.iter().for_each(|&k| held[k] = true);
         let poses = self.points()..self.base.len();
-        poses.zip(self.bodies.free()).for_each(|(k, free)| held[k] = !free);
+        poses.zip(self.equations.bodies.free()).for_each(|(k, free)| held[k] = !free);
         held[self.base.len()..].fill(true);
         held
     }

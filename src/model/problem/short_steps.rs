@@ -5,7 +5,7 @@
 
 use super::Model;
 use crate::math::Vec3;
-use crate::model::element::Elements;
+use crate::model::element::Element;
 use crate::solver::Collapse;
 
 /// Part of its height over a hinge that a triangle must keep in one step.
@@ -20,40 +20,37 @@ impl Model {
     /// The thinnest triangle beside a hinge in a state, where it has no height to speak of.
     pub(super) fn collapsed(&self, x: &[f64]) -> Option<Collapse> {
         let coordinates = self.coordinates(x);
-        let triangles =
-            self.hinges().flat_map(|(term, k)| [2, 3].map(|wing| self.triangle(term, k, wing, &coordinates)));
+        let triangles = self
+            .elements()
+            .filter(Element::is_angle)
+            .flat_map(|hinge| [2, 3].map(|wing| self.triangle(&hinge, wing, &coordinates)));
         let (quality, vertices) = triangles.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (quality < COLLAPSED).then_some(Collapse { vertices, quality })
     }
 
     /// Least height over longest side of the triangle of a hinge with one of its wings, the third or fourth site, and the numbers of
     /// its vertices.
-    fn triangle(&self, term: &dyn Elements, k: usize, wing: usize, coordinates: &[f64]) -> (f64, [usize; 3]) {
-        let sites = [0, 1, wing].map(|n| term.sites(k)[n]);
-        let [a, b, c] = sites.map(|site| self.domain.point(coordinates, site));
+    fn triangle(&self, hinge: &Element<'_>, wing: usize, coordinates: &[f64]) -> (f64, [usize; 3]) {
+        let sites = [0, 1, wing].map(|n| hinge.sites()[n]);
+        let [a, b, c] = sites.map(|site| self.equations.domain.point(coordinates, site));
         let longest = [b - a, c - b, a - c].map(|side| side.norm_squared()).into_iter().fold(0.0, f64::max);
         ((b - a).cross(&(c - a)).norm() / longest, sites.map(|site| site.vertex))
-    }
-
-    fn hinges(&self) -> impl Iterator<Item = (&dyn Elements, usize)> {
-        let hinges = self.terms().filter(|term| term.is_hinge());
-        hinges.flat_map(|term| (0..term.len()).map(move |k| (term, k)))
     }
 
     /// Whether no hinge turns by more than [`LARGEST_TURN_RAD`] between two states, the first of which was accepted last, and the
     /// triangles beside hinges keep [`KEPT_HEIGHT`] of their heights.
     pub(super) fn turns_no_hinge_too_far(&self, from: &[f64], to: &[f64]) -> bool {
         let [from, to] = [from, to].map(|x| self.coordinates(x));
-        self.hinges().all(|(term, k)| {
-            let turn = term.value(k, &self.domain, &to) - term.angles()[k];
-            let [before, after] = [&from, &to].map(|x| self.heights(term, k, x));
+        self.elements().filter(Element::is_angle).all(|hinge| {
+            let turn = hinge.value(&to) - hinge.last;
+            let [before, after] = [&from, &to].map(|x| self.heights(&hinge, x));
             turn.abs() <= LARGEST_TURN_RAD && (0..2).all(|side| after[side] >= KEPT_HEIGHT * before[side])
         })
     }
 
     /// Heights of the two triangles of a hinge over it.
-    fn heights(&self, term: &dyn Elements, k: usize, coordinates: &[f64]) -> [f64; 2] {
-        let [i, j, left, right] = [0, 1, 2, 3].map(|n| self.domain.point(coordinates, term.sites(k)[n]));
+    fn heights(&self, hinge: &Element<'_>, coordinates: &[f64]) -> [f64; 2] {
+        let [i, j, left, right] = [0, 1, 2, 3].map(|n| self.equations.domain.point(coordinates, hinge.sites()[n]));
         let edge: Vec3 = j - i;
         [left, right].map(|wing| edge.cross(&(wing - i)).norm() / edge.norm())
     }

@@ -21,7 +21,7 @@ impl Model {
     /// Returns the unknowns, numbered as in `number`, that would have to be held to prevent the rotations that pins
     /// leave free. Empty without loads, since the gauge holds rotations then.
     pub(super) fn turning_unknowns(&self, number: &[u32]) -> Vec<u32> {
-        if self.gauge == Gauge::Free || self.loads.is_empty() {
+        if self.equations.gauge == Gauge::Free || self.loads.is_empty() {
             return vec![];
         }
         let held: Vec<bool> = number.iter().map(|k| *k == FIXED).collect();
@@ -40,14 +40,14 @@ impl Model {
         }
         let unit = out.pattern().largest_diagonal(&out.hessian);
         let unbalanced = max_abs(&out.force(tension));
-        let amount = f64::max(TURNING * unbalanced / self.mean_edge, LEAST_TURNING * unit);
+        let amount = f64::max(TURNING * unbalanced / self.equations.mean_edge, LEAST_TURNING * unit);
         self.turning.iter().for_each(|&k| out.add_to_diagonal(k as usize, amount));
     }
 
     /// Returns the point about which the whole sheet can rotate: its only pinned vertex, or the centroid without
     /// pins. `None` if more than one vertex is pinned.
     fn pivot(&self, all: &[f64]) -> Option<Vec3> {
-        let vertices = (all.len() - self.domain.shared()) / 3;
+        let vertices = (all.len() - self.equations.domain.shared()) / 3;
         let point = |k: usize| Vec3::from_column_slice(&all[3 * k..3 * k + 3]);
         match self.pinned.first().map(|k| k / 3) {
             None => Some((0..vertices).map(point).sum::<Vec3>() / vertices as f64),
@@ -58,8 +58,8 @@ impl Model {
     /// Rotates the whole sheet by the shortest way to where its loads do the most work. Returns the decrease of the
     /// energy.
     pub(super) fn turn_along_loads(&mut self, x: &mut [f64]) -> f64 {
-        let supported = !self.bodies.is_empty() || !self.supports.is_empty();
-        if self.turning.is_empty() || supported || !matches!(self.domain, Domain::Patch) {
+        let supported = !self.equations.bodies.is_empty() || !self.supports.is_empty();
+        if self.turning.is_empty() || supported || !matches!(self.equations.domain, Domain::Patch) {
             return 0.0;
         }
         let all = self.coordinates(x);

@@ -4,7 +4,7 @@ use super::{LEFT_WING, Model, POSE, RIGHT_WING};
 use crate::math::rotation::inverse_left_jacobian;
 use crate::model::configuration::Configuration;
 use crate::model::domain::Domain;
-use crate::model::element::Elements;
+use crate::model::element::Element;
 use crate::model::gauge;
 use crate::model::problem::Gauge;
 use crate::numerics::dense::small::shortest_solution;
@@ -43,26 +43,26 @@ impl Model {
 
     /// Whether a generalised coordinate follows from the pose of a part.
     pub(super) fn is_derived(&self, coordinate: usize) -> bool {
-        self.bodies.part_of(coordinate / 3).is_some() && coordinate < self.points()
+        self.equations.bodies.part_of(coordinate / 3).is_some() && coordinate < self.points()
     }
 
     /// Returns the rates of the generalised coordinates under the rigid motions, then those of the values that supports
     /// keep. Coordinates that follow from poses have none.
     pub(super) fn rigid_motions(&self, generalised: &[f64], rotations: bool) -> Vec<gauge::Motion> {
         let points = &generalised[..self.points()];
-        let mut motions = gauge::rigid_motions(&self.domain, points, rotations);
-        if self.bodies.is_empty() && self.supports.is_empty() {
+        let mut motions = gauge::rigid_motions(&self.equations.domain, points, rotations);
+        if self.equations.bodies.is_empty() && self.supports.is_empty() {
             return motions;
         }
-        let (centre, size) = gauge::centre_and_size(&self.domain, points);
+        let (centre, size) = gauge::centre_and_size(&self.equations.domain, points);
         let turn = if rotations { 1.0 / size } else { 0.0 };
         (0..motions.len()).filter(|&k| self.is_derived(k)).for_each(|k| motions[k].fill(0.0));
-        for part in 0..self.bodies.coordinates() / POSE {
-            motions.extend(gauge::rows_of(1.0, turn * (self.bodies.pivot(part, generalised) - centre)));
-            let by_turn = turn * inverse_left_jacobian(&self.bodies.rotation(part, generalised));
+        for part in 0..self.equations.bodies.coordinates() / POSE {
+            motions.extend(gauge::rows_of(1.0, turn * (self.equations.bodies.pivot(part, generalised) - centre)));
+            let by_turn = turn * inverse_left_jacobian(&self.equations.bodies.rotation(part, generalised));
             motions.extend([0, 1, 2].map(|row| {
                 let mut motion = gauge::Motion::zeros();
-                (0..3).for_each(|k| motion[3 + k] = self.mean_edge * by_turn[(row, k)]);
+                (0..3).for_each(|k| motion[3 + k] = self.equations.mean_edge * by_turn[(row, k)]);
                 motion
             }));
         }
@@ -77,7 +77,7 @@ impl Model {
     /// free, and those that the gauge adds; then that the values of supports are.
     pub(super) fn chosen(&self, motions: &[gauge::Motion]) -> Vec<bool> {
         let mut held = self.held_by_conditions(motions.len());
-        if self.gauge == Gauge::Held {
+        if self.equations.gauge == Gauge::Held {
             self.chosen_by_pieces(motions, &held).into_iter().for_each(|k| held[k] = true);
         }
         held
@@ -100,7 +100,8 @@ impl Model {
         motions: &[gauge::Motion],
         held: &[bool],
     ) -> (Vec<gauge::Motion>, Vec<bool>) {
-        let is_further = number > 0 && self.gauge == Gauge::Held && matches!(self.domain, Domain::Screw);
+        let is_further =
+            number > 0 && self.equations.gauge == Gauge::Held && matches!(self.equations.domain, Domain::Screw);
         let of = |k: &usize| {
             let mut motion = motions[*k];
             motion[2] *= f64::from(u8::from(!is_further));
@@ -114,18 +115,16 @@ impl Model {
     /// coordinates that all points share are those of the first.
     fn pieces(&self) -> Vec<Vec<usize>> {
         let (points, count) = (self.points(), self.base.len() + self.supports.len());
-        if self.terms().next().is_none() {
+        if self.elements().next().is_none() {
             return vec![(0..count).collect()];
         }
-        let shared = points - self.domain.shared();
+        let shared = points - self.equations.domain.shared();
         let of_points = (0..shared / 3).flat_map(|vertex| [1, 2].map(|axis| [3 * vertex, 3 * vertex + axis]));
-        let of_elements = self.terms().flat_map(|term| {
-            (0..term.len()).flat_map(move |k| {
-                let sites = term.sites(k);
-                sites.iter().map(|site| [3 * sites[0].vertex, 3 * site.vertex])
-            })
+        let of_elements = self.elements().flat_map(|element| {
+            let first = 3 * element.sites()[0].vertex;
+            element.sites().iter().map(move |site| [first, 3 * site.vertex])
         });
-        let of_parts = (0..shared / 3).filter_map(|vertex| Some((vertex, self.bodies.part_of(vertex)?)));
+        let of_parts = (0..shared / 3).filter_map(|vertex| Some((vertex, self.equations.bodies.part_of(vertex)?)));
         let of_parts = of_parts.map(|(vertex, part)| [3 * vertex, points + POSE * part]);
         let of_poses = (points..self.base.len()).map(|k| [points + (k - points) / POSE * POSE, k]);
         let of_supports = self.supports.iter().zip(self.base.len()..);
@@ -138,7 +137,7 @@ impl Model {
     /// Makes these coordinates the reference state of a screw, and holds as many coordinates of its axis as `held` says: the
     /// direction, then the curvature. Returns the unknowns.
     pub(crate) fn hold_axis(&mut self, held: usize, coordinates: Vec<f64>) -> Vec<f64> {
-        let axis = self.points() - self.domain.shared();
+        let axis = self.points() - self.equations.domain.shared();
         self.pinned.retain(|k| !(axis..axis + 2).contains(k));
         self.pinned.extend(axis..axis + held);
         self.rebase_gauge(coordinates)
@@ -194,7 +193,7 @@ impl Model {
 
     /// Separation of the rigid motions of the state `x` by the held coordinates, relative to that by newly chosen ones.
     fn gauge_quality(&self, x: &[f64]) -> f64 {
-        if self.gauge == Gauge::Free {
+        if self.equations.gauge == Gauge::Free {
             return 1.0;
         }
         let motions = self.rigid_motions(&self.generalised(x), self.loads.is_empty());
@@ -211,39 +210,34 @@ impl Model {
         self.pieces().iter().enumerate().map(quality).fold(1.0, f64::min)
     }
 
-    /// Returns the unknowns on which element `k` of a term depends: for each of its points those of its coordinates, or
+    /// Returns the unknowns on which an element depends: for each of its points those of its coordinates, or
     /// of the pose of its part; then the shared ones.
-    fn members(&self, term: &dyn Elements, k: usize, number: &[u32]) -> Vec<u32> {
-        let (points, shared) = (self.points(), self.domain.shared());
-        let of_point = |vertex: usize| match self.bodies.part_of(vertex) {
+    fn members(&self, element: &Element<'_>, number: &[u32]) -> Vec<u32> {
+        let (points, shared) = (self.points(), self.equations.domain.shared());
+        let of_point = |vertex: usize| match self.equations.bodies.part_of(vertex) {
             Some(part) => points + POSE * part..points + POSE * (part + 1),
             None => 3 * vertex..3 * vertex + 3,
         };
-        let of_points = term.sites(k).iter().flat_map(|site| of_point(site.vertex));
+        let of_points = element.sites().iter().flat_map(|site| of_point(site.vertex));
         of_points.chain(points - shared..points).map(|coordinate| number[coordinate]).collect()
     }
 
     /// Returns the layout of the unknowns; `number` is that of each generalised coordinate. Soft elements are those of
     /// the soft terms, then the loads of each loaded part; stiff ones those of the stiff terms, then the supports.
     fn new_layout(&self, number: &[u32]) -> Arc<Layout> {
-        let collect = |terms: &[Box<dyn Elements>]| {
-            let mut cliques = Cliques::new();
-            for term in terms {
-                for k in 0..term.len() {
-                    let members = self.members(term.as_ref(), k, number);
-                    let splits = term.is_hinge() && !self.bodies.touch(term.sites(k));
-                    if splits { cliques.push_split(members, LEFT_WING, RIGHT_WING) } else { cliques.push(members) }
-                }
-            }
-            cliques
-        };
-        let (mut soft, mut stiff) = (collect(&self.soft), collect(&self.stiff));
+        let (mut soft, mut stiff) = (Cliques::new(), Cliques::new());
+        for element in self.elements() {
+            let cliques = if element.number < self.soft_elements() { &mut soft } else { &mut stiff };
+            let members = self.members(&element, number);
+            let splits = element.term.is_hinge() && !self.equations.bodies.touch(element.sites());
+            if splits { cliques.push_split(members, LEFT_WING, RIGHT_WING) } else { cliques.push(members) }
+        }
         let points = self.points();
         for (part, _) in self.loaded_parts() {
             soft.push((0..POSE).map(|k| number[points + POSE * part + k]));
         }
         self.supports.iter().for_each(|support| stiff.push(support.terms.iter().map(|(k, _)| number[*k])));
-        let vertices = (points - self.domain.shared()) / 3;
+        let vertices = (points - self.equations.domain.shared()) / 3;
         let block = |k: usize| match k.checked_sub(points) {
             Some(pose) => (vertices + 1 + pose / POSE) as u32,
             None => (k / 3).min(vertices) as u32,

@@ -164,9 +164,8 @@ fn augmented(model: &mut Model, creases: f64) -> Option<Vec<f64>> {
 
 /// Returns the largest relative change of the length of a bar, computed from the points.
 fn stretch(model: &Model, coordinates: &[f64]) -> f64 {
-    let bars = model.stiff().iter().filter(|term| !term.is_angle());
-    let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    let change = each.map(|(term, k)| term.value(k, model.domain(), coordinates) / term.spring(k).rest - 1.0);
+    let bars = model.stiff().filter(|element| !element.is_angle());
+    let change = bars.map(|bar| bar.value(coordinates) / bar.spring.rest - 1.0);
     change.fold(0.0, |most, change| larger(most, change.abs()))
 }
 

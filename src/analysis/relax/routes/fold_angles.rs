@@ -10,7 +10,7 @@ use crate::analysis::relax::options::{IntrinsicFailure, Method};
 use crate::analysis::relax::run::{Ending, Run, is_interruption};
 use crate::analysis::state::State;
 use crate::model::intrinsic::{FoldedUp, IntrinsicModel, Unsupported};
-use crate::model::{Elements, Model};
+use crate::model::{Element, Model};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::constrained::{
@@ -146,14 +146,11 @@ fn solve(intrinsic: &IntrinsicModel, run: &mut Run<'_>, start: &Start) -> Result
 /// Returns the state of these fold angles and lengths. Tensions of rigid measures are those of the multipliers.
 fn state_of(intrinsic: &IntrinsicModel, model: &Model, at: &ConstrainedIterate<'_>) -> State {
     let FoldedUp { coordinates, angles, lengths, torques, forces } = intrinsic.folded_up(model, at.z, at.multipliers);
-    let value = |term: &dyn Elements, k: usize| {
-        let of_edges = if term.is_angle() { &angles } else { &lengths };
-        of_edges[term.edge(k)]
-    };
-    let tension = |row: usize, term: &dyn Elements, k: usize| match model.compliance()[row] {
-        0.0 if term.is_angle() => torques[term.edge(k)],
-        0.0 => forces[term.edge(k)],
-        compliance => (value(term, k) - term.spring(k).rest) / compliance,
+    let value = |element: &Element<'_>| if element.is_angle() { &angles } else { &lengths }[element.edge()];
+    let tension = |row: usize, element: &Element<'_>| match model.compliance()[row] {
+        0.0 if element.is_angle() => torques[element.edge()],
+        0.0 => forces[element.edge()],
+        compliance => (value(element) - element.spring.rest) / compliance,
     };
     State { coordinates, ..State::of_measures(model, value, tension) }
 }

@@ -92,7 +92,7 @@ pub(super) fn hides_others(run: &Run<'_>, found: &Equilibrium) -> bool {
 
 /// Whether creases are locked: bars that stretch might find their way to another branch than the one that a lock drives.
 pub(super) fn has_locks(run: &Run<'_>) -> bool {
-    run.model.stiff().iter().any(|term| term.kind() == TermKind::Locks)
+    run.model.stiff().any(|element| element.kind() == TermKind::Locks)
 }
 
 /// Whether an equilibrium keeps nearly all of the energy of the start, which has some.

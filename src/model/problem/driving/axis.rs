@@ -19,13 +19,13 @@ impl DrivenModel {
     /// is no straight screw stays as it is.
     pub(crate) fn about_best_axis(&self, x: Vec<f64>, tension: &[f64]) -> Vec<f64> {
         let model = &self.model;
-        let Some(turns) = model.domain.turns(&model.coordinates(&x)) else { return x };
-        if turns.kappa.abs() * model.mean_edge > STRAIGHT {
+        let Some(turns) = model.equations.domain.turns(&model.coordinates(&x)) else { return x };
+        if turns.kappa.abs() * model.equations.mean_edge > STRAIGHT {
             return x;
         }
         let about = |direction: f64| {
             let mut all = model.generalised(&x);
-            model.domain.bend(&mut all[..model.points()], direction, turns.kappa);
+            model.equations.domain.bend(&mut all[..model.points()], direction, turns.kappa);
             model.extracted(&all)
         };
         let gain = |direction: f64| -self.second_order_work(&about(direction), tension).unwrap_or(f64::INFINITY);

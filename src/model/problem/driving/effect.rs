@@ -1,8 +1,11 @@
 //! The parts of a model that one parameter can drive.
 
 use crate::model::drive::DriveError;
-use crate::model::element::{Spring, TermKind};
+use crate::model::element::{Element, TermKind};
 use crate::model::problem::Model;
+
+/// Difference of two stiffnesses, relative to them, that counts as rounding.
+const SAME_STIFFNESS: f64 = 1e-12;
 
 /// The parts of a model that can change with a parameter.
 pub(super) enum Effect {
@@ -30,58 +33,37 @@ impl Effect {
     /// Rest values as given, and those of the drawn state; locks and supports keep theirs.
     pub(super) fn rest(model: &Model, mut drawn: Vec<f64>) -> Self {
         let given = model.rests();
-        let kinds = model.terms().flat_map(|term| (0..term.len()).map(|_| term.kind()));
-        let kept = kinds.map(|kind| kind == TermKind::Locks).chain(model.supports.iter().map(|_| true));
+        let locked = model.elements().map(|element| element.kind() == TermKind::Locks);
+        let kept = locked.chain(model.supports.iter().map(|_| true));
         drawn.resize(given.len(), 0.0);
         kept.enumerate().filter(|(_, kept)| *kept).for_each(|(k, _)| drawn[k] = given[k]);
         Self::Rest { drawn, given }
     }
 
+    /// Returns the stiffness of all elements of a kind, with the parameter at the beginning and at the end.
     pub(super) fn stiffness(model: &Model, kind: TermKind, to: f64) -> Result<(Self, f64, f64), DriveError> {
-        let stiff = model.numbered_stiff(kind, |_| true);
-        let mut soft = vec![];
-        for (number, (term, k)) in
-            model.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k))).enumerate()
-        {
-            if term.kind() == kind {
-                soft.push((number, term.spring(k).stiffness / model.length_of(term.as_ref(), k)));
-            }
-        }
-        let lengths = |numbers: &[(usize, Spring)]| -> Vec<f64> {
-            numbers.iter().map(|(k, _)| model.length_of_stiff(*k)).collect()
+        // the spring constant for a stiffness of 1: EA / L0 of a bar, the length of its crease of a hinge
+        let unit = |element: &Element<'_>| match kind {
+            TermKind::Bars => element.spring.rest.recip(),
+            _ => model.length_of(element),
         };
-        match (&stiff[..], &soft[..]) {
-            ([], []) => Err(DriveError::NoTerm(kind)),
-            (stiff, []) => {
-                let lengths = lengths(stiff);
-                let of = |k: usize| match kind {
-                    TermKind::Bars => stiff[k].1.stiffness * stiff[k].1.rest,
-                    _ => stiff[k].1.stiffness / lengths[k],
-                };
-                let from = of(0);
-                if (1..stiff.len()).any(|k| of(k) != from && !((of(k) - from).abs() <= 1e-12 * from)) {
-                    return Err(DriveError::NotUniform(kind));
-                }
-                // a bar of stiffness EA has the compliance L0 / EA, a hinge 1 / (stiffness L0)
-                let unit = |k: usize| if kind == TermKind::Bars { stiff[k].1.rest } else { 1.0 / lengths[k] };
-                let units = (0..stiff.len()).map(|k| (stiff[k].0, unit(k))).collect();
-                Ok((Self::Compliance(units), from.recip(), to.recip()))
-            }
-            ([], soft) => {
-                let from = soft[0].1;
-                if soft.iter().any(|(_, k)| !((k - from).abs() <= 1e-12 * from)) || to.is_infinite() {
-                    return Err(if to.is_infinite() {
-                        DriveError::TooStiff(kind)
-                    } else {
-                        DriveError::NotUniform(kind)
-                    });
-                }
-                let terms = model.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k))).enumerate();
-                let of_kind = terms.filter(|(_, (term, _))| term.kind() == kind);
-                let units = of_kind.map(|(n, (term, k))| (n, model.length_of(term.as_ref(), k))).collect();
-                Ok((Self::Stiffness(units), from, to))
-            }
-            _ => Err(DriveError::NotUniform(kind)),
+        let stiff: Vec<_> =
+            model.stiff_of(kind).map(|(measure, found)| (measure, unit(&found), found.spring)).collect();
+        let soft = model.soft().filter(|element| element.kind() == kind);
+        let soft: Vec<_> = soft.map(|found| (found.number, unit(&found), found.spring)).collect();
+        let all = stiff.iter().chain(&soft).map(|(_, unit, spring)| spring.stiffness / unit);
+        let from = all.clone().next().ok_or(DriveError::NoTerm(kind))?;
+        let is_first = |k: f64| k == from || (k - from).abs() <= SAME_STIFFNESS * from;
+        if !all.clone().all(is_first) || !(stiff.is_empty() || soft.is_empty()) {
+            return Err(DriveError::NotUniform(kind));
         }
+        if soft.is_empty() {
+            let units = stiff.iter().map(|(measure, unit, _)| (*measure, unit.recip())).collect();
+            return Ok((Self::Compliance(units), from.recip(), to.recip()));
+        }
+        if to.is_infinite() {
+            return Err(DriveError::TooStiff(kind));
+        }
+        Ok((Self::Stiffness(soft.iter().map(|(number, unit, _)| (*number, *unit)).collect()), from, to))
     }
 }
