@@ -24,10 +24,12 @@ mod cut;
 use super::motion::Moving;
 use super::{AngleConditions, Closing, Closure, Displacement, Embedding, KinematicsError, folding_modes};
 use crate::math::{Vec3, rotation};
-use crate::numerics::dense::{least_squares, null_space};
-use crate::numerics::{DenseMatrix, larger};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::null_space;
+use crate::numerics::root::Search;
 use crate::sheet::{Seam, Sheet};
 use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, Watched, follow};
+use nalgebra::DVector;
 use std::f64::consts::TAU;
 
 /// Tolerance of the closure residual and of the defects of a tube.
@@ -240,18 +242,13 @@ impl<'a> Tube<'a> {
     ) -> Result<Vec<f64>, KinematicsError> {
         let moving: Vec<usize> = (0..start.len()).filter(|edge| !locked.contains(edge)).collect();
         let mut angles = start.to_vec();
-        let mut residual = f64::INFINITY;
-        for _ in 0..STEPS {
+        let search = Search { most_steps: STEPS, residual: CLOSURE_RESIDUAL, terms: 0.0 };
+        let found = search.from(moving.iter().map(|&edge| start[edge]).collect(), |x| {
+            moving.iter().zip(x).for_each(|(&edge, angle)| angles[edge] = *angle);
             let (defects, jacobian) = self.equations(&angles, kept);
-            residual = defects.iter().fold(0.0, |most, defect| larger(most, defect.abs()));
-            if residual <= CLOSURE_RESIDUAL {
-                return Ok(angles);
-            }
-            let right = DenseMatrix::from_column_slice(defects.len(), 1, &defects);
-            let step = least_squares(&jacobian.select_columns(&moving), &right)?.solution;
-            moving.iter().zip(step.iter()).for_each(|(&edge, step)| angles[edge] -= step);
-        }
-        Err(KinematicsError::NotClosed { residual })
+            (DVector::from_vec(defects), jacobian.select_columns(&moving))
+        })?;
+        if found.is_root { Ok(angles) } else { Err(KinematicsError::NotClosed { residual: found.residual }) }
     }
 
     fn still(&self) -> Vec<f64> {

@@ -14,7 +14,7 @@ use super::{HeldSheet, TaylorPaths};
 use crate::kinematics::{Closing, Closure, FoldingModes, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::least_squares;
+use crate::numerics::root::Search;
 use crate::sheet::Sheet;
 use crate::solver::Implicit;
 use nalgebra::DVector;
@@ -60,27 +60,25 @@ impl<'a> Cone<'a> {
         let rates = self.modes.named(curvature(&start)).ok()?;
         let angles: Vec<f64> = self.drawn.iter().zip(&rates).map(|(angle, rate)| angle + amplitude * rate).collect();
         let mut closing = Closing::new(&self.closure, self.drawn.clone());
-        let mut x = closing.folding(&angles);
+        let start = closing.folding(&angles);
         let tensor = self.tensor.select_columns(self.closure.folding_edges());
         let drawn = closing.folding(&self.drawn);
         let (equations, unknowns) = (closing.equations(), closing.unknowns());
-        let (mut residual, mut jacobian) = (vec![0.0; equations], DenseMatrix::zeros(equations, unknowns));
-        for _ in 0..STEPS {
-            closing.linearize(&x, &mut residual, &mut jacobian);
-            let change = DVector::from_fn(unknowns, |k, _| x[k] - drawn[k]);
-            let k: Vec3 = (&tensor * change).fixed_rows::<3>(0).into_owned();
-            let conditions = [k.norm() / amplitude - 1.0, along.dot(&k) / amplitude];
-            if residual.iter().chain(&conditions).all(|r| r.abs() <= CONE_RESIDUAL) {
-                return Some(k.normalize());
-            }
-            let mut all = jacobian.clone().resize_vertically(equations + 2, 0.0);
+        let point = |x: &[f64]| -> Vec3 {
+            (&tensor * DVector::from_fn(unknowns, |k, _| x[k] - drawn[k])).fixed_rows::<3>(0).into_owned()
+        };
+        let conditions = |x: &[f64]| {
+            let (mut residual, mut jacobian) = (vec![0.0; equations], DenseMatrix::zeros(equations, unknowns));
+            closing.linearize(x, &mut residual, &mut jacobian);
+            let k = point(x);
+            residual.extend([k.norm() / amplitude - 1.0, along.dot(&k) / amplitude]);
+            let mut all = jacobian.resize_vertically(equations + 2, 0.0);
             all.row_mut(equations).copy_from(&(k.normalize().transpose() * &tensor / amplitude));
             all.row_mut(equations + 1).copy_from(&(along.transpose() * &tensor / amplitude));
-            let right = DenseMatrix::from_iterator(equations + 2, 1, residual.iter().chain(&conditions).map(|r| -r));
-            let step = least_squares(&all, &right).ok()?.solution;
-            x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += d);
-        }
-        None
+            (DVector::from_vec(residual), all)
+        };
+        let search = Search { most_steps: STEPS, residual: CONE_RESIDUAL, terms: 0.0 };
+        search.root(start, conditions).map(|x| point(&x).normalize())
     }
 }
 

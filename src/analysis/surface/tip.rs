@@ -6,8 +6,7 @@
 //! rim to it. Every nappe has a tip of its own.
 
 use super::folding::SurfaceClosure;
-use crate::numerics::DenseMatrix;
-use crate::numerics::dense::least_squares;
+use crate::numerics::root::Search;
 use crate::numerics::vector::distance;
 use crate::solver::atlas::{Atlas, Chart};
 use std::collections::{BTreeMap, BTreeSet};
@@ -108,17 +107,8 @@ fn tip(folding: &SurfaceClosure<'_>, charts: &[Chart], rim: &[usize]) -> Option<
 }
 
 /// The spatially periodic state to which Newton's method leads, by shortest steps.
-pub(super) fn periodic_near(folding: &SurfaceClosure<'_>, mut x: Vec<f64>) -> Option<Vec<f64>> {
-    for _ in 0..STEPS {
-        let (residual, jacobian) = folding.periodic(&x);
-        if residual.amax() <= TIP_RESIDUAL {
-            return Some(x);
-        }
-        let right = DenseMatrix::from_column_slice(residual.len(), 1, residual.as_slice());
-        let step = least_squares(&jacobian, &right).ok()?.solution;
-        x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x -= d);
-    }
-    None
+pub(super) fn periodic_near(folding: &SurfaceClosure<'_>, x: Vec<f64>) -> Option<Vec<f64>> {
+    Search { most_steps: STEPS, residual: TIP_RESIDUAL, terms: 0.0 }.root(x, |x| folding.periodic(x))
 }
 
 /// The closed rims of a triangulation, each with the hole on its left.
