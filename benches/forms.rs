@@ -14,7 +14,7 @@
 //! - `weight`: number of corrections and accuracy against `gamma`, and against `d` of the block form; also with closed
 //!   gaps, as in the steps near a solution.
 //!
-//! Whole relaxations with the penalty energy are compared with the program's by `foldwell validate stiffness-cost`.
+//! Whole relaxations with the penalty energy are compared with the program's by the measurement `stiffness` of `validation/`.
 #![allow(clippy::unwrap_used)]
 
 mod common;

@@ -14,10 +14,7 @@ mod runs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 
-use crate::validate::report::Case;
-use crate::validate::{self, ValidateOptions};
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
@@ -27,10 +24,9 @@ use foldwell::scene::Setting;
 use foldwell::sheet::pattern::Cleanup;
 
 use crate::parameters;
-use crate::progress::Watch;
 use crate::scenes;
-use ending::{Failure, INTERRUPTED, closed, report, say};
-use runs::{Told, run_scenes, status_of};
+use ending::{Failure, closed, report, say};
+use runs::{Told, run_scenes};
 
 /// Energy wells of folding sheets.
 #[derive(Parser)]
@@ -149,17 +145,6 @@ enum Command {
         #[arg(long, value_name = "N")]
         branch: Option<i64>,
     },
-    /// Check the claims about this program, and write a report
-    Validate {
-        /// Only these claims [default: all]
-        claims: Vec<String>,
-        /// Leave out what takes long
-        #[arg(long)]
-        quick: bool,
-        /// Folder for the reports
-        #[arg(long, value_name = "DIR")]
-        out: Option<PathBuf>,
-    },
     /// Print the JSON schema of a scene, or of the summary that a run or a sweep writes
     Schema {
         /// Of what
@@ -244,7 +229,6 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             let films = run::film(&from, o.as_deref(), branch, options)?;
             say(&films.iter().map(|film| format!("{}\n", film.display())).collect::<String>())
         }
-        Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),
         Command::Schema { of: Described::Scene } => say(&foldwell::scene::schema()),
         Command::Schema { of: Described::Summary } => say(&output::schema::schema()),
         Command::Schema { of: Described::Sweep } => say(&output::schema::of_sweep()),
@@ -258,24 +242,6 @@ fn remark(to: &Path, notes: &[String]) {
         // an error is ignored: there is no other place for the message if standard error is closed
         let _ = writeln!(io::stderr(), "{}: {note}", to.display());
     }
-}
-
-/// Checks the claims; prints a line on standard error for each as soon as it is decided.
-fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
-    let watch = Arc::new(Watch::new(false));
-    let options = options.clone();
-    let found = watch.over(move |watch| validate::validate(&options, &|step| watch.step(step), &mut announce));
-    watch.finish();
-    let Some(report) = found.map_err(Failure::Thread)? else { return Ok(INTERRUPTED) };
-    let report = report.map_err(Failure::Validation)?;
-    say(&format!("{}\n", report.verdict()))?;
-    Ok(status_of(report.interrupted, report.all_passed()))
-}
-
-fn announce(case: &Case) {
-    let mark = if case.passed { "holds" } else { "FAILS" };
-    eprintln!("{mark}  {}: {} ({:.2} s)", case.name, case.distance(), case.seconds);
-    case.failure.iter().for_each(|failure| eprintln!("       {failure}"));
 }
 
 fn completions(shell: Shell) -> String {

@@ -5,7 +5,6 @@ mod describe;
 mod parameters;
 mod progress;
 mod scenes;
-mod validate;
 
 use std::process::ExitCode;
 

@@ -7,7 +7,6 @@ use miette::{Diagnostic, GraphicalReportHandler};
 
 use crate::parameters::ParameterError;
 use crate::scenes::ScenesError;
-use crate::validate::ValidationError;
 
 /// A study did not converge.
 pub(super) const FAILED: u8 = 1;
@@ -21,7 +20,6 @@ pub(super) const INTERRUPTED: u8 = 130;
 /// The reasons for which a command failed.
 pub(super) enum Failure {
     Run(RunError),
-    Validation(ValidationError),
     Parameters(ParameterError),
     Scenes(ScenesError),
     StandardOutput(io::Error),
@@ -48,7 +46,6 @@ impl Failure {
     pub(super) fn exit_status(&self) -> u8 {
         match self {
             Self::Run(error) => error.exit_status(),
-            Self::Validation(error) => error.exit_status(),
             Self::Parameters(_) | Self::Scenes(_) => WRONG_INPUT,
             Self::StandardOutput(_) | Self::Thread(_) => BROKEN_PLACE,
         }
@@ -70,7 +67,6 @@ pub(super) fn closed(error: io::Error) -> Result<u8, Failure> {
 pub(super) fn report(failure: &Failure) {
     let text = match failure {
         Failure::Run(error) => fancy(error),
-        Failure::Validation(error) => fancy(error),
         Failure::Parameters(error) => format!("Error: {error}\n"),
         Failure::Scenes(error) => format!("Error: {error}\n"),
         Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),

@@ -21,7 +21,7 @@
 //! solution there are next to no gaps to close and rounding decides, which grows with it: to 1e-6, 3e6 needs one
 //! correction up to 57 cells a side and two at 82, 1e7 a second one from 40 or 57 on. Larger problems have motions that
 //! this weight loses to rounding; the corrections of [`KktSystem::solve`] find them again
-//! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
+//! (claim `cells-residuals` of `validation/`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the undeformed states of 24 and 48 cells a side.
 
 use super::corrections::{self, NearlySolved, Pair, Patience};

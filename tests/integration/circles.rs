@@ -14,7 +14,7 @@ use std::path::Path;
 type Module = Vec<String>;
 
 /// Modules that belong to the program, not to the library.
-const OF_THE_PROGRAM: &[&str] = &["cli", "describe", "parameters", "progress", "validate"];
+const OF_THE_PROGRAM: &[&str] = &["cli", "describe", "parameters", "progress"];
 /// Length of the longest chain of re-exports.
 const LONGEST_CHAIN: usize = 6;
 

@@ -20,7 +20,6 @@ const FLOORS: &[(&str, u8)] = &[
     ("output", 4),
     ("study", 5),
     ("run", 6),
-    ("validate", 7),
     ("parameters", 7),
     ("describe", 7),
     ("progress", 7),

@@ -98,7 +98,6 @@ mod trace;
 mod tube_scenes;
 mod tubes;
 mod unstressed;
-mod validate;
 mod vibrations;
 mod waterbomb_base;
 mod wells;

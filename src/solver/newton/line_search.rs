@@ -11,7 +11,7 @@ use crate::solver::problem::Problem;
 
 /// Bounds of the relative residual to which the linear system of a step is solved; between them it is a hundredth of
 /// the scaled force. With the scaled force itself large problems take less time, but their soft motions are not found
-/// as exactly (`foldwell validate rigid-limit-distance`).
+/// as exactly (claim `rigid-limit-distance` of `validation/`).
 const FINEST_RESIDUAL: f64 = 1e-8;
 const COARSEST_RESIDUAL: f64 = 1e-3;
 const RESIDUAL_PER_FORCE: f64 = 0.01;

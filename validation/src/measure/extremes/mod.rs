@@ -3,7 +3,7 @@
 
 mod families;
 
-use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{ExperimentError, Findings, ReportTable};
 use super::trial::TrialVerdict;
 use serde_json::{Value, json};
 
@@ -28,27 +28,21 @@ impl Tally {
 
     fn values(&self) -> Value {
         json!({
-            "trials": self.all(),
+            "trials": self.right + self.unjudged + self.refused + self.wrong.len(),
             "right": self.right,
             "refused": self.refused,
             "unjudged": self.unjudged,
             "wrong": self.wrong.len(),
         })
     }
-
-    fn all(&self) -> usize {
-        self.right + self.unjudged + self.refused + self.wrong.len()
-    }
 }
 
 /// Runs all cases of all families.
-pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
-    let families = families::families(bench.quick)?;
-    let all: usize = families.iter().map(|family| family.cases.len()).sum();
+pub fn measure(quick: bool) -> Result<Findings, ExperimentError> {
+    let families = families::families(quick)?;
     let (mut tally, mut rows) = (Tally::default(), Vec::new());
     for family in families {
         for (name, attempt) in family.cases {
-            bench.step(tally.all(), all)?;
             let outcome = attempt();
             tally.add(&format!("{}, {name}", family.name), &outcome);
             rows.push(vec![family.name.to_owned(), name, verdict_text(&outcome), family.compared.to_owned()]);

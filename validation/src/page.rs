@@ -12,7 +12,7 @@ vertical-align:top;padding:.35em .7em;border-bottom:1px solid #dcd9cf}th{border-
 code{font-size:13px}summary{cursor:pointer}small{color:#6a6760}svg{max-width:800px;height:auto}td.n{white-space:nowrap}";
 
 /// Returns the text of the page.
-pub(crate) fn html(report: &Report) -> String {
+pub fn html(report: &Report) -> String {
     let mut text = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>Validation of foldwell</title>\n\

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 /// A claim that was checked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Case {
+pub struct Case {
     /// Name of the claim.
     pub name: String,
     /// The statement, in a sentence.
@@ -44,7 +44,7 @@ pub(crate) struct Case {
 
 /// The results of a validation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub(crate) struct Report {
+pub struct Report {
     /// Version of the program.
     pub version: &'static str,
     /// Whether only the quick claims were requested.
@@ -70,7 +70,7 @@ pub(crate) struct Report {
 
 impl Case {
     /// Compares the result of an experiment with a claim.
-    pub(crate) fn of(claim: &Claim, outcome: &Performed) -> Self {
+    pub fn of(claim: &Claim, outcome: &Performed) -> Self {
         let (comparison, expected) = match &claim.wanted {
             Wanted::Equal { numbers, .. } => ("equal", numbers.clone()),
             Wanted::AtMost(bound) => ("at most", Numbers::One(*bound)),
@@ -101,7 +101,7 @@ impl Case {
     }
 
     /// Returns the expected value and its tolerance as a short text.
-    pub(crate) fn expectation(&self) -> String {
+    pub fn expectation(&self) -> String {
         match self.comparison {
             "equal" => format!("{} \u{b1} {}", short(&self.expected), figure(self.tolerance)),
             comparison => format!("{comparison} {}", short(&self.expected)),
@@ -109,12 +109,12 @@ impl Case {
     }
 
     /// Returns the value found as a short text.
-    pub(crate) fn finding(&self) -> String {
+    pub fn finding(&self) -> String {
         self.found.as_ref().map_or_else(|| self.failure.clone().unwrap_or_default(), short)
     }
 
     /// Returns a text with the distance from the expected value or the bound.
-    pub(crate) fn distance(&self) -> String {
+    pub fn distance(&self) -> String {
         match (self.miss, self.comparison) {
             (None, _) => "no value".into(),
             (Some(miss), "equal") => format!("off by {}, allowed {}", figure(miss), figure(self.tolerance)),
@@ -126,12 +126,12 @@ impl Case {
 
 impl Report {
     /// Makes an empty report.
-    pub(crate) fn new(quick: bool, claims: usize) -> Self {
+    pub fn new(quick: bool, claims: usize) -> Self {
         Self { version: env!("CARGO_PKG_VERSION"), quick, claims, ..Self::default() }
     }
 
     /// Adds a case, and the result of its experiment if this is given (it is given for the first claim that uses it).
-    pub(crate) fn push(&mut self, case: Case, outcome: Option<&Performed>) {
+    pub fn push(&mut self, case: Case, outcome: Option<&Performed>) {
         self.passed += usize::from(case.passed);
         self.cases.push(case);
         if let Some(outcome) = outcome {
@@ -145,12 +145,12 @@ impl Report {
     }
 
     /// Whether every claim was checked and holds.
-    pub(crate) fn all_passed(&self) -> bool {
+    pub fn all_passed(&self) -> bool {
         self.passed == self.claims
     }
 
     /// Returns a sentence with the numbers of claims that hold, fail and were not checked.
-    pub(crate) fn verdict(&self) -> String {
+    pub fn verdict(&self) -> String {
         let failed = self.cases.len() - self.passed;
         let left = match self.claims - self.cases.len() {
             0 => String::new(),
@@ -160,7 +160,7 @@ impl Report {
         format!("{} of {} {which} hold, {failed} fail{left}; {:.0} s", self.passed, self.claims, self.seconds)
     }
 
-    pub(crate) fn markdown(&self) -> String {
+    pub fn markdown(&self) -> String {
         let mut text = format!("# Validation of foldwell {}\n\n{}.\n", self.version, self.verdict());
         let row = |case: &Case| {
             let passed = if case.passed { "holds" } else { "**fails**" };
@@ -186,7 +186,7 @@ impl Report {
 }
 
 /// Returns a table of the cheapest setting for each error of a list.
-pub(crate) fn cheapest(diagram: &Diagram) -> ReportTable {
+pub fn cheapest(diagram: &Diagram) -> ReportTable {
     let row = |(wanted, best): (f64, Option<(&str, &Setting)>)| match best {
         Some((method, setting)) => {
             let Setting { label, error, seconds } = setting;
@@ -224,7 +224,7 @@ fn short(numbers: &Numbers) -> String {
 }
 
 /// Formats a number with at most ten digits, with an exponent if it is very large or small.
-pub(crate) fn figure(number: f64) -> String {
+pub fn figure(number: f64) -> String {
     let size = number.abs();
     if number == 0.0 || (1e-3..1e7).contains(&size) {
         let digits = if size >= 1.0 { 9 - size.log10() as usize } else { 6 };

@@ -1,8 +1,8 @@
 //! The families of extreme cases, each with a reference for its results.
 
 use super::super::trial::{Trial, TrialVerdict, distance, judge, within};
-use crate::validate::findings::ExperimentError;
-use crate::validate::{library, star};
+use crate::findings::ExperimentError;
+use crate::{library, star};
 use foldwell::math::Vec3;
 use foldwell::model::Boundary;
 use foldwell::sheet::build::{self, Drawing};
@@ -11,14 +11,14 @@ use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
 /// A trial that has not been run yet.
-pub(crate) type Attempt = Box<dyn FnOnce() -> TrialVerdict>;
+pub type Attempt = Box<dyn FnOnce() -> TrialVerdict>;
 /// Name of a case, and its trial.
-pub(crate) type Named = (String, Attempt);
+pub type Named = (String, Attempt);
 
 const POWERS: [i32; 8] = [-150, -100, -60, -30, 30, 60, 100, 150];
 
 /// A family of similar cases.
-pub(crate) struct Family {
+pub struct Family {
     /// Description of the extreme quantity.
     pub name: &'static str,
     /// Reference with which the results are compared.
@@ -28,7 +28,7 @@ pub(crate) struct Family {
 }
 
 /// Returns all families; the largest patch is left out if `quick`.
-pub(crate) fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
+pub fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
     let cell = star::cell()?;
     Ok(vec![
         stiffness(&cell)?,
@@ -159,7 +159,7 @@ fn skewed(cell: &Sheet) -> Family {
 
 /// Flat cells, and cells so close to flat that double precision may not resolve the difference.
 fn flat() -> Result<Family, ExperimentError> {
-    let sheet = fold::parse(library::mesh("open-flat.fold").unwrap_or_default(), "open-flat.fold")?;
+    let sheet = fold::read(&library::mesh("open-flat.fold"))?;
     let cases = [None, Some(300), Some(200), Some(100), Some(20), Some(10), Some(6)].map(|power| {
         let height = power.map_or(0.0, |power: i32| 10f64.powi(-power));
         let mut sheet = sheet.clone();

@@ -11,7 +11,7 @@ impl Report {
     ///
     /// # Errors
     /// [`OutputError::Write`].
-    pub(crate) fn write(&self, folder: &Path) -> Result<(), OutputError> {
+    pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
         files::write(&folder.join("report.json"), to_json(self))?;
         files::write(&folder.join("report.md"), self.markdown())?;
         files::write(&folder.join("report.html"), page::html(self))

@@ -1,6 +1,6 @@
 //! Run time against the size of a patch, with an exact state that is known at every size.
 
-use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
 use super::super::precision::shortest;
 use super::super::report::figure;
@@ -46,13 +46,12 @@ struct Size {
 /// the kinematics. Relaxed from the drawn state they must end at this state; the error is the largest difference of a
 /// fold angle. Rigid bars are relaxed by the program, in positions and in fold angles, all sizes by turns; bars of
 /// stiffness 1e6 by a plain penalty, for which this state, free of tension, is exact as well.
-pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub fn measure(quick: bool) -> Result<Findings, ExperimentError> {
     let exact = Star::cylinder(FOLDED)?;
-    let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !bench.quick)).collect();
+    let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !quick)).collect();
     let stars = cells.iter().map(|&n| Star::resting([n, n], &exact)).collect::<Result<Vec<_>, _>>()?;
     let mut times = vec![[f64::INFINITY; 2]; cells.len()];
-    for round in 0..ROUNDS {
-        bench.step(round, ROUNDS)?;
+    for _ in 0..ROUNDS {
         for (star, times) in stars.iter().zip(&mut times) {
             for (method, time) in METHODS.into_iter().zip(times) {
                 *time = time.min(shortest(1, &mut [Box::new(|| _ = rigid(star, method))])[0]);
@@ -151,7 +150,7 @@ fn by_penalty(star: &Star) -> Vec<f64> {
 }
 
 /// Returns the exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
-pub(crate) fn exponent(points: &[(f64, f64)]) -> f64 {
+pub fn exponent(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let count = logs.len() as f64;
     let middle = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / count;

@@ -9,7 +9,7 @@ const WANTED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 
 /// A setting of a method, with its error and its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Setting {
+pub struct Setting {
     /// Name of the setting, such as `"k = 1e6"`.
     pub label: String,
     /// Error of the result; NaN without a result.
@@ -20,7 +20,7 @@ pub(crate) struct Setting {
 
 /// A method at several settings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Method {
+pub struct Method {
     /// Name.
     pub name: String,
     /// Settings.
@@ -29,7 +29,7 @@ pub(crate) struct Method {
 
 /// A diagram of error against run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Diagram {
+pub struct Diagram {
     /// Title, which names the varied quantity.
     pub title: String,
     /// Definition of the error, and the reference.
@@ -40,7 +40,7 @@ pub(crate) struct Diagram {
 
 impl Diagram {
     /// Returns the diagram as a chart.
-    pub(crate) fn chart(&self) -> Chart {
+    pub fn chart(&self) -> Chart {
         let point = |s: &Setting| Point { x: s.error, y: s.seconds, label: s.label.clone() };
         let series = |m: &Method| Series { name: m.name.clone(), points: m.settings.iter().map(point).collect() };
         Chart {
@@ -54,7 +54,7 @@ impl Diagram {
 
     /// Returns, for each error of a list, the method and setting that reach it in the shortest time; `None` if none
     /// does.
-    pub(crate) fn cheapest(&self) -> Vec<(f64, Option<(&str, &Setting)>)> {
+    pub fn cheapest(&self) -> Vec<(f64, Option<(&str, &Setting)>)> {
         let all = || self.methods.iter().flat_map(|m| m.settings.iter().map(move |s| (m.name.as_str(), s)));
         let best = |wanted: f64| {
             let good = all().filter(|(_, setting)| setting.error <= wanted);
@@ -66,7 +66,7 @@ impl Diagram {
 
 /// Returns the shortest run time of each piece of `work` over `rounds` rounds. The pieces are run by turns, so that
 /// other load on the machine affects all of them alike.
-pub(crate) fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
+pub fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
     let mut times = vec![f64::INFINITY; work.len()];
     for _ in 0..rounds {
         for (time, work) in times.iter_mut().zip(work.iter_mut()) {

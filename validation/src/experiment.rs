@@ -1,17 +1,16 @@
 //! Experiments: runs of scenes and measurements, each performed once even if several claims use it.
 
 use super::claim::Experiment;
-use super::findings::{Bench, ExperimentError, Findings};
+use super::findings::{ExperimentError, Findings};
 use super::{library, measure};
-use foldwell::output::files;
-use foldwell::run::{Observer, Progress, RunOptions, run_scene};
+use foldwell::run::{RunOptions, run_scene};
+use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// The result of an experiment.
 #[derive(Debug)]
-pub(crate) struct Performed {
+pub struct Performed {
     /// The values found, or the reason why there are none.
     pub found: Result<Findings, ExperimentError>,
     /// Duration in seconds.
@@ -21,21 +20,20 @@ pub(crate) struct Performed {
 }
 
 /// Performs experiments, and keeps their results.
-pub(crate) struct Experiments<'a> {
+pub struct Experiments {
     folder: PathBuf,
     quick: bool,
-    observer: Observer<'a>,
     performed: Vec<(Experiment, Performed)>,
 }
 
-impl<'a> Experiments<'a> {
+impl Experiments {
     /// Makes an empty collection; experiments write into folders inside `folder`.
-    pub(crate) fn new(folder: PathBuf, quick: bool, observer: Observer<'a>) -> Self {
-        Self { folder, quick, observer, performed: Vec::new() }
+    pub fn new(folder: PathBuf, quick: bool) -> Self {
+        Self { folder, quick, performed: Vec::new() }
     }
 
     /// Performs an experiment, or returns its result if it was performed before.
-    pub(crate) fn perform(&mut self, experiment: &Experiment) -> &Performed {
+    pub fn perform(&mut self, experiment: &Experiment) -> &Performed {
         let known = self.performed.iter().position(|(performed, _)| performed == experiment);
         let at = known.unwrap_or_else(|| {
             let clock = Instant::now();
@@ -52,23 +50,11 @@ impl<'a> Experiments<'a> {
         outcome
     }
 
-    /// Runs a scene of `meshes/` from a copy in the folder of the reports, and returns its summary.
+    /// Runs a scene of `meshes/`, and returns its summary.
     fn run(&self, scene: &str) -> Result<Findings, ExperimentError> {
-        for (name, text) in library::meshes() {
-            files::write(&self.folder.join("meshes").join(name), text)?;
-        }
-        let stopped = AtomicBool::new(false);
-        let watch = |progress: &Progress| {
-            let answer = (self.observer)(progress);
-            stopped.fetch_or(answer.is_break(), Ordering::Relaxed);
-            answer
-        };
         let out = Some(self.folder.join("runs").join(scene.trim_end_matches(".toml")));
         let options = RunOptions { out, ..RunOptions::default() };
-        let report = run_scene(&self.folder.join("meshes").join(scene), &options, &watch)?;
-        if stopped.into_inner() {
-            return Err(ExperimentError::Interrupted);
-        }
+        let report = run_scene(&library::mesh(scene), &options, &|_| ControlFlow::Continue(()))?;
         if let Some(study) = report.summary.studies.iter().find(|study| !study.converged) {
             let reason = study.reason.clone().unwrap_or_default();
             return Err(ExperimentError::Study { study: study.name.clone(), reason });
@@ -80,8 +66,6 @@ impl<'a> Experiments<'a> {
 
     fn measure(&self, name: &str) -> Result<Findings, ExperimentError> {
         let measurement = measure::find(name).ok_or_else(|| ExperimentError::Unknown(name.into()))?;
-        let bench = Bench { quick: self.quick, name, observer: self.observer };
-        bench.step(0, 1)?;
-        measurement(&bench)
+        measurement(self.quick)
     }
 }

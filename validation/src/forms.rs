@@ -30,7 +30,7 @@ const MOST_SHIFT: f64 = 1e30;
 
 /// The formulation of stiff terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Form {
+pub enum Form {
     /// The penalty `k m^2 / 2`. Infinite stiffnesses are not possible.
     Penalty,
     /// The augmented form with this weight `gamma` (force per length) and updates of the tensions.
@@ -39,7 +39,7 @@ pub(crate) enum Form {
 
 /// The state at which a minimisation ended.
 #[derive(Clone, Debug)]
-pub(crate) struct Minimised {
+pub struct Minimised {
     /// Unknowns of the model.
     pub x: Vec<f64>,
     /// Tensions of the stiff terms.
@@ -67,7 +67,7 @@ struct Weighted<'a> {
 /// # Errors
 /// [`FactorError`] if the pattern of the matrix cannot be analysed; a minimisation that does not converge is not an
 /// error.
-pub(crate) fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError> {
+pub fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError> {
     let at = Linearization::new(model.layout());
     let layout = model.layout();
     let factor = TornFactor::of(layout.tearing()?)?;

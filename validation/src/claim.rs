@@ -3,7 +3,7 @@
 //! ```toml
 //! claim  = "what is claimed, in a sentence"
 //! source = "where the expected value comes from"
-//! quick  = true                                # also checked by `foldwell validate --quick`; default false
+//! quick  = true                                # also checked by `cargo run --release -p foldwell-validation -- --quick`; default false
 //! scene  = "star-trace.toml"                   # a scene of meshes/; or  measurement = "tolerance"
 //! value  = "studies.loops.branches.*.arc_length" # path in the result, for a scene in summary.json
 //! expected  = [50.2037156, 9.9314250]          # or  at_most = 1e-10,  or  at_least = 5.9
@@ -17,7 +17,7 @@ use thiserror::Error;
 /// One number or several.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(untagged)]
-pub(crate) enum Numbers {
+pub enum Numbers {
     /// One number.
     One(f64),
     /// A list of numbers.
@@ -26,7 +26,7 @@ pub(crate) enum Numbers {
 
 impl Numbers {
     /// Returns the numbers as a list.
-    pub(crate) fn list(&self) -> &[f64] {
+    pub fn list(&self) -> &[f64] {
         match self {
             Self::One(number) => std::slice::from_ref(number),
             Self::Many(numbers) => numbers,
@@ -36,7 +36,7 @@ impl Numbers {
 
 /// The experiment that gives the value of a claim.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Experiment {
+pub enum Experiment {
     /// A scene of `meshes/`, run as by `foldwell run`.
     Scene(String),
     /// Name of a measurement of [`super::measure`].
@@ -45,7 +45,7 @@ pub(crate) enum Experiment {
 
 /// The requirement on the value.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Wanted {
+pub enum Wanted {
     /// The value equals these numbers, each within `absolute + relative * |number|`.
     Equal {
         /// The expected numbers.
@@ -63,14 +63,14 @@ pub(crate) enum Wanted {
 
 /// A claim.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Claim {
+pub struct Claim {
     /// Name of its file without extension.
     pub name: String,
     /// The statement, in a sentence.
     pub claim: String,
     /// Source of the expected value.
     pub source: String,
-    /// Whether it is also checked by `foldwell validate --quick`.
+    /// Whether it is also checked by `cargo run --release -p foldwell-validation -- --quick`.
     pub quick: bool,
     /// The experiment that gives the value.
     pub experiment: Experiment,
@@ -84,7 +84,7 @@ pub(crate) struct Claim {
 
 /// The reason why a file is not a valid claim.
 #[derive(Clone, Debug, Error, PartialEq)]
-pub(crate) enum ClaimError {
+pub enum ClaimError {
     /// The file is not TOML, or has unknown keys.
     #[error("{name}: {message}")]
     Form {
@@ -132,7 +132,7 @@ impl Claim {
     ///
     /// # Errors
     /// [`ClaimError`] if the text is not a valid claim.
-    pub(crate) fn parse(name: &str, text: &str) -> Result<Self, ClaimError> {
+    pub fn parse(name: &str, text: &str) -> Result<Self, ClaimError> {
         let keys: Keys = toml::from_str(text)
             .map_err(|fault| ClaimError::Form { name: name.into(), message: fault.message().into() })?;
         let experiment = match (&keys.scene, &keys.measurement) {
@@ -146,10 +146,10 @@ impl Claim {
     }
 
     /// Returns the command that computes the value.
-    pub(crate) fn command(&self) -> String {
+    pub fn command(&self) -> String {
         match &self.experiment {
             Experiment::Scene(scene) => format!("foldwell run meshes/{scene}"),
-            Experiment::Measurement(_) => format!("foldwell validate {}", self.name),
+            Experiment::Measurement(_) => format!("cargo run --release -p foldwell-validation -- {}", self.name),
         }
     }
 }
@@ -189,7 +189,10 @@ mod tests {
         assert_eq!(claim.wanted, Wanted::Equal { numbers, absolute: 0.1, relative: 0.2 });
         assert_eq!(claim.command(), "foldwell run meshes/x.toml");
         let claim = parse("measurement = \"m\"\nat_most = 3").unwrap();
-        assert_eq!((&claim.wanted, claim.command()), (&Wanted::AtMost(3.0), "foldwell validate a".to_owned()));
+        assert_eq!(
+            (&claim.wanted, claim.command()),
+            (&Wanted::AtMost(3.0), "cargo run --release -p foldwell-validation -- a".to_owned())
+        );
         assert_eq!(parse("measurement = \"m\"\nat_least = 3").unwrap().wanted, Wanted::AtLeast(3.0));
     }
 

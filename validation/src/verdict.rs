@@ -5,7 +5,7 @@ use serde_json::Value;
 
 /// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Verdict {
+pub struct Verdict {
     /// Whether the claim holds.
     pub passed: bool,
     /// Distance of the worst number from its expected value, or beyond its bound (negative if within); NaN if numbers
@@ -16,7 +16,7 @@ pub(crate) struct Verdict {
 }
 
 /// Compares numbers with a requirement. A missing number and NaN fail.
-pub(crate) fn compare(wanted: &Wanted, found: &Numbers) -> Verdict {
+pub fn compare(wanted: &Wanted, found: &Numbers) -> Verdict {
     let bounded = |beyond: fn(f64, f64) -> f64, bound: f64| {
         let each = found.list().iter().map(|number| (beyond(*number, bound), 0.0));
         worst(each.collect())
@@ -46,7 +46,7 @@ fn worst(each: Vec<(f64, f64)>) -> Verdict {
 /// The steps between dots are keys of tables, indices in lists, names of the entries of a list that have a `name`, `*`
 /// for all entries of a list, or `6..10` for the entries 6 to 9. True counts as 1 and false as 0. `None` if there is no
 /// number at the path.
-pub(crate) fn numbers_at(value: &Value, path: &str) -> Option<Numbers> {
+pub fn numbers_at(value: &Value, path: &str) -> Option<Numbers> {
     let mut several = false;
     let mut values = vec![value];
     for step in path.replace("..", "\u{0}").split('.') {

@@ -1,6 +1,6 @@
 //! Error and run time of a trajectory against the length of its steps and the degree of its interpolant.
 
-use super::super::findings::{Bench, ExperimentError, Findings};
+use super::super::findings::{ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star;
 use foldwell::analysis::branches::{BranchesError, branches};
@@ -26,12 +26,11 @@ const ROUNDS: usize = 3;
 /// interpolants of degree three, five and seven. All points lie on the curve within 3e-14 in every case; only the
 /// integral of the arc length depends on steps and degree. Its error is measured against a trajectory followed with
 /// steps of 0.003.
-pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub fn measure(_quick: bool) -> Result<Findings, ExperimentError> {
     let mut short = Short::new()?;
     let reference = short.length(REFERENCE, POINTS[USUAL])?;
     let mut methods = Vec::new();
-    for (step, points) in POINTS.into_iter().enumerate() {
-        bench.step(step, POINTS.len())?;
+    for points in POINTS {
         let mut settings = Vec::new();
         for max_step in STEPS {
             let error = (short.length(max_step, points)? - reference).abs();

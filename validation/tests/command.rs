@@ -1,4 +1,4 @@
-//! The command `foldwell validate`: exit statuses, reports, and a wrong claim.
+//! The program: exit statuses, reports, and a wrong claim.
 
 use approx::abs_diff_eq;
 use assert_cmd::Command;
@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Output;
 
 fn validate(folder: &Path, words: &[&str]) -> Output {
-    Command::cargo_bin("foldwell").unwrap().current_dir(folder).arg("validate").args(words).output().unwrap()
+    Command::cargo_bin("foldwell-validation").unwrap().current_dir(folder).args(words).output().unwrap()
 }
 
 fn report(folder: &Path) -> Value {
@@ -43,7 +43,7 @@ fn claims_that_hold() {
 #[test]
 fn a_wrong_claim_gives_status_one() {
     let folder = tempfile::tempdir().unwrap();
-    let claims = Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/claims");
+    let claims = Path::new(env!("CARGO_MANIFEST_DIR")).join("claims");
     let text = std::fs::read_to_string(claims.join("loops-of-open-star.toml")).unwrap();
     let wrong = text.replace("[50.2037156, 9.9314250, 50", "[50.2037156, 9.9314270, 50");
     assert_ne!(text, wrong, "the claim has other words now: plant the fault elsewhere");

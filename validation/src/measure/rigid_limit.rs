@@ -6,7 +6,7 @@
 //! its energy falls by `sum(c t^2) / 2k`, which is also the energy of the bars. The prediction takes one linear solve
 //! at the rigid state, and contains no stiffness.
 
-use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
@@ -60,11 +60,10 @@ struct Size {
 /// Relaxes patches of the reference cell, whose rest angles are within 0.1 rad of the drawn angles and differ from cell
 /// to cell, at stiffnesses from infinity down to 100. Below [`STIFFNESS_STARTED_AS_DRAWN`] each state starts from the
 /// one before, so that it is the same minimum.
-pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
-    let cells: Vec<usize> = CELLS.into_iter().chain((!bench.quick).then_some(MORE)).collect();
+pub fn measure(quick: bool) -> Result<Findings, ExperimentError> {
+    let cells: Vec<usize> = CELLS.into_iter().chain((!quick).then_some(MORE)).collect();
     let mut sizes = Vec::new();
-    for (step, &n) in cells.iter().enumerate() {
-        bench.step(step, cells.len())?;
+    for &n in &cells {
         sizes.push(size(n)?);
     }
     let all = |of: fn(&Reached) -> f64, within: [f64; 2]| -> Vec<f64> {

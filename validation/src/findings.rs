@@ -1,4 +1,4 @@
-//! The arguments and the results of a measurement.
+//! The results of a measurement.
 
 use super::precision::Diagram;
 use foldwell::analysis::relax::RelaxError;
@@ -6,7 +6,7 @@ use foldwell::analysis::trace::TraceError;
 use foldwell::model::AssemblyError;
 use foldwell::output::OutputError;
 use foldwell::output::figure::chart::Chart;
-use foldwell::run::{Observer, Progress, RunError};
+use foldwell::run::RunError;
 use foldwell::sheet::SheetError;
 use serde::Serialize;
 use serde_json::Value;
@@ -14,7 +14,7 @@ use thiserror::Error;
 
 /// The reason why an experiment gives no value.
 #[derive(Debug, Error)]
-pub(crate) enum ExperimentError {
+pub enum ExperimentError {
     /// A scene could not be run.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -47,14 +47,11 @@ pub(crate) enum ExperimentError {
     /// There is no experiment of this name.
     #[error("there is no experiment `{0}`")]
     Unknown(String),
-    /// The observer asked to stop.
-    #[error("stopped on request")]
-    Interrupted,
 }
 
 /// A table of a report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub(crate) struct ReportTable {
+pub struct ReportTable {
     /// Title.
     pub title: String,
     /// Names of the columns.
@@ -65,7 +62,7 @@ pub(crate) struct ReportTable {
 
 /// The results of an experiment.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Findings {
+pub struct Findings {
     /// Values, as a JSON table with paths that claims refer to.
     pub values: Value,
     /// Diagrams of error against run time.
@@ -74,25 +71,4 @@ pub(crate) struct Findings {
     pub charts: Vec<Chart>,
     /// Tables.
     pub tables: Vec<ReportTable>,
-}
-
-/// The arguments of a measurement.
-pub(crate) struct Bench<'a> {
-    /// Whether to leave out the parts that take long.
-    pub quick: bool,
-    /// Name of the measurement.
-    pub name: &'a str,
-    /// Receives the progress, and may ask to stop.
-    pub observer: Observer<'a>,
-}
-
-impl Bench<'_> {
-    /// Reports the progress: step `step` of `of`.
-    ///
-    /// # Errors
-    /// [`ExperimentError::Interrupted`] if the observer asks to stop.
-    pub(crate) fn step(&self, step: usize, of: usize) -> Result<(), ExperimentError> {
-        let progress = Progress { study: self.name.into(), step, of: Some(of), residual: f64::NAN };
-        if (self.observer)(&progress).is_continue() { Ok(()) } else { Err(ExperimentError::Interrupted) }
-    }
 }

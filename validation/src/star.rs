@@ -12,7 +12,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 /// A patch of `meshes/open-star.fold` with rest angles.
-pub(crate) struct Star {
+pub struct Star {
     /// The patch, without energy terms.
     pub assembly: Assembly,
     /// Rest angle of every edge, in radians; NaN for edges without a hinge.
@@ -23,8 +23,8 @@ pub(crate) struct Star {
 ///
 /// # Errors
 /// None for the mesh of the repository.
-pub(crate) fn cell() -> Result<Sheet, SheetError> {
-    fold::parse(library::mesh("open-star.fold").unwrap_or_default(), "open-star.fold")
+pub fn cell() -> Result<Sheet, SheetError> {
+    fold::read(&library::mesh("open-star.fold"))
 }
 
 impl Star {
@@ -33,7 +33,7 @@ impl Star {
     ///
     /// # Errors
     /// None for the mesh of the repository.
-    pub(crate) fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
+    pub fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         let mut numbers = ChaCha8Rng::seed_from_u64(1);
         let off = |angle: &mut f64| *angle += most * symmetric(&mut numbers);
@@ -45,7 +45,7 @@ impl Star {
     ///
     /// # Errors
     /// None for the mesh of the repository.
-    pub(crate) fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
+    pub fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         for (rest, edge) in star.rest.iter_mut().zip(&star.assembly.tiling().edges).filter(|(rest, _)| !rest.is_nan()) {
             *rest = angles[edge.edge];
@@ -64,7 +64,7 @@ impl Star {
     ///
     /// # Errors
     /// [`ExperimentError::Trace`] if there are none.
-    pub(crate) fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
+    pub fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
         let drawn = Assembly::without_terms(cell()?, [1, 1], Boundary::Screw)?;
         let locked = Terms { locks: vec![(0, drawn.drawn_angles()[0])], ..Terms::default() };
         let options = TraceOptions { max_step, tolerance: 3e-14, branch: None, stop };
@@ -75,14 +75,14 @@ impl Star {
     ///
     /// # Errors
     /// [`ExperimentError::Trace`] if there is no trajectory.
-    pub(crate) fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
+    pub fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
         let all = Self::traced(0.25, Stop { arc_length: Some(arc_length), ..Stop::default() })?;
         let last = all.first().and_then(|traced| traced.states.last());
         Ok(last.ok_or(ExperimentError::Other("there is no ray".into()))?.angles.clone())
     }
 
     /// Returns the model with bars of the stiffness `EA`, and creases of stiffness 1 (torque per radian and length).
-    pub(crate) fn model(&self, stiffness: f64) -> Model {
+    pub fn model(&self, stiffness: f64) -> Model {
         let terms = Terms::bars_and_creases(stiffness, 1.0, self.rest.clone());
         self.assembly.with_terms(terms).model(Gauge::Held)
     }
@@ -91,12 +91,12 @@ impl Star {
     ///
     /// # Errors
     /// [`RelaxError`] if it does not converge.
-    pub(crate) fn relax(&self, model: &Model, options: impl Into<RelaxOptions>) -> Result<Relaxed, Box<RelaxError>> {
+    pub fn relax(&self, model: &Model, options: impl Into<RelaxOptions>) -> Result<Relaxed, Box<RelaxError>> {
         relax_from(model, model.start(), options, &mut |_| true)
     }
 }
 
 /// Returns the numbers of unknowns and of stiff elements of a model.
-pub(crate) fn size(model: &Model) -> (usize, usize) {
+pub fn size(model: &Model) -> (usize, usize) {
     (model.layout().unknowns, model.layout().stiff.len())
 }

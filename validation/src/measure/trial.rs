@@ -29,7 +29,7 @@ const SEED: u64 = 1;
 
 /// The verdict on a trial.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum TrialVerdict {
+pub enum TrialVerdict {
     /// The result agrees with an independent computation, with this largest difference of a fold angle.
     Right(f64),
     /// The relaxation converged, but there is no independent result to compare with.
@@ -41,7 +41,7 @@ pub(crate) enum TrialVerdict {
 }
 
 /// A sheet with bars and creases whose rest angles differ from the drawn angles.
-pub(crate) struct Trial {
+pub struct Trial {
     /// The cell, or the finite sheet.
     pub sheet: Sheet,
     /// Numbers of cells along the two lattice vectors.
@@ -57,7 +57,7 @@ pub(crate) struct Trial {
 }
 
 /// The state at which a trial ended.
-pub(crate) struct TrialResult {
+pub struct TrialResult {
     /// Fold angle of every edge in radians; NaN for edges without a hinge.
     pub angles: Vec<f64>,
     /// Largest difference of a fold angle from the exact kinematics; `None` if there is nothing to compare with.
@@ -70,7 +70,7 @@ pub(crate) struct TrialResult {
 
 impl Trial {
     /// Makes a patch with rigid bars and creases of stiffness 1.
-    pub(crate) fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
+    pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
         Self { sheet, cells, boundary: Boundary::Patch, stiffness, off, lock: None }
     }
@@ -89,7 +89,7 @@ impl Trial {
     }
 
     /// Relaxes from the drawn state. The error is the reason for a failure.
-    pub(crate) fn run(&self) -> Result<TrialResult, String> {
+    pub fn run(&self) -> Result<TrialResult, String> {
         let [bars, creases] = self.stiffness;
         let assembly = self.assembly().map_err(|error| error.to_string())?;
         let mut model = assembly.model(Gauge::Held);
@@ -115,7 +115,7 @@ impl Trial {
     /// For rigid bars, checks that the state agrees with the exact kinematics to `allowed` radians or, without exact
     /// kinematics, that the bars kept their lengths. For soft bars, checks whether the state is that of the augmented
     /// form, which may also find another minimum.
-    pub(crate) fn judged(&self, allowed: f64) -> TrialVerdict {
+    pub fn judged(&self, allowed: f64) -> TrialVerdict {
         judge(|found| match (found.to_kinematic, found.to_augmented) {
             (Some(error), _) => within(error, allowed),
             (None, Some(error)) if error <= AGREES => TrialVerdict::Right(error),
@@ -125,13 +125,13 @@ impl Trial {
     }
 
     /// Checks whether the fold angles are the expected ones to `allowed` radians.
-    pub(crate) fn against(&self, expected: &[f64], allowed: f64) -> TrialVerdict {
+    pub fn against(&self, expected: &[f64], allowed: f64) -> TrialVerdict {
         judge(|found| within(distance(&found.angles, expected), allowed))(self)
     }
 }
 
 /// Returns a function that runs a trial and gives its verdict; a panic and an endless relaxation are wrong.
-pub(crate) fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) -> TrialVerdict {
+pub fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) -> TrialVerdict {
     move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
         Ok(Ok(found)) => verdict(&found),
         Ok(Err(reason)) if reason.contains("stopped on request") => {
@@ -143,13 +143,13 @@ pub(crate) fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&
 }
 
 /// Returns [`TrialVerdict::Right`] if the error is at most `allowed`.
-pub(crate) fn within(error: f64, allowed: f64) -> TrialVerdict {
+pub fn within(error: f64, allowed: f64) -> TrialVerdict {
     if error <= allowed { TrialVerdict::Right(error) } else { TrialVerdict::Wrong(format!("off by {error:.1e}")) }
 }
 
 /// Returns the largest difference where `expected` is a number; NaN if `angles` lacks one of these, if there are none,
 /// or if the lengths differ.
-pub(crate) fn distance(angles: &[f64], expected: &[f64]) -> f64 {
+pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
     let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
     let worst = worst(known.map(|(a, b)| (a - b).abs()));
     worst.filter(|_| angles.len() == expected.len()).unwrap_or(f64::NAN)
