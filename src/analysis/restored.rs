@@ -131,9 +131,10 @@ fn by_law(model: &Model, gaps: &[f64]) -> Vec<f64> {
 /// Tensions of the stiff measures from forces on edges. Of several hinges over one edge the last one has what the others leave.
 fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_law: &[f64]) -> Vec<f64> {
     let coordinates = model.coordinates(x);
-    let mut left = torque.to_vec();
+    let (mut left, mut along) = (torque.to_vec(), tension.to_vec());
     for element in model.soft() {
-        left[element.edge()] -= element.spring.force(element.value(&coordinates));
+        let of_edges = if element.is_angle() { &mut left } else { &mut along };
+        of_edges[element.edge()] -= element.response(element.value(&coordinates))[1];
     }
     let measures: Vec<(bool, usize)> = model.stiff().map(|element| (element.is_angle(), element.edge())).collect();
     let mut last = vec![usize::MAX; torque.len()];
@@ -143,7 +144,7 @@ fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_la
     let mut tensions = Vec::with_capacity(measures.len());
     for (row, &(angle, edge)) in measures.iter().enumerate() {
         tensions.push(match angle {
-            false => tension[edge],
+            false => along[edge],
             true if last[edge] == row => left[edge],
             true => {
                 left[edge] -= by_law[row];

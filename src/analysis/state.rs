@@ -86,7 +86,8 @@ impl State {
         let mut state = Self::empty(vec![], model.edges());
         for element in model.soft() {
             let value = value(&element);
-            state.add(&element, value, [element.spring.force(value), element.spring.energy(value)]);
+            let [energy, force, _] = element.response(value);
+            state.add(&element, value, [force, energy]);
         }
         for (row, element) in model.stiff().enumerate() {
             let tension = tension(row, &element);

@@ -2,10 +2,12 @@
 //!
 //! A term that is absent is not built. Bars always have tensions as unknowns. A hinge has a tension too if it is rigid,
 //! or so much stiffer than the softest element that the rounding errors of `k (angle - rest)` would hide its torque; the
-//! hinges of one kind may be of both sorts.
+//! hinges of one kind may be of both sorts. An element that has a law and a tension is two: a spring with that tension, and what the law
+//! stores beyond it.
 
 use super::boundary::Drawn;
 use super::element::{Elements, Spring, Term, TermKind};
+use super::law::Stored;
 use super::measure::{FoldAngle, Length};
 use super::part::Part;
 use super::problem::{Bodies, Conditions, Equations, Gauge, Model, Support};
@@ -27,8 +29,10 @@ struct Listed {
 
 impl Listed {
     fn push(&mut self, (term, springs): (impl Elements + 'static, Vec<Spring>)) {
-        self.terms.push(Box::new(term));
-        self.springs.extend(springs);
+        if !springs.is_empty() {
+            self.terms.push(Box::new(term));
+            self.springs.extend(springs);
+        }
     }
 }
 
@@ -39,24 +43,29 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
     let in_part = inside_a_part(&terms.parts, tiling.positions.len());
     let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
     if let Some(given) = &terms.bars {
-        stiff.push(bars(drawn, tiling, given, &in_part));
+        stiff.push(bars(drawn, tiling, given, &in_part, Stored::Spring));
+        if let Some(law) = &terms.laws.bars {
+            soft.push(bars(drawn, tiling, given, &in_part, Stored::BeyondSpring(law.clone())));
+        }
     }
     let softest = softest(terms);
-    let kinds =
-        [(TermKind::Creases, EdgeKind::Crease, &terms.creases), (TermKind::Facets, EdgeKind::Facet, &terms.facets)];
-    for (term, kind, hinges) in kinds {
+    let kinds = [
+        (TermKind::Creases, EdgeKind::Crease, &terms.creases, &terms.laws.creases),
+        (TermKind::Facets, EdgeKind::Facet, &terms.facets, &terms.laws.facets),
+    ];
+    for (term, kind, hinges, law) in kinds {
         let Some(hinges) = hinges else { continue };
         let has_tension = |edge: usize| {
             let stiffness = hinges.stiffness.of(edge);
             stiffness > STIFF_RATIO * softest || stiffness.is_infinite()
         };
         let here = |edge: usize| tiling.edges[edge].kind == kind && moves(edge) && !hinges.stiffness.of(edge).is_nan();
-        for (list, tension) in [(&mut soft, false), (&mut stiff, true)] {
-            let wanted = |edge| here(edge) && has_tension(edge) == tension;
-            let (term, springs) = hinge_term(term, drawn, tiling, wanted, hinges);
-            if !springs.is_empty() {
-                list.push((term, springs));
-            }
+        let of_soft = law.clone().map_or(Stored::Spring, Stored::Law);
+        soft.push(hinge_term(term, drawn, tiling, |edge| here(edge) && !has_tension(edge), hinges, of_soft));
+        stiff.push(hinge_term(term, drawn, tiling, |edge| here(edge) && has_tension(edge), hinges, Stored::Spring));
+        if let Some(law) = law {
+            let elastic = |edge| here(edge) && has_tension(edge) && hinges.stiffness.of(edge).is_finite();
+            soft.push(hinge_term(term, drawn, tiling, elastic, hinges, Stored::BeyondSpring(law.clone())));
         }
     }
     if !terms.locks.is_empty() {
@@ -64,7 +73,14 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         terms.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
         let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
         let rigid = Hinges { stiffness: f64::INFINITY.into(), rest };
-        stiff.push(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge] && moves(edge), &rigid));
+        stiff.push(hinge_term(
+            TermKind::Locks,
+            drawn,
+            tiling,
+            |edge| locked[edge] && moves(edge),
+            &rigid,
+            Stored::Spring,
+        ));
     }
     let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
@@ -124,15 +140,17 @@ fn bars(
     tiling: &Tiling,
     bars: &Bars,
     rigid: impl Fn(&[Site]) -> bool,
+    stored: Stored,
 ) -> (Term<Length, 2, 6>, Vec<Spring>) {
     let edges = tiling.edges.iter().enumerate();
-    let there = edges.filter(|(edge, tiled)| !rigid(&tiled.ends) && !bars.stiffness.of(*edge).is_nan());
+    let wanted = |stiffness: f64| if stored.is_law() { stiffness.is_finite() } else { !stiffness.is_nan() };
+    let there = edges.filter(|(edge, tiled)| !rigid(&tiled.ends) && wanted(bars.stiffness.of(*edge)));
     let bar = |(edge, tiled): (usize, &TiledEdge)| {
         let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
         ((tiled.ends, edge), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })
     };
     let (elements, springs) = there.map(bar).unzip();
-    (Term::new(TermKind::Bars, elements), springs)
+    (Term::new(TermKind::Bars, elements, stored), springs)
 }
 
 fn hinge_term(
@@ -141,6 +159,7 @@ fn hinge_term(
     tiling: &Tiling,
     wanted: impl Fn(usize) -> bool,
     hinges: &Hinges,
+    stored: Stored,
 ) -> (Term<FoldAngle, 4, 12>, Vec<Spring>) {
     let hinge = |edge: usize| {
         let sites = tiling.edges[edge].hinge()?;
@@ -148,5 +167,5 @@ fn hinge_term(
         Some(((sites, edge), Spring { stiffness, rest: hinges.rest[edge] }))
     };
     let (elements, springs) = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(hinge).unzip();
-    (Term::new(kind, elements), springs)
+    (Term::new(kind, elements, stored), springs)
 }

@@ -4,6 +4,8 @@
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
+use super::element::TermKind;
+use super::law::{Law, Laws};
 use super::mass::Mass;
 use super::part::Part;
 use super::roll::Roll;
@@ -11,6 +13,7 @@ use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
 use crate::math::Vec3;
 use crate::sheet::{EdgeKey, EdgeKind, Sheet};
+use std::sync::Arc;
 
 /// The rest angles of the creases, or of the facets, in radians.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,6 +91,7 @@ struct Given {
     guides: Vec<(NamedVertex, Vec3)>,
     parts: Vec<(Vec<NamedVertex>, [bool; 6])>,
     mass: Option<Mass>,
+    laws: Laws,
 }
 
 impl Builder {
@@ -185,6 +189,20 @@ impl Builder {
         self
     }
 
+    /// Gives the bars, creases or facets a law other than that of a spring; their stiffness is that at rest. Rigid elements have none, and
+    /// locks are rigid.
+    #[must_use]
+    pub fn law(mut self, kind: TermKind, law: impl Law + 'static) -> Self {
+        let law = Some(Arc::new(law) as Arc<dyn Law>);
+        match kind {
+            TermKind::Bars => self.given.laws.bars = law,
+            TermKind::Creases => self.given.laws.creases = law,
+            TermKind::Facets => self.given.laws.facets = law,
+            TermKind::Locks => {}
+        }
+        self
+    }
+
     /// Builds the assembly.
     ///
     /// # Errors
@@ -211,7 +229,7 @@ impl Builder {
         if let Some(mass) = mass.map(Mass::amount).filter(|mass| !(*mass > 0.0 && mass.is_finite())) {
             return Err(AssemblyError::Mass { mass });
         }
-        let mut terms = Terms { bars, creases, facets, mass, ..Terms::default() };
+        let mut terms = Terms { bars, creases, facets, mass, laws: given.laws, ..Terms::default() };
         for (crease, angle) in given.locks {
             let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.start_angles()[k])));
             terms.locks.extend(locked);

@@ -59,6 +59,9 @@ pub enum DriveError {
     /// The elements of this kind have different stiffnesses.
     #[error("the {} do not all have the same stiffness", .0.name())]
     NotUniform(TermKind),
+    /// The elements of this kind have a law and tensions.
+    #[error("the stiffness of the {} cannot be driven: they have a law", .0.name())]
+    HasLaw(TermKind),
     /// Soft hinges cannot be driven to infinite stiffness.
     #[error("the {} cannot be driven to infinite stiffness: only bars can", .0.name())]
     TooStiff(TermKind),

@@ -1,31 +1,21 @@
 //! Terms of the energy: lists of elements with the same measure; and the elements of a model, each with a spring law.
 
 use super::domain::{Domain, Site};
+use super::law::Stored;
 use super::measure::Measure;
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 use std::marker::PhantomData;
 
-/// The spring law `E = stiffness (value - rest)^2 / 2`; infinite stiffness means `value = rest` exactly.
+/// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](super::Law) near rest; infinite stiffness means
+/// `value = rest` exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// Spring constant: force per length for a bar, torque per radian for a hinge; may be infinite.
     pub stiffness: f64,
     /// Value without force: a length, or an angle in radians.
     pub rest: f64,
-}
-
-impl Spring {
-    /// Returns the force, or the torque, at a value: the derivative of the energy.
-    pub fn force(&self, value: f64) -> f64 {
-        self.stiffness * (value - self.rest)
-    }
-
-    /// Returns the energy at a value.
-    pub fn energy(&self, value: f64) -> f64 {
-        0.5 * self.force(value) * (value - self.rest)
-    }
 }
 
 /// The kind of the elements of a term. Code that treats kinds differently must match all of them.
@@ -63,6 +53,7 @@ pub(crate) struct Term<M, const N: usize, const D: usize> {
     kind: TermKind,
     /// The points of each element, in the order of the measure's arguments, and the number of its edge in the tiling.
     elements: Vec<([Site; N], usize)>,
+    stored: Stored,
     measure: PhantomData<M>,
 }
 
@@ -114,6 +105,8 @@ pub(super) trait Elements: Send + Sync {
     fn sites(&self, k: usize) -> &[Site];
     /// Returns the number of the edge to which element `k` belongs.
     fn edge(&self, k: usize) -> usize;
+    /// Returns what the elements store.
+    fn stored(&self) -> &Stored;
     /// Returns the value of element `k` at the coordinates `x`; angles are between -pi and pi.
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
     /// Puts value and gradient of element `k` at the coordinates `x` into `out`, and its Hessian if it is wanted.
@@ -125,8 +118,8 @@ pub(super) trait Elements: Send + Sync {
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
     /// Makes a term of elements, each given by its points and its edge.
-    pub(crate) fn new(kind: TermKind, elements: Vec<([Site; N], usize)>) -> Self {
-        Self { kind, elements, measure: PhantomData }
+    pub(super) fn new(kind: TermKind, elements: Vec<([Site; N], usize)>, stored: Stored) -> Self {
+        Self { kind, elements, stored, measure: PhantomData }
     }
 }
 
@@ -153,6 +146,10 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
 
     fn edge(&self, k: usize) -> usize {
         self.elements[k].1
+    }
+
+    fn stored(&self) -> &Stored {
+        &self.stored
     }
 
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
@@ -229,6 +226,31 @@ impl<'a> Element<'a> {
     /// Returns its value at the coordinates `x`, a length or an angle in radians, which continues from the last accepted state.
     pub fn value(&self, x: &[f64]) -> f64 {
         continued(self.last, self.term.value(self.index, self.domain, x))
+    }
+
+    /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value.
+    pub fn response(&self, value: f64) -> [f64; 3] {
+        self.term.stored().at(value, self.spring)
+    }
+
+    /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
+    pub(crate) fn by_rest(&self, value: f64) -> [f64; 3] {
+        self.term.stored().by_rest(value, self.spring)
+    }
+
+    /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
+    pub(super) fn metric(&self) -> f64 {
+        if self.is_beyond_spring() { 0.0 } else { self.spring.stiffness }
+    }
+
+    /// Whether it stores what a law has beyond a spring, which is another element.
+    pub(crate) fn is_beyond_spring(&self) -> bool {
+        matches!(self.term.stored(), Stored::BeyondSpring(_))
+    }
+
+    /// Whether it has another law than a spring.
+    pub(crate) fn has_law(&self) -> bool {
+        self.term.stored().is_law()
     }
 
     /// Puts value and gradient at the coordinates `x` into `out`, and the Hessian if it is wanted.

@@ -1,5 +1,6 @@
 //! The terms of a sheet: stiffnesses, rest angles, locks, pins, loads and mass.
 
+use super::law::Laws;
 use super::mass::Mass;
 use super::part::Part;
 use super::stiffness::Stiffness;
@@ -82,6 +83,8 @@ pub struct Terms {
     pub parts: Vec<Part>,
     /// The mass of the sheet, which gives frequencies; it has no weight.
     pub mass: Option<Mass>,
+    /// Laws of bars, creases and facets other than that of a spring.
+    pub laws: Laws,
 }
 
 impl Terms {
@@ -124,7 +127,7 @@ impl Terms {
 
     /// Whether there is any bar, crease, facet, lock or load. Pins and mass give no energy.
     pub fn has_energy(&self) -> bool {
-        let Self { bars, creases, facets, locks, loads, pins: _, guides: _, parts: _, mass: _ } = self;
+        let Self { bars, creases, facets, locks, loads, pins: _, guides: _, parts: _, mass: _, laws: _ } = self;
         bars.is_some() || creases.is_some() || facets.is_some() || !locks.is_empty() || !loads.is_empty()
     }
 

@@ -6,11 +6,11 @@ use super::mass::mass;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::{self, Column};
-use super::spec::{DomainSpec, Lattice};
+use super::spec::{BarLawSpec, DomainSpec, HingeLawSpec, Lattice};
 use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives};
 use crate::kinematics::folding_modes_with_locked;
-use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
+use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, Laws, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Format};
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj};
 use std::ops::Range;
@@ -189,7 +189,13 @@ impl<'a> Reader<'a> {
         } else {
             None
         };
-        let terms = Terms { bars, creases, facets, locks: self.locks()?, mass: mass(self.file), ..Terms::default() };
+        let laws = Laws {
+            bars: energy.bars.as_ref().and_then(|bars| bars.law.as_ref()).map(BarLawSpec::law),
+            creases: energy.creases.as_ref().and_then(|creases| creases.law.as_ref()).map(HingeLawSpec::law),
+            facets: energy.facets.as_ref().and_then(|facets| facets.law.as_ref()).map(HingeLawSpec::law),
+        };
+        let (locks, mass) = (self.locks()?, mass(self.file));
+        let terms = Terms { bars, creases, facets, locks, mass, laws, ..Terms::default() };
         self.placed(terms)
     }
 

@@ -5,6 +5,7 @@
 //! checks at the end of [`crate::scene::parse`].
 
 mod drive;
+mod law;
 mod study;
 mod sweep;
 mod vertices;
@@ -20,6 +21,7 @@ use serde::Deserialize;
 use std::path::PathBuf;
 
 pub use drive::*;
+pub use law::*;
 pub use study::*;
 pub use sweep::*;
 pub use vertices::*;
@@ -176,7 +178,7 @@ pub struct EnergySpec {
     pub facets: Option<FacetsSpec>,
 }
 
-/// `bars = { stiffness, rest }`.
+/// `bars = { stiffness, rest, law }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BarsSpec {
@@ -184,9 +186,11 @@ pub struct BarsSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest lengths; left out: as drawn.
     pub rest: Option<Located<RestLengthSpec>>,
+    /// How the force grows with the stretch; left out: linearly.
+    pub law: Option<BarLawSpec>,
 }
 
-/// `creases = { stiffness, rest, fraction }`.
+/// `creases = { stiffness, rest, fraction, law }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
@@ -196,9 +200,11 @@ pub struct CreasesSpec {
     pub rest: Option<Located<RestSpec>>,
     /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
     pub fraction: Option<Located<Fraction>>,
+    /// How the torque grows with the angle; left out: linearly.
+    pub law: Option<HingeLawSpec>,
 }
 
-/// `facets = { stiffness, rest, fraction }`.
+/// `facets = { stiffness, rest, fraction, law }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacetsSpec {
@@ -208,6 +214,8 @@ pub struct FacetsSpec {
     pub rest: Option<Located<RestSpec>>,
     /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
     pub fraction: Option<Located<Fraction>>,
+    /// How the torque grows with the angle; left out: linearly.
+    pub law: Option<HingeLawSpec>,
 }
 
 /// `mass = { vertex }` or `mass = { area }`: exactly one of both.

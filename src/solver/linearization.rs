@@ -14,13 +14,17 @@ pub enum HessianKind {
     Full,
 }
 
-/// A soft element at one state. Its energy is a function of one measure `m(x)`, and its Hessian is `k g g^T + f h`.
+/// A soft element at one state. Its energy is a function of one measure `m(x)`, and its Hessian is `(k + excess) g g^T + f h`.
 #[derive(Clone, Copy, Debug)]
 pub struct SoftElement<'a> {
-    /// Stiffness `k`: the second derivative of the energy by the measure.
+    /// Stiffness `k >= 0` of the Gauss-Newton part: for a spring the second derivative of the energy by the measure.
     pub stiffness: f64,
+    /// What the second derivative is beyond `k`, for a measure whose energy is not quadratic.
+    pub excess: f64,
     /// Force `f`: the first derivative of the energy by the measure.
     pub force: f64,
+    /// Change of the measure that is as large as one of 1 rad; infinite where no change is too large for one step.
+    pub size: f64,
     /// Gradient `g` of the measure by the unknowns of the element.
     pub gradient: &'a [f64],
     /// Hessian `h` of the measure: its lower triangle, row by row, or empty for the Gauss-Newton part `k g g^T` alone.
@@ -44,6 +48,8 @@ pub struct Linearization {
     pub soft_gradients: Vec<f64>,
     /// Stiffnesses of the soft elements.
     pub soft_stiffness: Vec<f64>,
+    /// Sizes of the changes of the soft measures.
+    pub soft_sizes: Vec<f64>,
     /// Natural size of each stiff measure's gradient: 1 for lengths, one over the unit of length for angles. Rows of
     /// the Jacobian are compared in these units, so that nothing depends on the unit of length.
     pub sizes: Vec<f64>,
@@ -68,6 +74,7 @@ impl Linearization {
             sizes: vec![1.0; layout.stiff.len()],
             soft_gradients: vec![0.0; layout.soft.total()],
             soft_stiffness: vec![0.0; layout.soft.len()],
+            soft_sizes: vec![1.0; layout.soft.len()],
             largest_force: 0.0,
             kind: HessianKind::Full,
             layout: layout.clone(),
@@ -86,8 +93,9 @@ impl Linearization {
 
     /// Adds the force and the Hessian of soft element number `number`.
     pub fn add_soft(&mut self, number: usize, element: &SoftElement<'_>) {
-        let SoftElement { stiffness, force, gradient, hessian } = *element;
+        let SoftElement { stiffness, excess, force, size, gradient, hessian } = *element;
         self.soft_stiffness[number] = stiffness;
+        self.soft_sizes[number] = size;
         self.soft_gradients[self.layout.soft.range(number)].copy_from_slice(gradient);
         for (&member, g) in self.layout.soft.members(number).iter().zip(gradient) {
             if member != FIXED {
@@ -96,6 +104,9 @@ impl Linearization {
         }
         let block = ElementBlock { outer: RankOne { weight: stiffness, gradient }, scale: force, block: hessian };
         self.plan.soft.add_element(number, &block, &mut self.hessian);
+        if excess > 0.0 || (excess < 0.0 && self.kind == HessianKind::Full) {
+            self.plan.soft.add_outer(number, RankOne { weight: excess, gradient }, &mut self.hessian);
+        }
     }
 
     /// Adds the Hessian of a stiff measure (lower triangle, row by row) times its tension.
@@ -187,8 +198,7 @@ impl Linearization {
     pub fn largest_measure_change(&self, dx: &[f64]) -> f64 {
         let mut changes = vec![0.0; self.layout.soft.len()];
         self.soft_rows().product(dx, &mut changes);
-        let stiff = changes.iter().zip(&self.soft_stiffness).filter(|(_, k)| **k != 0.0);
-        stiff.fold(0.0, |most, (change, _)| larger(most, change.abs()))
+        changes.iter().zip(&self.soft_sizes).fold(0.0, |most, (change, size)| larger(most, (change / size).abs()))
     }
 
     /// The stretch `c t - m` that each stiff measure lacks to its tension's law `m = c t`.

@@ -65,7 +65,7 @@
 //!             // one soft element a coordinate: its measure is `x_k - target_k`, which has no curvature
 //!             let force = x[k] - TARGET[k];
 //!             out.largest_force = out.largest_force.max(force.abs());
-//!             out.add_soft(k, &SoftElement { stiffness: 1.0, force, gradient: &[1.0], hessian: &[] });
+//!             out.add_soft(k, &SoftElement { stiffness: 1.0, excess: 0.0, force, size: 1.0, gradient: &[1.0], hessian: &[] });
 //!         }
 //!         let length = x[0].hypot(x[1]);
 //!         let [u, v] = [x[0] / length, x[1] / length];

@@ -30,6 +30,13 @@ pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<()
     }
 }
 
+/// Checks that all elements are springs.
+pub(super) fn springs(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
+    let Some(term) = context.assembly.terms().laws.first() else { return Ok(()) };
+    let message = format!("{what} are those of springs, and the {term} have a law");
+    Err(context.refuse(message, format!("leave out `law` of the {term}; relax, path and wells support it")).into())
+}
+
 /// Checks that the bars are at rest as drawn.
 pub(super) fn drawn_lengths(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
     match context.assembly.bars_off_rest() {

@@ -47,6 +47,9 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
         return refuse("wells are those of the energy of bars and creases", help);
     }
     supported::drawn_lengths(context, "wells")?;
+    if spec.rigid || !spec.barriers.is_empty() {
+        supported::springs(context, "barriers and rigid wells")?;
+    }
     if !terms.loads.is_empty() && free_rigid_motions(context.assembly) > 0 {
         let help = "pin three vertices that do not lie on a line, or leave out [[load]]";
         return refuse("wells under loads are those of a sheet that pins hold in place", help);

@@ -98,7 +98,10 @@ impl Problem for Textbook {
                 hessian.clear();
             }
             let (stiffness, force) = (*weight, weight * value);
-            out.add_soft(k, &SoftElement { stiffness, force, gradient: &gradient, hessian: &hessian });
+            out.add_soft(
+                k,
+                &SoftElement { stiffness, excess: 0.0, force, size: 1.0, gradient: &gradient, hessian: &hessian },
+            );
         }
         for (k, measure) in self.stiff.iter().enumerate() {
             let (value, gradient, hessian) = measure(&Self::at(&self.layout.stiff, k, x));

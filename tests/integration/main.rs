@@ -49,6 +49,7 @@ mod landscape;
 mod landscape_map;
 mod landscape_runs;
 mod landscape_torus;
+mod laws;
 mod loads_and_units;
 mod mesh_files;
 mod miura;

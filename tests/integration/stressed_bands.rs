@@ -39,7 +39,7 @@ fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> Configurati
     let coordinates: Vec<f64> =
         many.drawn().coordinates.iter().enumerate().map(|(k, x)| x + moved[k % moved.len()]).collect();
     let model = many.model(Gauge::Free);
-    let tension = Some(model.stiff().map(|element| element.spring.force(element.value(&coordinates))).collect());
+    let tension = Some(model.stiff().map(|element| element.response(element.value(&coordinates))[1]).collect());
     let angles = model.angles();
     Configuration { coordinates, angles, tension }
 }

@@ -47,7 +47,7 @@ impl Element {
 
     /// A spring that carries a force, with the first and second derivatives of its measure.
     fn stretched(element: &crate::model::Element<'_>, local: &Local) -> Self {
-        let (stiffness, force) = (element.spring.stiffness, element.spring.force(local.value));
+        let [_, force, stiffness] = element.response(local.value);
         let corners = element.sites().iter().map(|&Site { vertex, shift }| Corner { vertex, shift }).collect();
         let second = |row: usize, column: usize| {
             let (low, high) = (row.min(column), row.max(column));

@@ -21,6 +21,12 @@ pub enum LandscapeError {
         /// Name of the term.
         term: &'static str,
     },
+    /// The elements of a term are no springs.
+    #[error("a landscape is that of springs, and the {term} have another law")]
+    Law {
+        /// Name of the term.
+        term: &'static str,
+    },
     /// Bars are not at rest as drawn.
     #[error(
         "a landscape is that of a sheet drawn at rest, and {bars} bars have other rest lengths than the drawn ones"

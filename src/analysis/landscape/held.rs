@@ -45,6 +45,9 @@ impl HeldSheet {
         if let Some(term) = assembly.terms().uneven_term() {
             return Err(LandscapeError::Uneven { term });
         }
+        if let Some(term) = assembly.terms().laws.first() {
+            return Err(LandscapeError::Law { term });
+        }
         if !assembly.has_drawn_lengths() {
             return Err(LandscapeError::OffRest { bars: assembly.bars_off_rest() });
         }

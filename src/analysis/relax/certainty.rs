@@ -1,8 +1,7 @@
 //! Error of a converged state: the change of its fold angles in one more Newton step.
 
 use super::rigid_forces::rigid_over_others;
-use crate::model::{Domain, Model};
-use crate::numerics::vector::max_abs;
+use crate::model::{Domain, Element, Model};
 use crate::solver::{Equilibrium, HessianKind, Problem, Tangent};
 
 /// Largest angle, in radians, by which a converged state may still be off.
@@ -47,5 +46,7 @@ pub(super) fn next_change(tangent: &mut Tangent, tension: &[f64]) -> Option<f64>
 
 /// The largest angle between a soft hinge and its rest, in radians.
 pub(super) fn off_rest(model: &Model, x: &[f64]) -> f64 {
-    max_abs(&model.off_rest(x))
+    let coordinates = model.coordinates(x);
+    let off = model.soft().filter(Element::is_angle).map(|hinge| hinge.value(&coordinates) - hinge.spring.rest);
+    off.fold(0.0, |largest, off| largest.max(off.abs()))
 }

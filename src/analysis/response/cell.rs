@@ -86,7 +86,8 @@ impl PeriodicCell {
         let close = |a: f64, b: f64| a == b || (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(1.0);
         for CellElement { element, .. } in self.elements(assembly) {
             let (spring, edge) = (element.spring, edges[element.edge()].edge);
-            let same = self.model.elements().filter(|other| other.kind() == element.kind());
+            let alike = |other: &Element<'_>| other.kind() == element.kind() && !other.is_beyond_spring();
+            let same = self.model.elements().filter(alike);
             let same: Vec<_> = same.filter(|other| edges[other.edge()].edge == edge).collect();
             let even = |other: &Element<'_>| {
                 close(spring.stiffness, other.spring.stiffness) && close(spring.rest, other.spring.rest)
@@ -106,7 +107,9 @@ impl PeriodicCell {
             let shift = [0, 1].map(|k| cell[k] as i32 + site.shift[k] * self.cells[k] as i32);
             Site { vertex: site.vertex % vertices, shift }
         };
-        let here = self.model.elements().filter(|element| edges[element.edge()].cell == [0, 0]);
+        // a law is a spring at rest: what it stores beyond that has no stiffness there
+        let springs = self.model.elements().filter(|element| !element.is_beyond_spring());
+        let here = springs.filter(|element| edges[element.edge()].cell == [0, 0]);
         let placed = |element: Element<'a>| {
             let places = element.sites().iter().map(place).collect();
             CellElement { element: element.on(&self.domain), places }

@@ -57,6 +57,12 @@ const SHORTEST: f64 = 1.05;
 /// Why there is no pass.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BarrierError {
+    /// The elements of a term are no springs: states cannot be held near others by springs of their own kind.
+    #[error("barriers are those of springs, and the {term} have another law")]
+    Law {
+        /// Name of the term.
+        term: &'static str,
+    },
     /// A well is none with the bars in which paths were sought.
     #[error("with bars of {stiffness:e} the wells are no longer these two")]
     OneWell {
@@ -157,6 +163,9 @@ pub fn barrier(
     between: [usize; 2],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
+    if let Some(term) = assembly.terms().laws.first() {
+        return Err(BarrierError::Law { term });
+    }
     let creases = assembly.crease_stiffness();
     let own = assembly.bar_stiffness();
     let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
@@ -379,6 +388,6 @@ fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Opti
     if !assembly.terms().loads.is_empty() || flatten(assembly.sheet()).is_err() {
         return None;
     }
-    let energy = assembly.model(Gauge::Held).elastic_hinges().map(|hinge| hinge.spring.energy(0.0)).sum::<f64>();
+    let energy = assembly.model(Gauge::Held).elastic_hinges().map(|hinge| hinge.response(0.0)[0]).sum::<f64>();
     ((energy - limit.energy).abs() <= ERRORS_OF_LIMIT * limit.error).then_some(energy)
 }

@@ -206,6 +206,9 @@ impl Collected {
         let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
         let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
         for element in model.elements() {
+            if element.has_law() {
+                return Err(Unsupported::Law);
+            }
             let (edge, kind) = (element.edge(), element.kind());
             let law = Law { rest: element.spring.rest, compliance: 1.0 / element.spring.stiffness };
             match (kind, element.sites()) {

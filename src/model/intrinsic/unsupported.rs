@@ -11,6 +11,9 @@ pub enum Unsupported {
     /// Pins and loads act on positions.
     #[error("pins and loads act on positions")]
     PinsOrLoads,
+    /// Some elements are no springs.
+    #[error("bars or hinges have a law, and are no springs")]
+    Law,
     /// Some edge has no bar.
     #[error("edge {edge} has no bar")]
     NoBar {

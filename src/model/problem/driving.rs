@@ -235,38 +235,39 @@ impl ParametrizedProblem for DrivenModel {
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
                 let count = self.model.soft_elements();
-                let mut torques: Vec<f64> = at.soft_stiffness.iter().zip(&moved).map(|(k, moved)| -k * moved).collect();
-                torques[count..].fill(0.0);
+                let by_rest = self.model.soft_by_rest(x);
+                let mut torques: Vec<f64> =
+                    by_rest.iter().zip(&moved).map(|([_, force, _], moved)| force * moved).collect();
+                torques.resize(at.soft_stiffness.len(), 0.0);
                 at.soft_rows().add_transpose_product(&torques, &mut force);
                 gap.iter_mut().zip(&moved[count..]).for_each(|(gap, moved)| *gap = -moved);
             }
             Effect::Compliance(units) => units.iter().for_each(|(k, unit)| gap[*k] = -unit * tension[*k]),
             Effect::Stiffness(units) => {
                 let mut torques = vec![0.0; at.soft_stiffness.len()];
-                let off = self.model.off_rest(x);
-                units.iter().for_each(|(k, unit)| torques[*k] = unit * off[*k]);
+                let found = self.model.soft_responses(x);
+                units.iter().for_each(|(k, _)| torques[*k] = found[*k][1] / self.parameter);
                 at.soft_rows().add_transpose_product(&torques, &mut force);
             }
         }
         [force, gap]
     }
 
-    fn conjugate(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> f64 {
+    fn conjugate(&self, _: &Linearization, x: &[f64], tension: &[f64]) -> f64 {
         match &self.effect {
             Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| tension[*k]).sum::<f64>(),
             Effect::Loads { origin } => self.model.load_displacement(&self.model.coordinates(x)) - origin,
             Effect::Rest { drawn, given } => {
-                let off = self.model.off_rest(x);
-                let of_soft = at.soft_stiffness.iter().zip(&off).map(|(k, off)| k * off);
-                let forces = of_soft.chain(tension.iter().copied());
-                -forces.zip(given.iter().zip(drawn)).map(|(force, (given, drawn))| force * (given - drawn)).sum::<f64>()
+                let of_soft = self.model.soft_by_rest(x).into_iter().map(|[energy, ..]| energy);
+                let rates = of_soft.chain(tension.iter().map(|force| -force));
+                rates.zip(given.iter().zip(drawn)).map(|(rate, (given, drawn))| rate * (given - drawn)).sum::<f64>()
             }
             Effect::Compliance(units) => {
                 -units.iter().map(|(k, unit)| 0.5 * unit * tension[*k] * tension[*k]).sum::<f64>()
             }
             Effect::Stiffness(units) => {
-                let off = self.model.off_rest(x);
-                units.iter().map(|(k, unit)| 0.5 * unit * off[*k] * off[*k]).sum()
+                let found = self.model.soft_responses(x);
+                units.iter().map(|(k, _)| found[*k][0] / self.parameter).sum()
             }
         }
     }
@@ -279,17 +280,18 @@ impl ParametrizedProblem for DrivenModel {
             Effect::Loads { .. } => -dot(&self.model.load_rates(x), &rates.x),
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
-                let soft = at.soft_stiffness.iter().zip(&changes).zip(&moved).take(self.model.soft_elements());
-                let of_soft = soft.map(|((k, change), moved)| k * (change - moved * rates.parameter));
-                let forces = of_soft.chain(rates.tension.iter().copied());
-                -forces.zip(&moved).map(|(force, moved)| force * moved).sum::<f64>()
+                let soft = self.model.soft_by_rest(x).into_iter().zip(&changes).zip(&moved);
+                let of_soft =
+                    soft.map(|(([_, force, energy], change), moved)| force * change + energy * moved * rates.parameter);
+                let all = of_soft.chain(rates.tension.iter().map(|force| -force));
+                all.zip(&moved).map(|(rate, moved)| rate * moved).sum::<f64>()
             }
             Effect::Compliance(units) => {
                 -units.iter().map(|(k, unit)| unit * tension[*k] * rates.tension[*k]).sum::<f64>()
             }
             Effect::Stiffness(units) => {
-                let off = self.model.off_rest(x);
-                units.iter().map(|(k, unit)| unit * off[*k] * changes[*k]).sum()
+                let found = self.model.soft_responses(x);
+                units.iter().map(|(k, _)| found[*k][1] / self.parameter * changes[*k]).sum()
             }
         }
     }

@@ -56,7 +56,7 @@ impl Problem for Model {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let cost = |k: usize, energy: &mut f64| {
                 let element = self.element(term, k, first + k);
-                *energy = element.spring.energy(element.value(&all));
+                *energy = element.response(element.value(&all))[0];
             };
             parallel::compute_and_consume(term.len(), cost, |_, value| energy += value);
         }
@@ -148,7 +148,8 @@ impl Model {
             Self::scale(&mut local, &self.pose_units());
             let (gradient, hessian) = (&local.gradient, &local.hessian);
             // its measure is the potential itself, of stiffness zero
-            out.add_soft(first + number, &SoftElement { stiffness: 0.0, force: self.load_factor, gradient, hessian });
+            let (force, size) = (self.load_factor, f64::INFINITY);
+            out.add_soft(first + number, &SoftElement { stiffness: 0.0, excess: 0.0, force, size, gradient, hessian });
         }
     }
 
@@ -170,15 +171,16 @@ impl Model {
         let full = kind == HessianKind::Full;
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
+            let size = if term.is_angle() { 1.0 } else { self.equations.mean_edge };
             let add = |k: usize, local: &Local| {
-                let spring = self.springs[first + k];
-                let off = local.value - spring.rest;
-                let force = spring.stiffness * off;
-                out.energy += 0.5 * force * off;
+                let element = self.element(term, k, first + k);
+                let [energy, force, second] = element.response(local.value);
+                let stiffness = element.metric();
+                out.energy += energy;
                 let largest = max_abs(&local.gradient).min(most);
-                out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
-                let (gradient, hessian) = (&local.gradient, &local.hessian);
-                out.add_soft(first + k, &SoftElement { stiffness: spring.stiffness, force, gradient, hessian });
+                out.largest_force = out.largest_force.max(largest * force.abs().max(stiffness * LEAST_ANGLE));
+                let (gradient, hessian, excess) = (&local.gradient, &local.hessian, second - stiffness);
+                out.add_soft(first + k, &SoftElement { stiffness, excess, force, size, gradient, hessian });
             };
             parallel::compute_and_consume(term.len(), self.locals((first, term), all, full), add);
         }

@@ -10,6 +10,18 @@ impl Model {
         self.soft().map(|element| element.value(&all) - element.spring.rest).collect()
     }
 
+    /// Returns energy, force and stiffness of each soft element.
+    pub(super) fn soft_responses(&self, x: &[f64]) -> Vec<[f64; 3]> {
+        let all = self.coordinates(x);
+        self.soft().map(|element| element.response(element.value(&all))).collect()
+    }
+
+    /// Returns for each soft element the derivatives of energy and force by its rest value, and the second one of the energy.
+    pub(super) fn soft_by_rest(&self, x: &[f64]) -> Vec<[f64; 3]> {
+        let all = self.coordinates(x);
+        self.soft().map(|element| element.by_rest(element.value(&all))).collect()
+    }
+
     /// Returns the elastic hinges.
     pub(crate) fn elastic_hinges(&self) -> impl Iterator<Item = Element<'_>> {
         self.elements().filter(Element::is_elastic_hinge)

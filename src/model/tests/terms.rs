@@ -1,6 +1,7 @@
 //! Tests of terms: angles continue from the last accepted state.
 
 use crate::model::element::{Local, Spring, Term, TermKind};
+use crate::model::law::Stored;
 use crate::model::measure::FoldAngle;
 use crate::model::problem::{Bodies, Conditions, Equations, Gauge, Model};
 use crate::model::{Domain, Site};
@@ -14,7 +15,7 @@ fn hinge(angle: f64) -> Vec<f64> {
 
 fn model_of_one_hinge(drawn: Vec<f64>) -> Model {
     let sites = [0, 1, 2, 3].map(|vertex| Site { vertex, shift: [0, 0] });
-    let term = Term::<FoldAngle, 4, 12>::new(TermKind::Creases, vec![(sites, 0)]);
+    let term = Term::<FoldAngle, 4, 12>::new(TermKind::Creases, vec![(sites, 0)], Stored::Spring);
     let equations = Equations {
         domain: Domain::Patch,
         drawn,

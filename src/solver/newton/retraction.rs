@@ -36,15 +36,26 @@ impl<P: Problem> Newton<'_, P> {
                 return Ok(());
             }
             self.factor_start()?;
-            if let Ok(trial) = self.retract(self.x.clone(), self.tension.clone(), START_GAP, START_CHORDS) {
-                (self.x, self.tension) = (trial.x, trial.tension);
-                self.problem.accept(&mut self.x);
-                self.linearize();
+            let retracted = self.retract(self.x.clone(), self.tension.clone(), START_GAP, START_CHORDS);
+            if let Ok(trial) = retracted
+                && trial.merit.is_finite()
+            {
+                self.start_from(trial);
                 return Ok(());
             }
-            gap = self.approach(gap).ok_or(Failure::Infeasible { gap })?;
+            let Some(left) = self.approach(gap) else { break };
+            gap = left;
         }
-        Err(Failure::Infeasible { gap })
+        // as it is, with the tensions that measures of finite stiffness have
+        let trial = self.stretched(self.x.clone(), self.tension.clone(), START_GAP);
+        self.start_from(trial.ok_or(Failure::Infeasible { gap })?);
+        Ok(())
+    }
+
+    fn start_from(&mut self, trial: Trial) {
+        (self.x, self.tension) = (trial.x, trial.tension);
+        self.problem.accept(&mut self.x);
+        self.linearize();
     }
 
     /// Factors for the retraction of a start: near a solution, where tensions are known, it should cost the least
@@ -66,7 +77,7 @@ impl<P: Problem> Newton<'_, P> {
             let (x, tension) = (moved(&self.x, fraction, &dx), moved(&self.tension, fraction, &dt));
             let open = missing(&self.problem.gaps(&x), &tension, self.problem.compliance());
             let left = self.largest_scaled_gap(&open);
-            if left <= (1.0 - LEAST_CLOSED_PART * fraction) * gap {
+            if left <= (1.0 - LEAST_CLOSED_PART * fraction) * gap && self.problem.energy(&x).is_finite() {
                 (self.x, self.tension) = (x, tension);
                 self.problem.accept(&mut self.x);
                 self.linearize();

@@ -58,7 +58,17 @@ impl Problem for Textbook {
         let (energy, gradient, hessian) = (self.soft)(x, self.parameter);
         out.energy = energy;
         out.largest_force = max_abs(&gradient).max(1e-3);
-        out.add_soft(0, &SoftElement { stiffness: 0.0, force: 1.0, gradient: &gradient, hessian: &hessian });
+        out.add_soft(
+            0,
+            &SoftElement {
+                stiffness: 0.0,
+                excess: 0.0,
+                force: 1.0,
+                size: f64::INFINITY,
+                gradient: &gradient,
+                hessian: &hessian,
+            },
+        );
         for (k, (gap, gradient, hessian)) in (self.stiff)(x, self.parameter).into_iter().enumerate() {
             out.gaps[k] = gap;
             out.jacobian[k * x.len()..(k + 1) * x.len()].copy_from_slice(&gradient);

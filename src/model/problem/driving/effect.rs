@@ -42,28 +42,31 @@ impl Effect {
 
     /// Returns the stiffness of all elements of a kind, with the parameter at the beginning and at the end.
     pub(super) fn stiffness(model: &Model, kind: TermKind, to: f64) -> Result<(Self, f64, f64), DriveError> {
-        // the spring constant for a stiffness of 1: EA / L0 of a bar, the length of its crease of a hinge
-        let unit = |element: &Element<'_>| match kind {
-            TermKind::Bars => element.spring.rest.recip(),
-            _ => model.length_of(element),
+        // stiffness over spring constant: EA = k L0 of a bar, k / L0 of a hinge
+        let scale = |element: &Element<'_>| match kind {
+            TermKind::Bars => element.spring.rest,
+            _ => model.length_of(element).recip(),
         };
         let stiff: Vec<_> =
-            model.stiff_of(kind).map(|(measure, found)| (measure, unit(&found), found.spring)).collect();
+            model.stiff_of(kind).map(|(measure, found)| (measure, scale(&found), found.spring)).collect();
         let soft = model.soft().filter(|element| element.kind() == kind);
-        let soft: Vec<_> = soft.map(|found| (found.number, unit(&found), found.spring)).collect();
-        let all = stiff.iter().chain(&soft).map(|(_, unit, spring)| spring.stiffness / unit);
+        let soft: Vec<_> = soft.map(|found| (found.number, scale(&found), found.spring)).collect();
+        let all = stiff.iter().chain(&soft).map(|(_, scale, spring)| spring.stiffness * scale);
         let from = all.clone().next().ok_or(DriveError::NoTerm(kind))?;
         let is_first = |k: f64| k == from || (k - from).abs() <= SAME_STIFFNESS * from;
+        if !stiff.is_empty() && model.soft().any(|element| element.kind() == kind && element.has_law()) {
+            return Err(DriveError::HasLaw(kind));
+        }
         if !all.clone().all(is_first) || !(stiff.is_empty() || soft.is_empty()) {
             return Err(DriveError::NotUniform(kind));
         }
         if soft.is_empty() {
-            let units = stiff.iter().map(|(measure, unit, _)| (*measure, unit.recip())).collect();
+            let units = stiff.iter().map(|(measure, scale, _)| (*measure, *scale)).collect();
             return Ok((Self::Compliance(units), from.recip(), to.recip()));
         }
         if to.is_infinite() {
             return Err(DriveError::TooStiff(kind));
         }
-        Ok((Self::Stiffness(soft.iter().map(|(number, unit, _)| (*number, *unit)).collect()), from, to))
+        Ok((Self::Stiffness(soft.iter().map(|(number, scale, _)| (*number, scale.recip())).collect()), from, to))
     }
 }

@@ -1,0 +1,115 @@
+//! Laws: how the energy of an element depends on the value of its measure.
+
+use super::element::Spring;
+use std::fmt;
+use std::sync::Arc;
+
+/// A law `phi` of an element: its energy is `k phi(m, rest)`, `k` the spring constant, `m` the value of its measure, a length or an
+/// angle in radians.
+///
+/// Every law is a spring of constant `k` near rest: `phi = phi' = 0` and `phi'' = 1` at `m = rest`, unless rest is beyond a limit.
+/// Derivatives are by `m`. Where a value cannot be reached, as a fold angle beyond pi, the energy is infinite. A law is one file of a user's
+/// own: a type with this trait, given to [`Builder::law`](super::Builder::law).
+///
+/// ```
+/// use foldwell::model::{Law, TermKind};
+/// use foldwell::{Assembly, Pattern, Rest, generate, relax};
+///
+/// /// Creases that become stiffer with the square of how far they are folded.
+/// #[derive(Debug)]
+/// struct Hardening;
+///
+/// impl Law for Hardening {
+///     fn at(&self, angle: f64, rest: f64) -> [f64; 3] {
+///         let off = angle - rest;
+///         [0.5 * off.powi(2) + 0.25 * off.powi(4), off + off.powi(3), 1.0 + 3.0 * off.powi(2)]
+///     }
+/// }
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let linear = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).rest(Rest::Angle(0.5));
+/// let hardening = linear.clone().law(TermKind::Creases, Hardening).build()?;
+/// assert!(relax(&hardening)?.state.total() > relax(&linear.build()?)?.state.total());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait Law: fmt::Debug + Send + Sync {
+    /// Returns `phi`, `phi'` and `phi''` at a value.
+    fn at(&self, value: f64, rest: f64) -> [f64; 3];
+
+    /// Returns what changes with the rest value, `m` fixed: the derivative of `phi`, that of `phi'`, and the second one of `phi`. The
+    /// default is right for functions of `m - rest`.
+    fn by_rest(&self, value: f64, rest: f64) -> [f64; 3] {
+        let [_, force, stiffness] = self.at(value, rest);
+        [-force, -stiffness, stiffness]
+    }
+}
+
+/// Laws are equal where they are the same object.
+impl PartialEq for dyn Law {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::addr_eq(self, other)
+    }
+}
+
+/// The laws of the terms; `None` is a linear spring.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Laws {
+    /// That of the bars.
+    pub bars: Option<Arc<dyn Law>>,
+    /// That of the creases.
+    pub creases: Option<Arc<dyn Law>>,
+    /// That of the facets.
+    pub facets: Option<Arc<dyn Law>>,
+}
+
+impl Laws {
+    /// Returns the name of the first term that has a law; `None` if all are springs.
+    pub fn first(&self) -> Option<&'static str> {
+        let all = [("bars", &self.bars), ("creases", &self.creases), ("facets", &self.facets)];
+        all.into_iter().find(|(_, law)| law.is_some()).map(|(name, _)| name)
+    }
+}
+
+/// What the elements of a term store.
+#[derive(Clone, Debug)]
+pub(super) enum Stored {
+    /// The energy of a spring.
+    Spring,
+    /// That of a law.
+    Law(Arc<dyn Law>),
+    /// What a law stores beyond a spring, which has a tension of its own as unknown: so the law is exact at every stiffness.
+    BeyondSpring(Arc<dyn Law>),
+}
+
+impl Stored {
+    /// Whether it is no spring.
+    pub(super) fn is_law(&self) -> bool {
+        !matches!(self, Self::Spring)
+    }
+
+    /// Returns energy, force and stiffness at a value.
+    pub(super) fn at(&self, value: f64, spring: Spring) -> [f64; 3] {
+        let off = value - spring.rest;
+        let unit = match self {
+            Self::Spring => [0.5 * off * off, off, 1.0],
+            Self::Law(law) => law.at(value, spring.rest),
+            Self::BeyondSpring(law) => beyond(law.at(value, spring.rest), [0.5 * off * off, off, 1.0]),
+        };
+        unit.map(|part| spring.stiffness * part)
+    }
+
+    /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
+    pub(super) fn by_rest(&self, value: f64, spring: Spring) -> [f64; 3] {
+        let linear = [spring.rest - value, -1.0, 1.0];
+        let unit = match self {
+            Self::Spring => linear,
+            Self::Law(law) => law.by_rest(value, spring.rest),
+            Self::BeyondSpring(law) => beyond(law.by_rest(value, spring.rest), linear),
+        };
+        unit.map(|part| spring.stiffness * part)
+    }
+}
+
+fn beyond(law: [f64; 3], spring: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| law[k] - spring[k])
+}

@@ -1,0 +1,148 @@
+//! Laws of published programs.
+
+use super::law::Law;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A hinge that is a spring between two fold angles and becomes ever stiffer beyond them, so that faces never pass through each other: its
+/// torque diverges where it is folded flat. Beyond a limit `m1`, with `s = pi - |m1|`,
+///
+/// `phi' = m1 - rest + (2 s / pi) tan(pi (|m| - |m1|) / (2 s))`, with the sign of `m1` before the tangent
+///
+/// (K. Liu and G. H. Paulino, "Nonlinear mechanics of non-rigid origami", Proc. R. Soc. A 473, 20170348 (2017), equation 28).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffening {
+    /// The lower limit, between -pi and 0, and the upper one, between 0 and pi, in radians.
+    pub limits: [f64; 2],
+}
+
+impl Law for Stiffening {
+    fn at(&self, angle: f64, rest: f64) -> [f64; 3] {
+        let limit = angle.clamp(self.limits[0], self.limits[1]);
+        let (off, beyond) = (limit - rest, angle - limit);
+        if beyond == 0.0 {
+            return [0.5 * off * off, off, 1.0];
+        }
+        let unit = (PI - limit.abs()) / FRAC_PI_2;
+        if !(angle.abs() < PI) {
+            return [f64::INFINITY; 3];
+        }
+        let turned = beyond / unit;
+        let energy = 0.5 * off * off + off * beyond - unit * unit * turned.cos().ln();
+        [energy, off + unit * turned.tan(), turned.cos().powi(-2)]
+    }
+
+    /// What is beyond the limits does not depend on the rest angle.
+    fn by_rest(&self, angle: f64, rest: f64) -> [f64; 3] {
+        [rest - angle, -1.0, 1.0]
+    }
+}
+
+/// A bar of the force `EA (l^(a - 1) - l^(b - 1)) / (a - b)` at the stretch `l`, its length over its rest length (R. W. Ogden; `a = 5`,
+/// `b = 1` in MERLIN, Liu and Paulino 2017).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ogden {
+    /// The exponents `a` and `b`, which differ.
+    pub exponents: [f64; 2],
+}
+
+impl Law for Ogden {
+    fn at(&self, length: f64, rest: f64) -> [f64; 3] {
+        of_stretch(rest, self.by_stretch(length / rest))
+    }
+
+    fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {
+        of_rest(length, rest, self.by_stretch(length / rest))
+    }
+}
+
+impl Ogden {
+    fn by_stretch(&self, stretch: f64) -> [f64; 3] {
+        let [a, b] = self.exponents;
+        let power = |a: f64| if a == 0.0 { stretch.ln() } else { (a * stretch.ln()).exp_m1() / a };
+        let slope = |a: f64| (a - 1.0) * stretch.powf(a - 2.0);
+        let force = stretch.powf(a - 1.0) - stretch.powf(b - 1.0);
+        [power(a) - power(b), force, slope(a) - slope(b)].map(|part| part / (a - b))
+    }
+}
+
+/// A bar of the force `EA l (l^2 - 1) / 2` at the stretch `l`: linear in the strain of Green and Lagrange.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GreenLagrange;
+
+impl Law for GreenLagrange {
+    fn at(&self, length: f64, rest: f64) -> [f64; 3] {
+        of_stretch(rest, green_lagrange(length / rest))
+    }
+
+    fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {
+        of_rest(length, rest, green_lagrange(length / rest))
+    }
+}
+
+fn green_lagrange(stretch: f64) -> [f64; 3] {
+    let square = stretch * stretch;
+    [0.125 * (square - 1.0).powi(2), 0.5 * stretch * (square - 1.0), 0.5 * (3.0 * square - 1.0)]
+}
+
+/// `phi = rest^2 f(m / rest)` and its derivatives by `m`, from those of `f`.
+fn of_stretch(rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
+    [rest * rest * f, rest * first, second]
+}
+
+/// The derivatives of the same `phi` and of `phi'` by `rest`, and the second one of `phi`.
+fn of_rest(length: f64, rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
+    let stretch = length / rest;
+    let twice = 2.0 * f - 2.0 * stretch * first + stretch * stretch * second;
+    [2.0 * rest * f - length * first, first - stretch * second, twice]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAWS: [(&dyn Law, [f64; 4], f64); 4] = [
+        (&Stiffening { limits: [-2.0, 1.0] }, [-2.9, -1.0, 0.7, 2.4], 0.3),
+        (&Ogden { exponents: [5.0, 1.0] }, [0.6, 1.1, 1.5, 2.0], 1.2),
+        (&Ogden { exponents: [2.0, 0.0] }, [0.6, 1.1, 1.5, 2.0], 1.2),
+        (&GreenLagrange, [0.6, 1.1, 1.5, 2.0], 1.2),
+    ];
+
+    fn difference(f: impl Fn(f64) -> f64, at: f64) -> f64 {
+        let step = |h: f64| (f(at + h) - f(at - h)) / (2.0 * h);
+        (4.0 * step(5e-4) - step(1e-3)) / 3.0
+    }
+
+    /// Claim: a law is a spring at rest, and its derivatives by value and by rest value are those of its energy. Source: extrapolated
+    /// central differences. Tolerance: their rounding errors and truncation, 1e-10 of values up to 10, 1e-8 at a wall.
+    #[test]
+    fn derivatives_are_right() {
+        for (law, values, rest) in LAWS {
+            let [energy, force, stiffness] = law.at(rest, rest);
+            assert!(energy == 0.0 && force == 0.0 && (stiffness - 1.0).abs() < 1e-15, "{law:?} at rest");
+            for value in values {
+                let ([_, force, stiffness], by_rest) = (law.at(value, rest), law.by_rest(value, rest));
+                let found = [force, stiffness, by_rest[0], by_rest[1], by_rest[2]];
+                let expected = [
+                    difference(|m| law.at(m, rest)[0], value),
+                    difference(|m| law.at(m, rest)[1], value),
+                    difference(|r| law.at(value, r)[0], rest),
+                    difference(|r| law.at(value, r)[1], rest),
+                    difference(|r| law.by_rest(value, r)[0], rest),
+                ];
+                for (found, expected) in found.into_iter().zip(expected) {
+                    assert!(
+                        (found - expected).abs() <= 1e-9 * (1.0 + expected.abs()),
+                        "{law:?} {value}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// Claim: a stiffening hinge cannot be folded flat.
+    #[test]
+    fn walls_are_not_passed() {
+        let law = Stiffening { limits: [-2.0, 1.0] };
+        assert!(law.at(PI, 0.0)[0] == f64::INFINITY && law.at(-3.5, 0.0)[0] == f64::INFINITY);
+    }
+}

@@ -1,0 +1,156 @@
+//! Laws of bars and hinges against closed forms, at every stiffness.
+
+use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
+use foldwell::model::{Assembly, Builder, Drive, Driven, GreenLagrange, Law, Ogden, Stiffening, TermKind};
+use foldwell::output::summary::{StudyResult, StudySummary};
+use foldwell::run::{RunOptions, run_scene};
+use foldwell::sheet::{EdgeKind, Sheet, fold};
+use foldwell::{Pattern, RIGID, Rest, generate, relax};
+use std::f64::consts::PI;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Two triangles of sides of length 2 along x, joined there.
+fn hinge() -> Sheet {
+    let text = r#"{"vertices_coords": [[0, 0, 0], [2, 0, 0], [1, 1.5, 0.1], [1, -1.5, 0.1]],
+        "faces_vertices": [[0, 1, 2], [1, 0, 3]]}"#;
+    fold::parse(text, "hinge.fold").unwrap()
+}
+
+/// A triangle with a force along the bar between its first two vertices, which carries it alone, held so that it cannot turn.
+fn pulled(stiffness: f64, force: f64) -> Builder {
+    let text = r#"{"vertices_coords": [[0, 0, 0], [2, 0, 0], [1, 1.5, 0]], "faces_vertices": [[0, 1, 2]]}"#;
+    let sheet = fold::parse(text, "triangle.fold").unwrap();
+    let bars = Assembly::patch(sheet, [1, 1]).bars(stiffness).load(1, [0, 0], [force, 0.0, 0.0]);
+    bars.pin(0, [0, 0], [true; 3]).pin(1, [0, 0], [false, true, true]).pin(2, [0, 0], [false, false, true])
+}
+
+/// Claim: a bar under a force is stretched as its law says, be it soft or 1e12 times stiffer. Source: the laws, force by stretch, as
+/// published. Tolerance: 1e-10 of the force, which is that of the residual; forces are known to 1e-10 of themselves where strains are
+/// above 1e-3, and strains to rounding below.
+#[test]
+fn bars_are_stretched_by_their_law() {
+    let forces: [(fn(Builder) -> Builder, fn(f64) -> f64); 3] = [
+        (|bars| bars.law(TermKind::Bars, Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
+        (|bars| bars.law(TermKind::Bars, Ogden { exponents: [2.0, 0.0] }), |l| (l - 1.0 / l) / 2.0),
+        (|bars| bars.law(TermKind::Bars, GreenLagrange), |l| l * (l * l - 1.0) / 2.0),
+    ];
+    for (law, by_stretch) in forces {
+        for (stiffness, force) in [(3.0, 1.0), (3.0, -0.4), (1e3, 20.0), (1e6, -5.0), (1e12, 1.0)] {
+            let found = relax(&law(pulled(stiffness, force)).build().unwrap()).unwrap().state;
+            let bar = (0..3).max_by(|a, b| found.strain[*a].abs().total_cmp(&found.strain[*b].abs())).unwrap();
+            let expected = stiffness * by_stretch(1.0 + found.strain[bar]);
+            let known = 1e-10 * force.abs() + 4.0 * f64::EPSILON * stiffness;
+            assert!(
+                (expected - force).abs() <= known,
+                "EA {stiffness:e}, force {force}: {expected} of {}",
+                found.strain[bar]
+            );
+            assert!((found.tension[bar] - force).abs() <= 1e-9 * force.abs(), "{}", found.tension[bar]);
+        }
+    }
+}
+
+/// Claim: a stiffening hinge that rests beyond its limit stops where its torque vanishes, short of the full fold, be it soft or carry a
+/// tension; its energy is that of its law. Source: the torque `m1 - rest + (2 s / pi) tan(pi (m - m1) / (2 s))`. Tolerance: that of the
+/// residual, 1e-10 of the largest torque.
+#[test]
+fn hinges_do_not_fold_through() {
+    let law = Stiffening { limits: [-1.0, 1.0] };
+    let unit = (PI - 1.0) / (0.5 * PI);
+    for rest in [1.5, 3.0, 6.0, -4.0f64] {
+        let expected = (1.0 + unit * ((rest.abs() - 1.0) / unit).atan()).copysign(rest);
+        for (bars, creases) in [(RIGID, 1.0), (1e3, 1.0), (1.0, 1e5)] {
+            let hinge = Assembly::patch(hinge(), [1, 1]).bars(bars).creases(creases).rest(Rest::Angle(rest));
+            let assembly = hinge.law(TermKind::Creases, law).build().unwrap();
+            let state = relax(&assembly).unwrap_or_else(|e| panic!("{rest} {bars} {creases}: {e}")).state;
+            let edge = assembly.tiling().edges.iter().position(|edge| edge.kind == EdgeKind::Crease).unwrap();
+            let angle = state.fold_angle[edge];
+            assert!(
+                (angle - expected).abs() <= 1e-9,
+                "rest {rest}, bars {bars}, creases {creases}: {angle}, not {expected}"
+            );
+            let energy = 2.0 * creases * law.at(angle, rest)[0];
+            assert!((state.energy_creases - energy).abs() <= 1e-9 * energy, "{} not {energy}", state.energy_creases);
+        }
+    }
+}
+
+/// Claim: on a path of rest angles the work of the drive is the energy, with laws too: the derivatives by rest values are those of the
+/// energy. Tolerance: that of the integral of the work over steps of 0.02, 1e-9.
+#[test]
+fn rest_angles_do_work_against_laws() {
+    let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
+    let drawn = Assembly::patch(sheet.clone(), [2, 2]).build().unwrap().drawn_angles_or_zero();
+    let largest = drawn.iter().fold(0.0f64, |largest, angle| largest.max(angle.abs()));
+    let rest: Vec<f64> =
+        (0..).zip(&drawn).map(|(k, angle)| angle + 1.5 * ((f64::from(k) * 0.618).fract() - 0.5)).collect();
+    for (bars, creases) in [(1e3, 1.0), (1e6, 1e5)] {
+        let energy = Assembly::patch(sheet.clone(), [2, 2]).bars(bars).creases(creases).facets(3.0);
+        let energy = energy.rest(Rest::PerEdge(rest.clone())).law(TermKind::Bars, GreenLagrange);
+        let laws = energy.law(TermKind::Creases, Stiffening { limits: [-1.05 * largest, 1.05 * largest] });
+        let drive = Drive { quantity: Driven::Rest, to: 1.0 };
+        let options = PathOptions { max_step: 0.02, ..PathOptions::default() };
+        let found = follow_path(&laws.build().unwrap(), &drive, None, &options, &mut |_, _| true).unwrap();
+        let branch = &found[0];
+        assert!(branch.end == PathEnd::Arrived, "creases {creases}: {:?}", branch.end);
+        let last = branch.points.last().unwrap();
+        let (energy, work) = (last.state.total(), last.work);
+        assert!(
+            energy > 0.01 * creases && (energy - work).abs() <= 1e-9 * energy,
+            "creases {creases}: {energy} {work}"
+        );
+    }
+}
+
+/// Runs a scene with laws, with these studies; its summary, and the message where it is refused.
+fn run(folder: &Path, law: &str, studies: &str) -> Result<Vec<StudySummary>, String> {
+    let text = format!(
+        "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ncells = [2, 2]\n[energy]\n\
+         bars = {{ stiffness = 1e3, law = {{ kind = \"ogden\", exponents = [5.0, 1.0] }} }}\n\
+         creases = {{ stiffness = 1.0, rest = \"assigned\", law = {{ {law} }} }}\nfacets = {{ stiffness = 10.0 }}\n{studies}"
+    );
+    let scene = folder.join("scene.toml");
+    fs::write(&scene, text).unwrap();
+    let options = RunOptions { out: Some(folder.join("out")), ..RunOptions::default() };
+    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(()));
+    report.map(|report| report.summary.studies).map_err(|error| error.to_string())
+}
+
+/// Claim: a scene with laws that rests folded flat is relaxed, starts again from its file where it is, is driven by its rest angles to an
+/// equilibrium, and its wells are found, none of which folds through. Source: the restart and the path, which go there by other ways.
+/// Tolerance: that of relaxations.
+#[test]
+fn scenes_have_laws() {
+    let folder = tempfile::tempdir().unwrap();
+    let studies = "[[drive]]\nname = \"fold\"\nrest = true\nto = 1.0\n[[study]]\nname = \"relaxed\"\nkind = \"relax\"\n\
+        [[study]]\nname = \"again\"\nkind = \"relax\"\nstart = \"relaxed\"\n\
+        [[study]]\nname = \"path\"\nkind = \"path\"\ndrive = \"fold\"\n\
+        [[study]]\nname = \"wells\"\nkind = \"wells\"\nstarts = 8\n";
+    let limits = "kind = \"stiffening\", limits = [-2.5, \"140 deg\"]";
+    let found = run(folder.path(), limits, studies).unwrap();
+    assert!(found.iter().all(|study| study.converged), "{found:?}");
+    let relaxed = |study: &StudySummary| match &study.result {
+        Some(StudyResult::Relax(found)) => (found.energy.total, found.iterations),
+        other => panic!("{other:?}"),
+    };
+    let [first, again] = [relaxed(&found[0]), relaxed(&found[1])];
+    assert!((first.0 - again.0).abs() <= 1e-10 * first.0 && again.1 == 0, "{first:?} {again:?}");
+}
+
+/// Claim: what needs springs says so by the name of the term, and a law that is none is refused.
+#[test]
+fn laws_are_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = "kind = \"stiffening\", limits = [-2.5, 2.5]";
+    for (law, study, said) in [
+        (limits, "kind = \"landscape\"\nmodes = [[1.0, 0.0, 0.0]]\namplitudes = [0.1]", "the bars have another law"),
+        (limits, "kind = \"wells\"\nbarriers = [[0, 1]]", "the bars have a law"),
+        ("kind = \"stiffening\", limits = [0.5, 2.5]", "kind = \"relax\"", "the limits are 0.5 and 2.5 rad"),
+        ("kind = \"stiff\"", "kind = \"relax\"", "unknown word `stiff`"),
+    ] {
+        let error = run(folder.path(), law, &format!("[[study]]\nname = \"a\"\n{study}\n")).unwrap_err();
+        assert!(error.contains(said), "{error}");
+    }
+}
