@@ -41,7 +41,7 @@ impl Forms {
         let measures = assembly.with_terms(terms).model(Gauge::Free);
         let of = |angle: bool| {
             let elements = measures.stiff().filter(move |element| element.is_angle() == angle);
-            elements.map(|element| element.edge()).collect::<Vec<_>>()
+            elements.filter_map(|element| element.edge()).collect::<Vec<_>>()
         };
         let (lengths, hinges) = (of(false), of(true));
         let count = lengths.len();

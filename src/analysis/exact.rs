@@ -89,7 +89,7 @@ fn rests_at_drawn_lengths(sheet: &Sheet, tiling: &Tiling, model: &Model) -> bool
         (rest - (j - i).norm()).abs() <= SAME_LENGTH * (i.norm() + j.norm() + rest)
     };
     let mut bars = model.stiff().filter(|element| element.kind() == TermKind::Bars);
-    bars.all(|bar| as_drawn((bar.edge(), bar.spring.rest)))
+    bars.all(|bar| bar.edge().is_some_and(|edge| as_drawn((edge, bar.spring.rest))))
 }
 
 impl Springs {
@@ -98,7 +98,7 @@ impl Springs {
     pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
         let closes = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus | Domain::Tube { .. });
-        let has_law = model.elements().any(|element| element.has_law());
+        let has_law = model.elements().any(|element| element.has_law() || element.edge().is_none());
         if edges > MOST_EDGES || model.held_or_loaded() || closes || has_law {
             return None;
         }
@@ -110,7 +110,7 @@ impl Springs {
         let mut start: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
         let mut rigid = Vec::new();
         for hinge in model.elements().filter(Element::is_angle) {
-            let (edge, spring) = (hinge.edge(), hinge.spring);
+            let (Some(edge), spring) = (hinge.edge(), hinge.spring) else { continue };
             if spring.stiffness.is_infinite() {
                 start[edge] = spring.rest;
                 rigid.push(edge);

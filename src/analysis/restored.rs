@@ -134,19 +134,22 @@ fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_la
     let (mut left, mut along) = (torque.to_vec(), tension.to_vec());
     for element in model.soft() {
         let of_edges = if element.is_angle() { &mut left } else { &mut along };
-        of_edges[element.edge()] -= element.response(element.value(&coordinates))[1];
+        let Some(edge) = element.edge() else { continue };
+        of_edges[edge] -= element.response(element.value(&coordinates))[1];
     }
-    let measures: Vec<(bool, usize)> = model.stiff().map(|element| (element.is_angle(), element.edge())).collect();
+    let measures: Vec<(bool, Option<usize>)> =
+        model.stiff().map(|element| (element.is_angle(), element.edge())).collect();
     let mut last = vec![usize::MAX; torque.len()];
     for (row, (_, edge)) in measures.iter().enumerate().filter(|(_, (angle, _))| *angle) {
-        last[*edge] = row;
+        edge.iter().for_each(|&edge| last[edge] = row);
     }
     let mut tensions = Vec::with_capacity(measures.len());
     for (row, &(angle, edge)) in measures.iter().enumerate() {
-        tensions.push(match angle {
-            false => along[edge],
-            true if last[edge] == row => left[edge],
-            true => {
+        tensions.push(match (edge, angle) {
+            (None, _) => by_law[row],
+            (Some(edge), false) => along[edge],
+            (Some(edge), true) if last[edge] == row => left[edge],
+            (Some(edge), true) => {
                 left[edge] -= by_law[row];
                 by_law[row]
             }

@@ -37,6 +37,8 @@ pub struct State {
     pub energy_creases: f64,
     /// Energy of the facets.
     pub energy_facets: f64,
+    /// Names and energies of the terms of one's own.
+    pub energy_own: Vec<(String, f64)>,
     /// Fold angle of every edge that has a hinge in the model, in radians, continued through pi; else NaN.
     pub fold_angle: Vec<f64>,
     /// Rest angle of the same hinges; NaN where there is none.
@@ -60,6 +62,7 @@ impl State {
             energy_bars: 0.0,
             energy_creases: 0.0,
             energy_facets: 0.0,
+            energy_own: vec![],
             fold_angle: unknown(),
             rest_angle: unknown(),
             strain: unknown(),
@@ -106,7 +109,8 @@ impl State {
 
     /// Adds an element whose measure has this value and which has this force and this energy.
     fn add(&mut self, element: &Element<'_>, value: f64, [force, energy]: [f64; 2]) {
-        let (edge, rest) = (element.edge(), element.spring.rest);
+        let Some(edge) = element.edge() else { return self.add_own(element.name(), energy) };
+        let rest = element.spring.rest;
         if element.is_angle() {
             (self.fold_angle[edge], self.rest_angle[edge]) = (value, rest);
             add_known(&mut self.torque[edge], force);
@@ -119,17 +123,33 @@ impl State {
             TermKind::Bars => self.energy_bars += energy,
             TermKind::Creases => self.energy_creases += energy,
             TermKind::Facets => self.energy_facets += energy,
-            TermKind::Locks => debug_assert!(energy == 0.0, "locks are rigid"),
+            TermKind::Locks | TermKind::Own => debug_assert!(energy == 0.0, "locks are rigid"),
         }
     }
 
-    /// Energy of the terms of a kind; locks are rigid and have none.
+    /// Adds to the energy of a term of one's own.
+    fn add_own(&mut self, name: &str, energy: f64) {
+        match self.energy_own.iter_mut().find(|(known, _)| known == name) {
+            Some((_, sum)) => *sum += energy,
+            None => self.energy_own.push((name.to_owned(), energy)),
+        }
+    }
+
+    /// Energy of a term by its name: bars, creases, facets, or that of a term of one's own; 0 where there is none of this name.
+    pub fn energy_of_term(&self, name: &str) -> f64 {
+        let kind = TermKind::ALL.into_iter().find(|kind| kind.name() == name);
+        let own = self.energy_own.iter().find(|(known, _)| known == name).map(|(_, energy)| *energy);
+        own.or_else(|| kind.map(|kind| self.energy_of(kind))).unwrap_or(0.0)
+    }
+
+    /// Energy of the terms of a kind; locks are rigid and have none, and terms of one's own are taken together.
     pub(crate) fn energy_of(&self, kind: TermKind) -> f64 {
         match kind {
             TermKind::Bars => self.energy_bars,
             TermKind::Creases => self.energy_creases,
             TermKind::Facets => self.energy_facets,
             TermKind::Locks => 0.0,
+            TermKind::Own => self.energy_own.iter().map(|(_, energy)| energy).sum(),
         }
     }
 

@@ -16,6 +16,7 @@ use super::terms::{Bars, Hinges, Terms};
 use crate::math::Vec3;
 use crate::sheet::EdgeKind;
 use crate::sheet::tiling::{Site, TiledEdge, Tiling};
+use std::sync::Arc;
 
 /// Ratio of a hinge's stiffness to the softest stiffness above which the hinge has a tension as unknown.
 const STIFF_RATIO: f64 = 1e4;
@@ -23,14 +24,14 @@ const STIFF_RATIO: f64 = 1e4;
 /// Terms, and the springs of all their elements.
 #[derive(Default)]
 struct Listed {
-    terms: Vec<Box<dyn Elements>>,
+    terms: Vec<Arc<dyn Elements>>,
     springs: Vec<Spring>,
 }
 
 impl Listed {
     fn push(&mut self, (term, springs): (impl Elements + 'static, Vec<Spring>)) {
         if !springs.is_empty() {
-            self.terms.push(Box::new(term));
+            self.terms.push(Arc::new(term));
             self.springs.extend(springs);
         }
     }
@@ -81,6 +82,11 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
             &rigid,
             Stored::Spring,
         ));
+    }
+    for own in &terms.own {
+        let list = if own.is_stiff() { &mut stiff } else { &mut soft };
+        list.terms.push(own.elements.clone());
+        list.springs.extend(&own.springs);
     }
     let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
@@ -147,10 +153,10 @@ fn bars(
     let there = edges.filter(|(edge, tiled)| !rigid(&tiled.ends) && wanted(bars.stiffness.of(*edge)));
     let bar = |(edge, tiled): (usize, &TiledEdge)| {
         let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
-        ((tiled.ends, edge), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })
+        ((tiled.ends, Some(edge)), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })
     };
     let (elements, springs) = there.map(bar).unzip();
-    (Term::new(TermKind::Bars, elements, stored), springs)
+    (Term::new((TermKind::Bars, TermKind::Bars.name()), Length, elements, stored), springs)
 }
 
 fn hinge_term(
@@ -164,8 +170,8 @@ fn hinge_term(
     let hinge = |edge: usize| {
         let sites = tiling.edges[edge].hinge()?;
         let stiffness = hinges.stiffness.of(edge) * drawn.distance(&tiling.edges[edge].ends);
-        Some(((sites, edge), Spring { stiffness, rest: hinges.rest[edge] }))
+        Some(((sites, Some(edge)), Spring { stiffness, rest: hinges.rest[edge] }))
     };
     let (elements, springs) = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(hinge).unzip();
-    (Term::new(kind, elements, stored), springs)
+    (Term::new((kind, kind.name()), FoldAngle, elements, stored), springs)
 }

@@ -3,6 +3,7 @@
 use super::assemble::assemble;
 use super::assembly_error::AssemblyError;
 use super::boundary::{Boundary, Drawn};
+use super::own_term::OwnTerm;
 use super::problem::{Gauge, Model};
 use super::roll::Roll;
 use super::stiffness::Stiffness;
@@ -145,6 +146,13 @@ impl Assembly {
         let rest = self.terms().bars.as_ref().map(|bars| bars.rest.clone()).unwrap_or_default();
         let bars = Bars { stiffness: stiffness.into(), rest };
         self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
+    }
+
+    /// Returns the same assembly with a term of one's own beside the others.
+    pub fn with_own_term(&self, term: OwnTerm) -> Self {
+        let mut terms = self.terms().clone();
+        terms.own.push(term);
+        self.with_terms(terms)
     }
 
     /// Returns the same assembly with the axis of its screw motions at `angle` (radians) from the first lattice

@@ -198,7 +198,7 @@ impl Builder {
             TermKind::Bars => self.given.laws.bars = law,
             TermKind::Creases => self.given.laws.creases = law,
             TermKind::Facets => self.given.laws.facets = law,
-            TermKind::Locks => {}
+            TermKind::Locks | TermKind::Own => {}
         }
         self
     }

@@ -6,7 +6,7 @@ use super::measure::Measure;
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
-use std::marker::PhantomData;
+use std::sync::Arc;
 
 /// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](super::Law) near rest; infinite stiffness means
 /// `value = rest` exactly.
@@ -29,11 +29,13 @@ pub enum TermKind {
     Facets,
     /// Hinges locked at a given angle.
     Locks,
+    /// Elements of a term of one's own.
+    Own,
 }
 
 impl TermKind {
     /// All kinds, in the order in which a scene lists them.
-    pub(crate) const ALL: [Self; 4] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks];
+    pub(crate) const ALL: [Self; 5] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks, Self::Own];
 
     /// Returns the name of this kind in a scene.
     pub fn name(self) -> &'static str {
@@ -42,6 +44,7 @@ impl TermKind {
             Self::Creases => "creases",
             Self::Facets => "facets",
             Self::Locks => "locks",
+            Self::Own => "own terms",
         }
     }
 }
@@ -51,10 +54,11 @@ impl TermKind {
 pub(crate) struct Term<M, const N: usize, const D: usize> {
     /// The kind of the elements.
     kind: TermKind,
+    name: Arc<str>,
+    measure: M,
     /// The points of each element, in the order of the measure's arguments, and the number of its edge in the tiling.
-    elements: Vec<([Site; N], usize)>,
+    elements: Vec<([Site; N], Option<usize>)>,
     stored: Stored,
-    measure: PhantomData<M>,
 }
 
 /// The measure of one element with its derivatives in the element's coordinates: those of its points, then the shared
@@ -95,6 +99,8 @@ impl Local {
 pub(super) trait Elements: Send + Sync {
     /// Returns the kind of the elements.
     fn kind(&self) -> TermKind;
+    /// Returns the name of the term.
+    fn name(&self) -> &str;
     /// Returns the number of elements.
     fn len(&self) -> usize;
     /// Whether the values are angles.
@@ -103,8 +109,8 @@ pub(super) trait Elements: Send + Sync {
     fn is_hinge(&self) -> bool;
     /// Returns the points of element `k`.
     fn sites(&self, k: usize) -> &[Site];
-    /// Returns the number of the edge to which element `k` belongs.
-    fn edge(&self, k: usize) -> usize;
+    /// Returns the number of the edge to which element `k` belongs; `None` if it lies on none.
+    fn edge(&self, k: usize) -> Option<usize>;
     /// Returns what the elements store.
     fn stored(&self) -> &Stored;
     /// Returns the value of element `k` at the coordinates `x`; angles are between -pi and pi.
@@ -113,19 +119,28 @@ pub(super) trait Elements: Send + Sync {
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local);
     /// Returns the Taylor series of element `k` along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not
     /// valid for screws.
-    fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor;
+    fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Option<Taylor>;
 }
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
     /// Makes a term of elements, each given by its points and its edge.
-    pub(super) fn new(kind: TermKind, elements: Vec<([Site; N], usize)>, stored: Stored) -> Self {
-        Self { kind, elements, stored, measure: PhantomData }
+    pub(super) fn new(
+        (kind, name): (TermKind, &str),
+        measure: M,
+        elements: Vec<([Site; N], Option<usize>)>,
+        stored: Stored,
+    ) -> Self {
+        Self { kind, name: name.into(), measure, elements, stored }
     }
 }
 
-impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements for Term<M, N, D> {
+impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D> {
     fn kind(&self) -> TermKind {
         self.kind
+    }
+
+    fn name(&self) -> &str {
+        &self.name
     }
 
     fn len(&self) -> usize {
@@ -144,7 +159,7 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
         &self.elements[k].0
     }
 
-    fn edge(&self, k: usize) -> usize {
+    fn edge(&self, k: usize) -> Option<usize> {
         self.elements[k].1
     }
 
@@ -153,15 +168,16 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
     }
 
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
-        M::value(&domain.points(x, &self.elements[k].0))
+        self.measure.value(&domain.points(x, &self.elements[k].0))
     }
 
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
         let sites = &self.elements[k].0;
         out.gradient.clear();
         out.hessian.clear();
-        let mut measure =
-            |points: &[Vec3; N]| if want_hessian { M::hessian(points, &mut out.hessian) } else { M::gradient(points) };
+        let mut measure = |points: &[Vec3; N]| {
+            if want_hessian { self.measure.hessian(points, &mut out.hessian) } else { self.measure.gradient(points) }
+        };
         out.value = if domain.shared() == 0 {
             let (value, gradient) = measure(&domain.points(x, sites));
             out.gradient.extend_from_slice(gradient.as_slice());
@@ -177,8 +193,8 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
         };
     }
 
-    fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor {
-        M::along(&self.elements[k].0.map(|site| domain.path(x, site)))
+    fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Option<Taylor> {
+        self.measure.along(&self.elements[k].0.map(|site| domain.path(x, site)))
     }
 }
 
@@ -218,8 +234,13 @@ impl<'a> Element<'a> {
         self.term.sites(self.index)
     }
 
-    /// Returns the number of its edge in the tiling.
-    pub fn edge(&self) -> usize {
+    /// Returns the name of its term.
+    pub fn name(&self) -> &'a str {
+        self.term.name()
+    }
+
+    /// Returns the number of its edge in the tiling; `None` for elements of a term of one's own.
+    pub fn edge(&self) -> Option<usize> {
         self.term.edge(self.index)
     }
 
@@ -259,8 +280,9 @@ impl<'a> Element<'a> {
         out.value = continued(self.last, out.value);
     }
 
-    /// Returns the Taylor series of its value along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not valid for screws.
-    pub(crate) fn along(&self, x: &[&[f64]; 3]) -> Taylor {
+    /// Returns the Taylor series of its value along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not valid for screws,
+    /// and `None` for measures without series.
+    pub(crate) fn along(&self, x: &[&[f64]; 3]) -> Option<Taylor> {
         self.term.along(self.index, self.domain, x)
     }
 

@@ -5,36 +5,37 @@ use crate::math::taylor::{Path, Taylor, difference, dot};
 use crate::math::{Vec3, fold_angle};
 use nalgebra::SVector;
 
-/// A scalar function of `N` points, which have `D = 3 N` coordinates.
-pub(crate) trait Measure<const N: usize, const D: usize> {
-    /// Whether values are angles, determined modulo 2 pi, that must continue from the last accepted state.
-    const ANGLE: bool;
+/// A scalar function of `N` points, which have `D = 3 N` coordinates: x, y and z of the first point, then those of the next ones.
+///
+/// A [term of one's own](super::OwnTerm) has a measure of one's own.
+pub trait Measure<const N: usize, const D: usize>: Send + Sync {
+    /// Whether values are angles in radians, determined modulo 2 pi, that must continue from the last accepted state.
+    const ANGLE: bool = false;
     /// Whether the points are `[i, j, left, right]` of a hinge and the Hessian does not couple `left` with `right`.
-    const HINGE: bool;
+    const HINGE: bool = false;
     /// Returns the scalar.
-    fn value(points: &[Vec3; N]) -> f64;
+    fn value(&self, points: &[Vec3; N]) -> f64;
     /// Returns the scalar and its gradient.
-    fn gradient(points: &[Vec3; N]) -> (f64, SVector<f64, D>);
+    fn gradient(&self, points: &[Vec3; N]) -> (f64, SVector<f64, D>);
     /// Returns the scalar and its gradient, and replaces `lower` by the lower triangle of its Hessian, row by row.
-    fn hessian(points: &[Vec3; N], lower: &mut Vec<f64>) -> (f64, SVector<f64, D>);
-    /// Returns the Taylor series of the scalar while its points move along these paths.
-    fn along(points: &[Path; N]) -> Taylor;
+    fn hessian(&self, points: &[Vec3; N], lower: &mut Vec<f64>) -> (f64, SVector<f64, D>);
+    /// Returns the Taylor series of the scalar while its points move along these paths; `None` for measures that landscapes do not know.
+    fn along(&self, _paths: &[[Taylor; 3]; N]) -> Option<Taylor> {
+        None
+    }
 }
 
 /// The length of the bar between two points; not differentiable where they coincide.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Length;
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Length;
 
 impl Measure<2, 6> for Length {
-    const ANGLE: bool = false;
-    const HINGE: bool = false;
-
-    fn value([a, b]: &[Vec3; 2]) -> f64 {
+    fn value(&self, [a, b]: &[Vec3; 2]) -> f64 {
         (b - a).norm()
     }
 
-    fn gradient(points: &[Vec3; 2]) -> (f64, SVector<f64, 6>) {
-        let length = Self::value(points);
+    fn gradient(&self, points: &[Vec3; 2]) -> (f64, SVector<f64, 6>) {
+        let length = self.value(points);
         let unit = (1.0 / length) * (points[1] - points[0]);
         let mut gradient = SVector::<f64, 6>::zeros();
         gradient.fixed_rows_mut::<3>(0).copy_from(&-unit);
@@ -44,8 +45,8 @@ impl Measure<2, 6> for Length {
 
     /// The Hessian is `(I - u u^T)/L` between the ends, `u` the direction of the bar.
     #[inline(always)]
-    fn hessian(points: &[Vec3; 2], lower: &mut Vec<f64>) -> (f64, SVector<f64, 6>) {
-        let (length, gradient) = Self::gradient(points);
+    fn hessian(&self, points: &[Vec3; 2], lower: &mut Vec<f64>) -> (f64, SVector<f64, 6>) {
+        let (length, gradient) = self.gradient(points);
         let [x, y, z] = [gradient[3], gradient[4], gradient[5]];
         let per_length = 1.0 / length;
         let [xx, yy, zz] = [x, y, z].map(|u| per_length * (1.0 - u * u));
@@ -63,34 +64,34 @@ impl Measure<2, 6> for Length {
         (length, gradient)
     }
 
-    fn along([a, b]: &[Path; 2]) -> Taylor {
+    fn along(&self, [a, b]: &[Path; 2]) -> Option<Taylor> {
         let bar = difference(b, a);
-        dot(&bar, &bar).sqrt()
+        Some(dot(&bar, &bar).sqrt())
     }
 }
 
 /// The fold angle of the hinge `[i, j, left, right]`; see [`crate::math::fold_angle`].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FoldAngle;
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FoldAngle;
 
 impl Measure<4, 12> for FoldAngle {
     const ANGLE: bool = true;
     const HINGE: bool = true;
 
-    fn value(points: &[Vec3; 4]) -> f64 {
+    fn value(&self, points: &[Vec3; 4]) -> f64 {
         fold_angle::fold_angle(*points)
     }
 
-    fn gradient(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>) {
+    fn gradient(&self, points: &[Vec3; 4]) -> (f64, SVector<f64, 12>) {
         fold_angle::fold_angle_gradient(points)
     }
 
     #[inline(always)]
-    fn hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, SVector<f64, 12>) {
+    fn hessian(&self, points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, SVector<f64, 12>) {
         fold_angle::fold_angle_hessian(points, lower)
     }
 
-    fn along(points: &[Path; 4]) -> Taylor {
-        fold_angle::fold_angle_along(points)
+    fn along(&self, points: &[Path; 4]) -> Option<Taylor> {
+        Some(fold_angle::fold_angle_along(points))
     }
 }

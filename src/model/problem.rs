@@ -43,9 +43,9 @@ pub(super) struct Equations {
     /// Vertices that move as rigid bodies.
     pub bodies: Bodies,
     /// Terms that enter with their energy.
-    pub soft: Vec<Box<dyn Elements>>,
+    pub soft: Vec<Arc<dyn Elements>>,
     /// Terms that enter with a tension as an unknown for each element.
-    pub stiff: Vec<Box<dyn Elements>>,
+    pub stiff: Vec<Arc<dyn Elements>>,
     /// Number of edges of the tiling; the edge numbers of elements are below it.
     pub edges: usize,
     /// Unit of length to which the gaps of bars are relative: the mean edge length.
@@ -300,7 +300,7 @@ impl Model {
 
     fn elements_of<'a>(
         &'a self,
-        terms: &'a [Box<dyn Elements>],
+        terms: &'a [Arc<dyn Elements>],
         first: usize,
     ) -> impl Iterator<Item = Element<'a>> + 'a {
         let of_terms = terms.iter().flat_map(|term| (0..term.len()).map(move |index| (term.as_ref(), index)));
@@ -357,7 +357,8 @@ impl Model {
 
     /// Returns the angles of the hinges, in the order of [`Model::angles`], among those of all edges.
     pub(crate) fn angles_among(&self, fold_angles: &[f64]) -> Vec<f64> {
-        self.elements().filter(Element::is_angle).map(|hinge| fold_angles[hinge.edge()]).collect()
+        let hinges = self.elements().filter(Element::is_angle);
+        hinges.map(|hinge| hinge.edge().map_or(hinge.last, |edge| fold_angles[edge])).collect()
     }
 
     /// Makes the angles continue from these fold angles of the edges; not a number: where there is no hinge.

@@ -2,6 +2,7 @@
 
 use super::law::Laws;
 use super::mass::Mass;
+use super::own_term::OwnTerm;
 use super::part::Part;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;
@@ -85,6 +86,8 @@ pub struct Terms {
     pub mass: Option<Mass>,
     /// Laws of bars, creases and facets other than that of a spring.
     pub laws: Laws,
+    /// Terms of one's own.
+    pub own: Vec<OwnTerm>,
 }
 
 impl Terms {
@@ -125,10 +128,31 @@ impl Terms {
         terms.into_iter().find(|(_, uneven)| *uneven).map(|(term, _)| term)
     }
 
+    /// Returns the names of the terms of one's own, each once.
+    pub fn own_names(&self) -> Vec<&str> {
+        let mut names = Vec::new();
+        self.own.iter().map(OwnTerm::name).for_each(|name| {
+            if !names.contains(&name) {
+                names.push(name)
+            }
+        });
+        names
+    }
+
+    /// Returns the name of the first term that is no spring of an edge: one with a law, or one of one's own; `None` if there is none.
+    pub fn first_not_of_springs(&self) -> Option<&str> {
+        self.laws.first().or_else(|| self.own.first().map(OwnTerm::name))
+    }
+
     /// Whether there is any bar, crease, facet, lock or load. Pins and mass give no energy.
     pub fn has_energy(&self) -> bool {
-        let Self { bars, creases, facets, locks, loads, pins: _, guides: _, parts: _, mass: _, laws: _ } = self;
-        bars.is_some() || creases.is_some() || facets.is_some() || !locks.is_empty() || !loads.is_empty()
+        let Self { bars, creases, facets, locks, loads, pins: _, guides: _, parts: _, mass: _, laws: _, own } = self;
+        !own.is_empty()
+            || bars.is_some()
+            || creases.is_some()
+            || facets.is_some()
+            || !locks.is_empty()
+            || !loads.is_empty()
     }
 
     /// Returns the number of coordinates that pins hold.

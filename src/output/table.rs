@@ -100,7 +100,10 @@ impl Table {
     /// state has this value, the columns [`RATIOS`] if the states have ratios, and [`SEAM`] if they have seams.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
-        let columns = StateRow::PLACE.into_iter().chain(CYLINDER).chain(Solution::COLUMNS).chain(["self_intersecting"]);
+        let others = states.first().map(|state| state.solution.energy.others.as_slice()).unwrap_or_default();
+        let solution = Solution::columns(others.iter().map(|(name, _)| name.as_str()));
+        let columns = StateRow::PLACE.into_iter().chain(CYLINDER).chain(solution.iter().map(String::as_str));
+        let columns = columns.chain(["self_intersecting"]);
         let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
         let seam = states.iter().any(|state| state.seam.is_some()).then_some(SEAM).into_iter().flatten();
         let columns =
@@ -210,11 +213,22 @@ impl From<Option<i64>> for Value {
     }
 }
 
+/// Energies of a state; values that were not computed are `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Energies {
+    /// Those of the bars, the creases and the facets.
+    pub of_edges: [Option<f64>; 3],
+    /// Names and energies of the other terms.
+    pub others: Vec<(String, Option<f64>)>,
+    /// Their sum.
+    pub total: Option<f64>,
+}
+
 /// Energies and residuals of a state, as all tables list them; values that were not computed are `None`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Solution {
-    /// Energies of the bars, the creases and the facets, and their sum.
-    pub energy: [Option<f64>; 4],
+    /// Energies of the terms.
+    pub energy: Energies,
     /// Largest unbalanced force, relative to the largest force of any term.
     pub residual_force: Option<f64>,
     /// Largest error of a length, relative to the mean edge length.
@@ -222,14 +236,20 @@ pub(crate) struct Solution {
 }
 
 impl Solution {
-    /// Names of the columns.
-    pub(crate) const COLUMNS: [&str; 6] =
-        ["energy_bars", "energy_creases", "energy_facets", "energy_total", "residual_force", "residual_length"];
+    /// Returns the names of the columns, with one for each of these terms beside those of edges.
+    pub(crate) fn columns<'a>(others: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+        let others = others.into_iter().map(|name| format!("energy_{name}"));
+        let first = ["energy_bars", "energy_creases", "energy_facets"].map(str::to_owned);
+        let last = ["energy_total", "residual_force", "residual_length"].map(str::to_owned);
+        first.into_iter().chain(others).chain(last).collect()
+    }
 
     /// Returns the values of the columns.
-    pub(crate) fn values(&self) -> impl Iterator<Item = Value> + use<> {
-        let residuals = [self.residual_force, self.residual_length];
-        self.energy.into_iter().chain(residuals).map(Value::from)
+    pub(crate) fn values(&self) -> Vec<Value> {
+        let Energies { of_edges, others, total } = &self.energy;
+        let others = others.iter().map(|(_, energy)| *energy);
+        let last = [*total, self.residual_force, self.residual_length];
+        of_edges.iter().copied().chain(others).chain(last).map(Value::from).collect()
     }
 }
 
@@ -315,7 +335,11 @@ mod tests {
             theta: [Some(3.0), Some(4.0)],
             strain: [Some(5.0), None, Some(6.0)],
             solution: Solution {
-                energy: [Some(7.0), Some(8.0), Some(9.0), Some(10.0)],
+                energy: Energies {
+                    of_edges: [Some(7.0), Some(8.0), Some(9.0)],
+                    others: vec![("springs".into(), Some(9.5))],
+                    total: Some(10.0),
+                },
                 residual_force: Some(11.0),
                 residual_length: Some(12.0),
             },
@@ -325,8 +349,9 @@ mod tests {
         };
         let text = Table::of_states(&keys, &[state]).to_csv().unwrap();
         let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].contains("energy_facets,energy_springs,energy_total"), "{}", lines[0]);
         assert!(lines[0].ends_with("self_intersecting,state,fold_0_1_0_-1,fold_0_3_0_0"), "{}", lines[0]);
-        assert_eq!(lines[1], ",-1,,1.0,2.0,3.0,4.0,5.0,,6.0,7.0,8.0,9.0,10.0,11.0,12.0,1,0,0.5,");
+        assert_eq!(lines[1], ",-1,,1.0,2.0,3.0,4.0,5.0,,6.0,7.0,8.0,9.0,9.5,10.0,11.0,12.0,1,0,0.5,");
         assert_eq!(lines[0].split(',').count(), lines[1].split(',').count());
     }
 

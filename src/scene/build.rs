@@ -320,8 +320,8 @@ impl<'a> Reader<'a> {
     fn placed(&self, terms: Terms) -> Result<Terms, SceneError> {
         let places = Places::new(self.file, self.assembly);
         let held = places.held()?;
-        let (parts, loads) = (places.parts(&held)?, places.loads()?);
-        Ok(Terms { parts, loads, pins: held.pins, guides: held.guides, ..terms })
+        let (parts, loads, springs) = (places.parts(&held)?, places.loads()?, places.springs()?);
+        Ok(Terms { parts, loads, pins: held.pins, guides: held.guides, own: springs.into_iter().collect(), ..terms })
     }
 
     /// Checks that the loads balance along every direction in which nothing holds or drives the sheet: otherwise there

@@ -150,6 +150,9 @@ fn places(file: &SceneFile) -> Checked {
     for pin in &scene.pins {
         place(file, "a pin", (pin.vertex.as_ref(), pin.vertices.as_ref()), pin.cell.as_ref())?;
     }
+    for spring in &scene.springs {
+        place(file, "a spring", (None, Some(&spring.vertices)), None)?;
+    }
     let cell = |pin: &PinSpec| pin.cell.as_deref().copied().unwrap_or_default().0;
     let axes = scene.pins.iter().filter(|pin| pin.normal.is_none());
     let keys = axes.filter_map(|pin| pin.vertex.as_ref().map(|vertex| ((**vertex, cell(pin)), vertex.span())));
@@ -182,7 +185,7 @@ fn place(
     let sheet = &file.scene.sheet;
     if sheet.domain() != DomainSpec::Patch {
         let span = vertex.map(Located::span).or(vertices.map(Located::span)).unwrap_or(0..0);
-        let help = "loads and pins need domain = \"patch\"";
+        let help = "loads, pins and springs need domain = \"patch\"";
         return Err(file.error_at(span, format!("{what} on a {}", domain_name(file)), help));
     }
     let cells = sheet.cells();

@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::spec::{Coordinate, LoadSpec, PartSpec, PinSpec, VertexName, VertexSet};
+use super::spec::{Coordinate, LoadSpec, PartSpec, PinSpec, SpringSpec, VertexName, VertexSet};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
-use crate::model::{Assembly, Part};
+use crate::model::{Assembly, Length, OwnTerm, Part, Site, Spring};
 use crate::sheet::{Sheet, Tiling};
 
 /// Distance, relative to the mean edge, up to which a drawn coordinate has a given value.
@@ -183,6 +183,26 @@ impl<'a> Places<'a> {
             loads.extend(on.into_iter().map(|vertex| (vertex, Vec3::from(force.0))));
         }
         Ok(loads)
+    }
+
+    /// Returns the springs as one term; none if there are none.
+    pub(super) fn springs(&self) -> Result<Option<OwnTerm>, SceneError> {
+        let site = |vertex: usize| Site { vertex, shift: [0, 0] };
+        let mut springs = Vec::new();
+        for SpringSpec { vertices, stiffness, rest } in &self.file.scene.springs {
+            let Ok([a, b]) = <[usize; 2]>::try_from(self.set(vertices)?) else {
+                let help = "name two, as in vertices = [3, [7, 0, 1]]";
+                return Err(self.file.error_at(vertices.span(), "a spring is between two vertices", help));
+            };
+            let drawn = (self.tiling.positions[b] - self.tiling.positions[a]).norm();
+            if drawn <= self.tolerance {
+                let help = "two vertices in one place have no direction between them";
+                return Err(self.file.error_at(vertices.span(), "the spring has no length", help));
+            }
+            let rest = rest.map_or(drawn, |rest| rest.0);
+            springs.push(([site(a), site(b)], Spring { stiffness: stiffness.0, rest }));
+        }
+        Ok((!springs.is_empty()).then(|| OwnTerm::new("springs", Length, springs)))
     }
 
     /// Returns the pins and guides. The axes of several pins of a vertex are joined.

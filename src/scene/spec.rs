@@ -13,7 +13,7 @@ mod vertices;
 use super::Located;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, Positive, SeamCell, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, Positive, SeamCell, Stiffness, Triple};
 use crate::sheet::SeamKept;
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
@@ -52,6 +52,9 @@ pub struct Scene {
     /// Vertices of a patch that move as rigid bodies.
     #[serde(default, rename = "part")]
     pub parts: Vec<PartSpec>,
+    /// Springs between two vertices of a patch.
+    #[serde(default, rename = "spring")]
+    pub springs: Vec<SpringSpec>,
     /// The quantities that paths drive.
     #[serde(default, rename = "drive")]
     pub drives: Vec<DriveSpec>,
@@ -236,6 +239,18 @@ pub struct LockSpec {
     pub crease: Located<EdgeName>,
     /// The fold angle; left out: the drawn one, of a sheet that is rolled up to a tube that of the closed tube.
     pub angle: Option<Located<Angle>>,
+}
+
+/// `[[spring]]`: a spring between two vertices of a patch, `k (d - rest)^2 / 2` at their distance `d`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpringSpec {
+    /// The two vertices.
+    pub vertices: Located<VertexSet>,
+    /// The spring constant, force per length; `inf`: their distance stays.
+    pub stiffness: Stiffness,
+    /// The distance without force; left out: as drawn.
+    pub rest: Option<Positive>,
 }
 
 /// `[[load]]`: a force on one or more vertices of a patch: `vertex`, with or without `cell`, or `vertices`.

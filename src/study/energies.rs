@@ -3,18 +3,20 @@
 use crate::analysis::state::State;
 use crate::model::Terms;
 use crate::output::summary::EnergySummary;
+use crate::output::table::Energies;
 
-/// Returns the energies of bars, creases, facets and all terms together; the last one is always given.
-pub(crate) fn columns(terms: &Terms, state: &State) -> [Option<f64>; 4] {
-    let EnergySummary { bars, creases, facets, total } = summary(terms, state);
-    [bars, creases, facets, Some(total)]
+/// Returns the energies of the terms and their sum, which is always given.
+pub(crate) fn columns(terms: &Terms, state: &State) -> Energies {
+    let EnergySummary { bars, creases, facets, others, total } = summary(terms, state);
+    let others = others.into_iter().map(|(name, energy)| (name, Some(energy))).collect();
+    Energies { of_edges: [bars, creases, facets], others, total: Some(total) }
 }
 
 /// Returns the same energies as [`columns`], without the last one if the model has neither bars nor creases.
-pub(crate) fn columns_if_any(terms: &Terms, state: &State) -> [Option<f64>; 4] {
-    let [bars, creases, facets, total] = columns(terms, state);
+pub(crate) fn columns_if_any(terms: &Terms, state: &State) -> Energies {
+    let energies = columns(terms, state);
     let any = terms.bars.is_some() || terms.creases.is_some();
-    [bars, creases, facets, total.filter(|_| any)]
+    Energies { total: energies.total.filter(|_| any), ..energies }
 }
 
 /// Returns the energies of the terms and their sum.
@@ -23,6 +25,7 @@ pub fn summary(terms: &Terms, state: &State) -> EnergySummary {
         bars: terms.bars.as_ref().map(|_| state.energy_bars),
         creases: terms.creases.as_ref().map(|_| state.energy_creases),
         facets: terms.facets.as_ref().map(|_| state.energy_facets),
+        others: terms.own_names().into_iter().map(|name| (name.to_owned(), state.energy_of_term(name))).collect(),
         total: state.total(),
     }
 }

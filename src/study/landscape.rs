@@ -259,7 +259,8 @@ fn energies(title: &str, found: &[Along]) -> Chart {
 /// ones.
 fn table(assembly: &Assembly, found: &[Along]) -> Table {
     let uniform = if assembly.tiling().periodic { &[] } else { assembly.sheet().edges.as_slice() };
-    let columns = ["mode", "k11", "k22", "k12", "amplitude"].into_iter().chain(Solution::COLUMNS);
+    let solution = Solution::columns([]);
+    let columns = ["mode", "k11", "k22", "k12", "amplitude"].into_iter().chain(solution.iter().map(String::as_str));
     let columns = columns.chain(["iterations", "rounds"]);
     let mut table = Table::with_edges(columns, "rest", uniform.iter().map(|edge| &edge.key));
     for (number, along) in found.iter().enumerate() {

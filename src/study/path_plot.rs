@@ -47,7 +47,7 @@ impl Words {
                     TermKind::Bars => "bars",
                     TermKind::Creases => "creases",
                     TermKind::Facets => "facets",
-                    TermKind::Locks => "locks",
+                    TermKind::Locks | TermKind::Own => "locks",
                 };
                 words("stiffness", format!("stiffness of {term}"), "derivative of the energy")
             }

@@ -18,9 +18,10 @@ pub(crate) fn table(
     marks: Option<&[Vec<Marks>]>,
 ) -> Table {
     let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
+    let solution = Solution::columns(context.assembly.terms().own_names());
     let columns = ["branch", "step", "arc_length", "drive", "reaction", "work"]
         .into_iter()
-        .chain(Solution::COLUMNS)
+        .chain(solution.iter().map(String::as_str))
         .chain(["negative_eigenvalues", "event"])
         .chain(asked(marks.is_some(), &["self_intersecting"]))
         .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))

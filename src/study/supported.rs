@@ -6,14 +6,20 @@ use super::error::StudyError;
 /// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
 
-/// Checks that there are no rigid parts and no pins along a direction, which relaxations, paths and wells alone know.
+/// Checks that there are no rigid parts, no pins along a direction and no springs between vertices, which relaxations, paths and wells
+/// alone know.
 pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
-    let given = [("rigid parts", !terms.parts.is_empty()), ("pins along a direction", !terms.guides.is_empty())];
+    let given = [
+        ("rigid parts", !terms.parts.is_empty()),
+        ("pins along a direction", !terms.guides.is_empty()),
+        ("springs between vertices", !terms.own.is_empty()),
+    ];
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
         Some((what, _)) => {
-            let help = "leave out [[part]] and the key `normal` of [[pin]], or ask for relax, path or wells";
+            let help =
+                "leave out [[part]], [[spring]] and the key `normal` of [[pin]], or ask for relax, path or wells";
             Err(context.refuse(format!("studies of kind {kind} do not know {what}"), help).into())
         }
     }
@@ -32,9 +38,9 @@ pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<()
 
 /// Checks that all elements are springs.
 pub(super) fn springs(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
-    let Some(term) = context.assembly.terms().laws.first() else { return Ok(()) };
-    let message = format!("{what} are those of springs, and the {term} have a law");
-    Err(context.refuse(message, format!("leave out `law` of the {term}; relax, path and wells support it")).into())
+    let Some(term) = context.assembly.terms().first_not_of_springs() else { return Ok(()) };
+    let message = format!("{what} are those of springs of edges, and the {term} are others");
+    Err(context.refuse(message, "leave out `law` of bars, creases and facets, and [[spring]]").into())
 }
 
 /// Checks that the bars are at rest as drawn.

@@ -198,7 +198,7 @@ fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurf
         curvature: shapes().map(|shape| shape.curvature).collect(),
         theta: shapes().map(|shape| shape.theta).collect(),
         folds: assembly.sheet().edges.iter().enumerate().map(fold).collect(),
-        energy: rows.iter().map(|row| row.solution.energy[3]).collect(),
+        energy: rows.iter().map(|row| row.solution.energy.total).collect(),
         self_intersecting: rows.iter().map(|row| row.self_intersecting.map(u8::from)).collect(),
     }
 }

@@ -25,7 +25,8 @@ fn relaxed(model: &Model, method: Method, keep_every: Option<usize>) -> Relaxed 
 /// counts and the energy of a state does not. `t/k` times `t` is twice the energy of the bars.
 fn work_on_gaps(model: &Model, state: &State) -> f64 {
     let bars = model.stiff().filter(|element| element.kind() == TermKind::Bars);
-    let work = bars.map(|bar| state.tension[bar.edge()] * state.strain[bar.edge()] * bar.spring.rest);
+    let on_edges = bars.filter_map(|bar| Some((bar.edge()?, bar.spring.rest)));
+    let work = on_edges.map(|(edge, rest)| state.tension[edge] * state.strain[edge] * rest);
     work.sum::<f64>() - 2.0 * state.energy_bars
 }
 

@@ -191,8 +191,9 @@ fn balanced(case: &Assembly, size: f64, seed: u64) -> Vec<f64> {
     let moments = size / sum.amax() * sum;
     let mut rest = vec![0.0; case.edges()];
     for (element, moment) in model.stiff().zip(&moments) {
-        let [a, b] = case.tiling().edges[element.edge()].ends.map(|site| case.tiling().positions[site.vertex]);
-        rest[element.edge()] = moment / (a - b).norm();
+        let edge = element.edge().unwrap();
+        let [a, b] = case.tiling().edges[edge].ends.map(|site| case.tiling().positions[site.vertex]);
+        rest[edge] = moment / (a - b).norm();
     }
     rest
 }

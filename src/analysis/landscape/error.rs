@@ -22,10 +22,10 @@ pub enum LandscapeError {
         term: &'static str,
     },
     /// The elements of a term are no springs.
-    #[error("a landscape is that of springs, and the {term} have another law")]
+    #[error("a landscape is that of springs of edges, and the {term} are others")]
     Law {
         /// Name of the term.
-        term: &'static str,
+        term: String,
     },
     /// Bars are not at rest as drawn.
     #[error(

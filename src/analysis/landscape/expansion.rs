@@ -75,7 +75,7 @@ impl Expansion {
 
 /// The second, third and fourth powers of all measures, soft ones and stiff ones, along a path of all coordinates.
 fn powers(model: &Model, path: &[&[f64]; 3]) -> [TermValues; 3] {
-    let series: Vec<_> = model.elements().map(|element| element.along(path).0).collect();
+    let series: Vec<_> = model.elements().map(|element| element.along(path).unwrap_or_default().0).collect();
     let (soft, stiff) = series.split_at(model.soft_elements());
     let of = |power: usize, series: &[[f64; 5]]| series.iter().map(|series| series[power]).collect();
     [2, 3, 4].map(|power| (of(power, soft), of(power, stiff)))

@@ -45,8 +45,8 @@ impl HeldSheet {
         if let Some(term) = assembly.terms().uneven_term() {
             return Err(LandscapeError::Uneven { term });
         }
-        if let Some(term) = assembly.terms().laws.first() {
-            return Err(LandscapeError::Law { term });
+        if let Some(term) = assembly.terms().first_not_of_springs() {
+            return Err(LandscapeError::Law { term: term.to_owned() });
         }
         if !assembly.has_drawn_lengths() {
             return Err(LandscapeError::OffRest { bars: assembly.bars_off_rest() });
@@ -65,7 +65,7 @@ impl HeldSheet {
         locked: &[usize],
         repeating: impl Fn(usize) -> usize,
     ) -> Result<Self, LandscapeError> {
-        let floats = |element: Element<'_>| element.is_elastic_hinge().then(|| repeating(element.edge()));
+        let floats = |element: Element<'_>| element.edge().filter(|_| element.is_elastic_hinge()).map(&repeating);
         let repeating = model.elements().map(floats).collect();
         let free = across(&basis, locked)?;
         let motions = motions.iter().map(|motion| model.without_drift(motion)).collect();

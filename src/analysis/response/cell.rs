@@ -33,6 +33,8 @@ pub(super) struct PeriodicCell {
 pub(super) struct CellElement<'a> {
     /// The element of the model, with its points on the torus of the state.
     pub element: Element<'a>,
+    /// Its edge in the tiling.
+    pub edge: usize,
     /// Vertices of the cell and their cells at the points of the element.
     pub places: Vec<Site>,
 }
@@ -84,11 +86,12 @@ impl PeriodicCell {
     fn check_even(&self, assembly: &Assembly) -> Result<(), ResponseError> {
         let edges = &assembly.tiling().edges;
         let close = |a: f64, b: f64| a == b || (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(1.0);
-        for CellElement { element, .. } in self.elements(assembly) {
-            let (spring, edge) = (element.spring, edges[element.edge()].edge);
+        let of_cell = |element: &Element<'_>| element.edge().map(|edge| edges[edge].edge);
+        for CellElement { element, edge, .. } in self.elements(assembly) {
+            let (spring, edge) = (element.spring, edges[edge].edge);
             let alike = |other: &Element<'_>| other.kind() == element.kind() && !other.is_beyond_spring();
             let same = self.model.elements().filter(alike);
-            let same: Vec<_> = same.filter(|other| edges[other.edge()].edge == edge).collect();
+            let same: Vec<_> = same.filter(|other| of_cell(other) == Some(edge)).collect();
             let even = |other: &Element<'_>| {
                 close(spring.stiffness, other.spring.stiffness) && close(spring.rest, other.spring.rest)
             };
@@ -109,12 +112,12 @@ impl PeriodicCell {
         };
         // a law is a spring at rest: what it stores beyond that has no stiffness there
         let springs = self.model.elements().filter(|element| !element.is_beyond_spring());
-        let here = springs.filter(|element| edges[element.edge()].cell == [0, 0]);
         let placed = |element: Element<'a>| {
+            let edge = element.edge().filter(|edge| edges[*edge].cell == [0, 0])?;
             let places = element.sites().iter().map(place).collect();
-            CellElement { element: element.on(&self.domain), places }
+            Some(CellElement { element: element.on(&self.domain), edge, places })
         };
-        here.map(placed).collect()
+        springs.filter_map(placed).collect()
     }
 
     /// Area of the cell, between the lattice vectors.

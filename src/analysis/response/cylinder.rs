@@ -107,10 +107,11 @@ impl<'a> Rolled<'a> {
         let mut local = Local::default();
         let shared = &velocity[velocity.len() - self.domain().shared()..];
         for hinge in self.hinges.elements() {
+            let Some(edge) = hinge.edge() else { continue };
             hinge.local(&self.coordinates, false, &mut local);
             let points = hinge.sites().iter().flat_map(|site| &velocity[3 * site.vertex..3 * site.vertex + 3]);
             let rate = points.chain(shared).zip(&local.gradient).map(|(v, g)| v * g).sum();
-            rates[self.assembly.tiling().edges[hinge.edge()].edge] = rate;
+            rates[self.assembly.tiling().edges[edge].edge] = rate;
         }
         rates
     }

@@ -38,6 +38,8 @@ pub enum ModuliOf {
     Sheet(Box<Moduli>),
     /// The energy has no bars: nothing holds the faces together.
     NoBars,
+    /// The energy has terms of one's own, whose stiffness is not known cell by cell.
+    OwnTerms,
     /// The state is rolled up.
     RolledUp,
     /// The state is under stress: an element is off its rest value.
@@ -58,6 +60,7 @@ impl ModuliOf {
         match self {
             Self::Sheet(_) => None,
             Self::NoBars => Some("the energy has no bars".to_owned()),
+            Self::OwnTerms => Some("the energy has terms of one's own".to_owned()),
             Self::RolledUp => Some("the sheet is rolled up".to_owned()),
             Self::UnderStress { off } => Some(format!(
                 "the state is under stress, off its rest lengths and angles by up to {off:.1e}; moduli are those of a sheet \
@@ -74,6 +77,9 @@ impl ModuliOf {
 pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
     if assembly.terms().bars.is_none() {
         return Ok(ModuliOf::NoBars);
+    }
+    if !assembly.terms().own.is_empty() {
+        return Ok(ModuliOf::OwnTerms);
     }
     let mut model = assembly.model(Gauge::Free);
     model.enter(state);

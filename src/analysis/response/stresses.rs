@@ -40,7 +40,7 @@ pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<Se
         let (mut tension, mut torque) = (vec![0.0; edges], vec![0.0; edges]);
         let mut work = [0.0; 6];
         for (row, (element, value)) in elements.iter().zip(values).enumerate() {
-            let edge = assembly.tiling().edges[element.element.edge()].edge;
+            let edge = assembly.tiling().edges[element.edge].edge;
             if element.element.is_angle() {
                 torque[edge] += length * value
             } else {

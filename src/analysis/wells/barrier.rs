@@ -58,10 +58,10 @@ const SHORTEST: f64 = 1.05;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BarrierError {
     /// The elements of a term are no springs: states cannot be held near others by springs of their own kind.
-    #[error("barriers are those of springs, and the {term} have another law")]
+    #[error("barriers are those of springs of edges, and the {term} are others")]
     Law {
         /// Name of the term.
-        term: &'static str,
+        term: String,
     },
     /// A well is none with the bars in which paths were sought.
     #[error("with bars of {stiffness:e} the wells are no longer these two")]
@@ -163,8 +163,8 @@ pub fn barrier(
     between: [usize; 2],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
-    if let Some(term) = assembly.terms().laws.first() {
-        return Err(BarrierError::Law { term });
+    if let Some(term) = assembly.terms().first_not_of_springs() {
+        return Err(BarrierError::Law { term: term.to_owned() });
     }
     let creases = assembly.crease_stiffness();
     let own = assembly.bar_stiffness();

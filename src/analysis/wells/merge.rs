@@ -73,7 +73,10 @@ fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
     let locks: HashMap<usize, f64> = terms.locks.iter().copied().collect();
     let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
     let bars = terms.bar_stiffness().is_none_or(even);
-    bars && same(&terms.creases)
+    let stays = moved.iter().enumerate().all(|(from, to)| from == *to);
+    (terms.own.is_empty() || stays)
+        && bars
+        && same(&terms.creases)
         && same(&terms.facets)
         && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }

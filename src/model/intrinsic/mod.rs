@@ -98,7 +98,7 @@ impl IntrinsicModel {
         let all = model.coordinates(x);
         for element in model.elements() {
             let values = if element.is_angle() { &self.angles } else { &self.lengths };
-            if let Value::Variable(variable) = values[element.edge()] {
+            if let Some(Value::Variable(variable)) = element.edge().map(|edge| values[edge]) {
                 z[variable as usize] = element.value(&all);
             }
         }
@@ -152,7 +152,10 @@ impl IntrinsicModel {
     /// tensions that balance. Returns the start of a minimisation from there.
     pub fn hand_over(&self, model: &mut Model, z: &[f64], multipliers: &[f64]) -> Start {
         let FoldedUp { coordinates, angles, torques, forces, .. } = self.folded_up(model, z, multipliers);
-        let force = |element: Element<'_>| if element.is_angle() { &torques } else { &forces }[element.edge()];
+        let force = |element: Element<'_>| {
+            let of_edges = if element.is_angle() { &torques } else { &forces };
+            element.edge().map_or(0.0, |edge| of_edges[edge])
+        };
         let tension = Some(model.stiff().map(force).collect());
         model.enter(&Configuration { coordinates, angles: model.angles_among(&angles), tension })
     }
@@ -206,10 +209,8 @@ impl Collected {
         let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
         let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
         for element in model.elements() {
-            if element.has_law() {
-                return Err(Unsupported::Law);
-            }
-            let (edge, kind) = (element.edge(), element.kind());
+            let Some(edge) = element.edge().filter(|_| !element.has_law()) else { return Err(Unsupported::Law) };
+            let kind = element.kind();
             let law = Law { rest: element.spring.rest, compliance: 1.0 / element.spring.stiffness };
             match (kind, element.sites()) {
                 (TermKind::Bars, &[i, j]) => {

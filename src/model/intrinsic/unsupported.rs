@@ -11,8 +11,8 @@ pub enum Unsupported {
     /// Pins and loads act on positions.
     #[error("pins and loads act on positions")]
     PinsOrLoads,
-    /// Some elements are no springs.
-    #[error("bars or hinges have a law, and are no springs")]
+    /// Some elements are no springs of edges.
+    #[error("bars or hinges have a law, or there are terms of one's own")]
     Law,
     /// Some edge has no bar.
     #[error("edge {edge} has no bar")]

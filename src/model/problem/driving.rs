@@ -57,7 +57,9 @@ impl DrivenModel {
                 (Effect::Loads { origin }, begin, drive.to)
             }
             Driven::Lock(edges) => {
-                let locks = model.stiff_of(TermKind::Locks).filter(|(_, lock)| edges.contains(&lock.edge()));
+                let locks = model
+                    .stiff_of(TermKind::Locks)
+                    .filter(|(_, lock)| lock.edge().is_some_and(|edge| edges.contains(&edge)));
                 let locks: Vec<(usize, f64)> = locks.map(|(measure, lock)| (measure, lock.spring.rest)).collect();
                 let from = locks.first().map(|(_, rest)| *rest).ok_or(DriveError::NotLocked)?;
                 let offsets = locks.iter().map(|(k, rest)| (*k, rest - from)).collect();

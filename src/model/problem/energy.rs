@@ -21,7 +21,7 @@ const SHORTEST_ARMS: f64 = 1e4;
 const LEAST_GAP: f64 = 1e-3;
 
 /// Returns the terms, each with the number of its first element, which is this one for the first of them.
-fn numbered(terms: &[Box<dyn Elements>], first: usize) -> impl Iterator<Item = (usize, &dyn Elements)> {
+fn numbered(terms: &[Arc<dyn Elements>], first: usize) -> impl Iterator<Item = (usize, &dyn Elements)> {
     let mut end = first;
     terms.iter().map(move |term| {
         end += term.len();

@@ -35,23 +35,28 @@ fn local<const N: usize>(domain: &Domain, x: &[f64], sites: &[Site; N]) -> Vec<f
 /// Checks gradient and Hessian of a measure through a domain, and that the Hessian of a hinge does not couple its
 /// wings. Every point of the element gets a vertex of its own, since element coordinates are one triple for each
 /// point.
-fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &[f64], sites: [Site; N], what: &str) {
+fn check<M: Measure<N, D> + Default, const N: usize, const D: usize>(
+    domain: &Domain,
+    x: &[f64],
+    sites: [Site; N],
+    what: &str,
+) {
     let local = local(domain, x, &sites);
     let mut own = sites;
     own.iter_mut().enumerate().for_each(|(k, site)| site.vertex = k);
-    let home = M::value(&domain.points(&local, &own));
+    let home = M::default().value(&domain.points(&local, &own));
     let value = |x: &[f64]| {
-        let value = M::value(&domain.points(x, &own));
+        let value = M::default().value(&domain.points(x, &own));
         if M::ANGLE { value + TAU * ((home - value) / TAU).round() } else { value }
     };
     let placed = |x: &[f64], sites: &[Site; N]| sites.map(|site| domain.place(x, site));
     let gradient = |x: &[f64]| {
         let mut pulled = Vec::new();
-        domain.pull_gradient(&placed(x, &own), &M::gradient(&domain.points(x, &own)).1, &mut pulled);
+        domain.pull_gradient(&placed(x, &own), &M::default().gradient(&domain.points(x, &own)).1, &mut pulled);
         pulled
     };
     let (mut lower, mut in_place) = (Vec::new(), Vec::new());
-    let (_, g) = M::hessian(&domain.points(&local, &own), &mut lower);
+    let (_, g) = M::default().hessian(&domain.points(&local, &own), &mut lower);
     domain.pull_hessian(&placed(&local, &own), &g, &mut lower);
     domain.pull_gradient(&placed(x, &sites), &g, &mut in_place);
     let hessian = symmetric(local.len(), &lower);

@@ -15,37 +15,37 @@ fn points<const N: usize>(x: &[f64]) -> [Vec3; N] {
 
 /// Returns a measure, its gradient and its full Hessian. The list for the triangle is not empty before: its content
 /// must not matter.
-fn hessian<M: Measure<N, D>, const N: usize, const D: usize>(
+fn hessian<M: Measure<N, D> + Default, const N: usize, const D: usize>(
     points: &[Vec3; N],
 ) -> (f64, SVector<f64, D>, SMatrix<f64, D, D>) {
     let mut lower = vec![f64::NAN; 100];
-    let (value, gradient) = M::hessian(points, &mut lower);
+    let (value, gradient) = M::default().hessian(points, &mut lower);
     assert_eq!(lower.len(), D * (D + 1) / 2);
     (value, gradient, SMatrix::from_column_slice(symmetric(D, &lower).as_slice()))
 }
 
 /// Checks gradient and Hessian of a measure at `x`; angles are continued from their value at `x`.
-fn check<M: Measure<N, D>, const N: usize, const D: usize>(x: &[f64], what: &str) {
-    let home = M::value(&points(x));
+fn check<M: Measure<N, D> + Default, const N: usize, const D: usize>(x: &[f64], what: &str) {
+    let home = M::default().value(&points(x));
     let value = |x: &[f64]| {
-        let value = M::value(&points(x));
+        let value = M::default().value(&points(x));
         if M::ANGLE { value + TAU * ((home - value) / TAU).round() } else { value }
     };
-    let (by_gradient, gradient) = M::gradient(&points(x));
+    let (by_gradient, gradient) = M::default().gradient(&points(x));
     let (by_hessian, again, hessian) = hessian::<M, N, D>(&points(x));
     assert_eq!([home; 2], [by_gradient, by_hessian], "{what}: three functions, one value");
     assert_eq!(gradient, again, "{what}: two functions, one gradient");
     check_along::<M, N, D>(x, (gradient.as_slice(), &hessian), what);
     let hessian = DenseMatrix::from_column_slice(D, D, hessian.as_slice());
     check_gradient(value, x, gradient.as_slice(), TOLERANCE).unwrap_or_else(|error| panic!("{what}: {error}"));
-    check_jacobian(|x| M::gradient(&points(x)).1.as_slice().to_vec(), x, &hessian, TOLERANCE)
+    check_jacobian(|x| M::default().gradient(&points(x)).1.as_slice().to_vec(), x, &hessian, TOLERANCE)
         .unwrap_or_else(|error| panic!("{what}, Hessian: {error}"));
 }
 
 /// Checks the Taylor series of a measure along a random path: the first two coefficients against gradient and
 /// Hessian, to rounding; the third and the fourth against central differences with a step of a hundredth of the
 /// element's smallest distance, whose error is the square of that and some rounding.
-fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
+fn check_along<M: Measure<N, D> + Default, const N: usize, const D: usize>(
     x: &[f64],
     (gradient, hessian): (&[f64], &SMatrix<f64, D, D>),
     what: &str,
@@ -57,13 +57,13 @@ fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
     let [v, w] = [numbers.many(D, size), numbers.many(D, size)].map(|v| SVector::<f64, D>::from_column_slice(&v));
     let series = |start: &[f64]| {
         let at = |place: usize| Taylor([start[place], v[place], w[place], 0.0, 0.0]);
-        M::along(&std::array::from_fn(|k| std::array::from_fn(|axis| at(3 * k + axis)))).0
+        M::default().along(&std::array::from_fn(|k| std::array::from_fn(|axis| at(3 * k + axis)))).unwrap().0
     };
     let found = series(x);
     let along = |v: &SVector<f64, D>| gradient.iter().zip(v.iter()).map(|(g, v)| g * v).sum::<f64>();
     let scale = found.iter().skip(1).fold(0.0f64, |most, c| most.max(c.abs()));
     let second = along(&w) + 0.5 * (v.transpose() * hessian * v)[0];
-    let off = [found[0] - M::value(&points), found[1] - along(&v), found[2] - second];
+    let off = [found[0] - M::default().value(&points), found[1] - along(&v), found[2] - second];
     assert!(off.iter().all(|off| off.abs() <= 1e-9 * (scale + found[0].abs())), "{what}: {off:?} {found:?}");
     // the path is quadratic: after a step h its velocity is v + 2 h w
     let acceleration = |h: f64| -> f64 {
@@ -129,7 +129,7 @@ fn fold_angles_flat_and_folded() {
     for angle in [0.0, 1e-9, -1e-9, 1e-5, PI / 2.0, PI - 1e-6, 1e-6 - PI, 3.0, -3.0] {
         for _ in 0..6 {
             let x = hinge(&mut numbers, 1.0, [0.8, 0.6], angle);
-            let found = FoldAngle::value(&points(&x));
+            let found = FoldAngle.value(&points(&x));
             assert!((found - angle).abs() < 1e-14, "the hinge was made with {angle:e} and has {found:e}");
             check::<FoldAngle, 4, 12>(&x, &format!("folded by {angle:e}"));
         }

@@ -6,6 +6,7 @@ use crate::model::measure::FoldAngle;
 use crate::model::problem::{Bodies, Conditions, Equations, Gauge, Model};
 use crate::model::{Domain, Site};
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// A hinge `[i, j, left, right]` along x with both wings of length 1, folded by an angle.
 fn hinge(angle: f64) -> Vec<f64> {
@@ -15,12 +16,12 @@ fn hinge(angle: f64) -> Vec<f64> {
 
 fn model_of_one_hinge(drawn: Vec<f64>) -> Model {
     let sites = [0, 1, 2, 3].map(|vertex| Site { vertex, shift: [0, 0] });
-    let term = Term::<FoldAngle, 4, 12>::new(TermKind::Creases, vec![(sites, 0)], Stored::Spring);
+    let term = Term::new((TermKind::Creases, "creases"), FoldAngle, vec![(sites, None)], Stored::Spring);
     let equations = Equations {
         domain: Domain::Patch,
         drawn,
         bodies: Bodies::default(),
-        soft: vec![Box::new(term)],
+        soft: vec![Arc::new(term)],
         stiff: vec![],
         edges: 1,
         mean_edge: 1.0,

@@ -2,9 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Energy by terms; null where the term is not there, or not finite after a relaxation that failed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EnergySummary {
     /// Stretching.
     pub bars: Option<f64>,
@@ -12,6 +13,9 @@ pub struct EnergySummary {
     pub creases: Option<f64>,
     /// Bending of polygons.
     pub facets: Option<f64>,
+    /// The other terms, each by its name.
+    #[serde(flatten)]
+    pub others: BTreeMap<String, f64>,
     /// Their sum: the elastic energy.
     #[schemars(with = "Option<f64>")]
     pub total: f64,

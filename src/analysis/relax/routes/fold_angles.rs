@@ -146,10 +146,11 @@ fn solve(intrinsic: &IntrinsicModel, run: &mut Run<'_>, start: &Start) -> Result
 /// Returns the state of these fold angles and lengths. Tensions of rigid measures are those of the multipliers.
 fn state_of(intrinsic: &IntrinsicModel, model: &Model, at: &ConstrainedIterate<'_>) -> State {
     let FoldedUp { coordinates, angles, lengths, torques, forces } = intrinsic.folded_up(model, at.z, at.multipliers);
-    let value = |element: &Element<'_>| if element.is_angle() { &angles } else { &lengths }[element.edge()];
+    let on_edge = |element: &Element<'_>, of_edges: &[f64]| element.edge().map_or(f64::NAN, |edge| of_edges[edge]);
+    let value = |element: &Element<'_>| on_edge(element, if element.is_angle() { &angles } else { &lengths });
     let tension = |row: usize, element: &Element<'_>| match model.compliance()[row] {
-        0.0 if element.is_angle() => torques[element.edge()],
-        0.0 => forces[element.edge()],
+        0.0 if element.is_angle() => on_edge(element, &torques),
+        0.0 => on_edge(element, &forces),
         compliance => (value(element) - element.spring.rest) / compliance,
     };
     State { coordinates, ..State::of_measures(model, value, tension) }

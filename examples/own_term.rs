@@ -1,0 +1,88 @@
+//! A law and a term of one's own: creases that harden, and magnets on two vertices of a sheet.
+//!
+//! A law says how the energy of an element grows with its measure: two lines. A term is a measure of some points with its
+//! derivatives, on chosen vertices: here `1 / d` of two points, so that two like poles of strength `q` have the energy `q / d`.
+//! Everything else, relaxations, paths, wells, goes on as before.
+//!
+//! ```text
+//! cargo run --release --example own_term
+//! ```
+
+use foldwell::analysis::path::{PathOptions, follow_path};
+use foldwell::math::Vec3;
+use foldwell::model::{Drive, Driven, Law, Measure, OwnTerm, RIGID, Site, Spring, TermKind};
+use foldwell::{Assembly, Pattern, Rest, generate, relax};
+use nalgebra::{Matrix3, SVector};
+use std::error::Error;
+
+/// A torque that grows with the third power of the angle too.
+#[derive(Debug)]
+struct Hardening;
+
+impl Law for Hardening {
+    fn at(&self, angle: f64, rest: f64) -> [f64; 3] {
+        let off = angle - rest;
+        [0.5 * off.powi(2) + 0.25 * off.powi(4), off + off.powi(3), 1.0 + 3.0 * off.powi(2)]
+    }
+}
+
+/// One over the distance of two points.
+struct InverseDistance;
+
+impl Measure<2, 6> for InverseDistance {
+    fn value(&self, [a, b]: &[Vec3; 2]) -> f64 {
+        (b - a).norm().recip()
+    }
+
+    fn gradient(&self, points: &[Vec3; 2]) -> (f64, SVector<f64, 6>) {
+        let (along, value) = (points[1] - points[0], self.value(points));
+        let by_second = -value.powi(3) * along;
+        let mut gradient = SVector::<f64, 6>::zeros();
+        gradient.fixed_rows_mut::<3>(0).copy_from(&-by_second);
+        gradient.fixed_rows_mut::<3>(3).copy_from(&by_second);
+        (value, gradient)
+    }
+
+    fn hessian(&self, points: &[Vec3; 2], lower: &mut Vec<f64>) -> (f64, SVector<f64, 6>) {
+        let (along, value) = (points[1] - points[0], self.value(points));
+        let block = 3.0 * value.powi(5) * along * along.transpose() - value.powi(3) * Matrix3::identity();
+        let entry = |row: usize, column: usize| {
+            let sign = if (row < 3) == (column < 3) { 1.0 } else { -1.0 };
+            sign * block[(row % 3, column % 3)]
+        };
+        lower.clear();
+        (0..6).for_each(|row| lower.extend((0..=row).map(|column| entry(row, column))));
+        self.gradient(points)
+    }
+}
+
+/// A constant force along the measure: the energy is `q` times the measure.
+#[derive(Debug)]
+struct Constant;
+
+impl Law for Constant {
+    fn at(&self, value: f64, _: f64) -> [f64; 3] {
+        [value, 1.0, 0.0]
+    }
+
+    fn by_rest(&self, _: f64, _: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let sheet = generate(&Pattern::named("miura")?)?;
+    let energy = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Assigned(0.6));
+    let hardening = energy.law(TermKind::Creases, Hardening).build()?;
+    let poles = [0, 3 * hardening.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
+    let strength = Spring { stiffness: 5.0, rest: 0.0 };
+    let magnets = hardening.with_own_term(OwnTerm::with_law("magnets", InverseDistance, [(poles, strength)], Constant));
+    for (name, assembly) in [("without", &hardening), ("with", &magnets)] {
+        let state = relax(assembly)?.state;
+        println!("{name} magnets: creases {:.6}, magnets {:.6}", state.energy_creases, state.energy_of_term("magnets"));
+    }
+    let drive = Drive { quantity: Driven::Rest, to: 1.0 };
+    let path = follow_path(&magnets, &drive, None, &PathOptions::default(), &mut |_, _| true)?;
+    println!("on the way of the rest angles: {} states, {:?}", path[0].points.len(), path[0].end);
+    Ok(())
+}

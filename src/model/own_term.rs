@@ -1,0 +1,84 @@
+//! Terms of a user's own: a measure and a law on chosen points.
+
+use super::domain::Site;
+use super::element::{Elements, Spring, Term, TermKind};
+use super::law::{Law, Stored};
+use super::measure::Measure;
+use std::fmt;
+use std::sync::Arc;
+
+/// A term of one's own: elements with a measure and a law of one's own, and a name under which their energy is listed.
+///
+/// ```
+/// use foldwell::model::{Length, OwnTerm, RIGID, Site, Spring};
+/// use foldwell::{Assembly, Pattern, generate, relax};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).build()?;
+/// // a rubber band between the first vertex of the first cell and that of the last
+/// let ends = [0, 3 * assembly.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
+/// let band = OwnTerm::new("band", Length, [(ends, Spring { stiffness: 2.0, rest: 1.0 })]);
+/// let state = relax(&assembly.with_own_term(band))?.state;
+/// assert!(state.energy_of_term("band") > 0.0 && state.total() > state.energy_creases);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct OwnTerm {
+    pub(super) elements: Arc<dyn Elements>,
+    pub(super) springs: Vec<Spring>,
+}
+
+impl OwnTerm {
+    /// Makes a term of elements with this measure and springs of finite or infinite stiffness. The points are vertices of the tiling, in
+    /// the order of the measure's arguments; `shift` is not zero for copies of a periodic sheet.
+    pub fn new<M: Measure<N, D> + 'static, const N: usize, const D: usize>(
+        name: &str,
+        measure: M,
+        elements: impl IntoIterator<Item = ([Site; N], Spring)>,
+    ) -> Self {
+        Self::storing(name, measure, elements, Stored::Spring)
+    }
+
+    /// Makes a term of elements with this measure and law; stiffnesses are finite.
+    pub fn with_law<M: Measure<N, D> + 'static, const N: usize, const D: usize>(
+        name: &str,
+        measure: M,
+        elements: impl IntoIterator<Item = ([Site; N], Spring)>,
+        law: impl Law + 'static,
+    ) -> Self {
+        Self::storing(name, measure, elements, Stored::Law(Arc::new(law)))
+    }
+
+    fn storing<M: Measure<N, D> + 'static, const N: usize, const D: usize>(
+        name: &str,
+        measure: M,
+        elements: impl IntoIterator<Item = ([Site; N], Spring)>,
+        stored: Stored,
+    ) -> Self {
+        let (sites, springs) = elements.into_iter().map(|(sites, spring)| ((sites, None), spring)).unzip();
+        Self { elements: Arc::new(Term::new((TermKind::Own, name), measure, sites, stored)), springs }
+    }
+
+    /// Returns its name.
+    pub fn name(&self) -> &str {
+        self.elements.name()
+    }
+
+    /// Whether its elements have tensions as unknowns: one of them is rigid.
+    pub(super) fn is_stiff(&self) -> bool {
+        self.springs.iter().any(|spring| spring.stiffness.is_infinite())
+    }
+}
+
+impl fmt::Debug for OwnTerm {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} ({} elements)", self.name(), self.springs.len())
+    }
+}
+
+/// Terms are equal where they are the same object.
+impl PartialEq for OwnTerm {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.elements, &other.elements) && self.springs == other.springs
+    }
+}
