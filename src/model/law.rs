@@ -90,12 +90,15 @@ impl Stored {
     /// Returns energy, force and stiffness at a value.
     pub(super) fn at(&self, value: f64, spring: Spring) -> [f64; 3] {
         let off = value - spring.rest;
-        let unit = match self {
-            Self::Spring => [0.5 * off * off, off, 1.0],
-            Self::Law(law) => law.at(value, spring.rest),
-            Self::BeyondSpring(law) => beyond(law.at(value, spring.rest), [0.5 * off * off, off, 1.0]),
-        };
-        unit.map(|part| spring.stiffness * part)
+        let scaled = |unit: [f64; 3]| unit.map(|part| spring.stiffness * part);
+        match self {
+            Self::Spring => {
+                let force = spring.stiffness * off;
+                [0.5 * force * off, force, spring.stiffness]
+            }
+            Self::Law(law) => scaled(law.at(value, spring.rest)),
+            Self::BeyondSpring(law) => scaled(beyond(law.at(value, spring.rest), [0.5 * off * off, off, 1.0])),
+        }
     }
 
     /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
