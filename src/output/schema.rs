@@ -30,8 +30,10 @@ fn schema_of<T: JsonSchema>() -> String {
     format!("{:#}\n", root.to_value())
 }
 
-/// Forbids keys that are not described.
+/// Forbids keys that are not described, unless the table has keys of any name.
 fn close(table: &mut Schema) {
     let key = if table.get("allOf").is_some() { "unevaluatedProperties" } else { "additionalProperties" };
-    table.insert(key.to_owned(), Value::Bool(false));
+    if table.get(key).is_none() {
+        table.insert(key.to_owned(), Value::Bool(false));
+    }
 }

@@ -8,8 +8,7 @@ use crate::output::table::Energies;
 /// Returns the energies of the terms and their sum, which is always given.
 pub(crate) fn columns(terms: &Terms, state: &State) -> Energies {
     let EnergySummary { bars, creases, facets, others, total } = summary(terms, state);
-    let others = others.into_iter().map(|(name, energy)| (name, Some(energy))).collect();
-    Energies { of_edges: [bars, creases, facets], others, total: Some(total) }
+    Energies { of_edges: [bars, creases, facets], others: others.into_iter().collect(), total: Some(total) }
 }
 
 /// Returns the same energies as [`columns`], without the last one if the model has neither bars nor creases.
@@ -21,11 +20,12 @@ pub(crate) fn columns_if_any(terms: &Terms, state: &State) -> Energies {
 
 /// Returns the energies of the terms and their sum.
 pub fn summary(terms: &Terms, state: &State) -> EnergySummary {
+    let other = |name: &str| (name.to_owned(), Some(state.energy_of_term(name)).filter(|energy| energy.is_finite()));
     EnergySummary {
         bars: terms.bars.as_ref().map(|_| state.energy_bars),
         creases: terms.creases.as_ref().map(|_| state.energy_creases),
         facets: terms.facets.as_ref().map(|_| state.energy_facets),
-        others: terms.own_names().into_iter().map(|name| (name.to_owned(), state.energy_of_term(name))).collect(),
+        others: terms.own_names().into_iter().map(other).collect(),
         total: state.total(),
     }
 }

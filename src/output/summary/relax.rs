@@ -15,7 +15,7 @@ pub struct EnergySummary {
     pub facets: Option<f64>,
     /// The other terms, each by its name.
     #[serde(flatten)]
-    pub others: BTreeMap<String, f64>,
+    pub others: BTreeMap<String, Option<f64>>,
     /// Their sum: the elastic energy.
     #[schemars(with = "Option<f64>")]
     pub total: f64,
