@@ -60,7 +60,7 @@ mod tests {
         let schema: Value = serde_json::from_str(&schema()).unwrap();
         assert_eq!(
             properties(&schema),
-            ["drive", "energy", "load", "lock", "mass", "part", "pin", "sheet", "study", "sweep", "title"]
+            ["drive", "energy", "load", "lock", "mass", "part", "pin", "sheet", "spring", "study", "sweep", "title"]
         );
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));
     }
