@@ -23,7 +23,7 @@
 //! Lengths are in the unit of the sheet, angles in radians, valley folds positive. A crease of stiffness `k` and length
 //! `l` has the energy `k l (angle - rest)^2 / 2`, a bar of stiffness `EA` and rest length `L` the energy
 //! `EA L strain^2 / 2`. The folder `examples` has longer programs: a relaxation, a trajectory of rigid folding until it
-//! closes, an energy landscape, a map of Bloch modes, and a custom energy.
+//! closes, an energy landscape, a map of Bloch modes, a law and a term of one's own, and a custom energy.
 //!
 //! # Where to begin
 //!
@@ -31,6 +31,7 @@
 //! |---|---|
 //! | read a mesh or a crease pattern | [`sheet::fold::read`], [`sheet::obj::read`], [`sheet::pattern::read`]; [`generate()`] makes one |
 //! | give it stiffnesses, rest angles, locks, pins and loads | [`Assembly::patch`], [`Assembly::torus`], [`Assembly::screw`] and the builder they return |
+//! | give bars and hinges another law than that of a spring, or add a term of your own | [`model::Law`], [`model::OwnTerm`] |
 //! | relax it | [`relax()`]; from another start, or step by step, [`analysis::relax::relax_from`] |
 //! | read fold angles, strains, tensions and energies edge by edge | [`analysis::state::State`] |
 //! | find zero modes, self stresses and eigenvalues | [`analysis::modes::modes`] |
