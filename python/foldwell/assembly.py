@@ -65,7 +65,10 @@ class Assembly:
             pins: Vertices that are held, each a dict as `[[pin]]`: `{"vertex": 3, "cell": (0, 0), "axes": "xyz"}`.
             loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`.
             parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
+            springs: Springs between two vertices, each a dict as `[[spring]]`: `{"vertices": [3, (7, 0, 1)], "stiffness": 2.0}`.
             drives: Quantities that `path` drives, each a dict as `[[drive]]`.
+            laws: Laws other than that of a spring, by term: `{"bars": {"kind": "ogden", "exponents": [5.0, 1.0]},
+                "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`.
             mass: Mass, from which frequencies follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
 
         Raises:
@@ -330,7 +333,7 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
     """Returns the tables of a scene for the keyword arguments of `Assembly.patch`."""
     known = {
         *("bars", "rest_lengths", "creases", "rest", "fraction", "facets", "facet_rest"),
-        *("locks", "pins", "loads", "parts", "drives", "mass"),
+        *("locks", "pins", "loads", "parts", "springs", "drives", "mass", "laws"),
     }
     if unknown := terms.keys() - known:
         raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(known))}")
@@ -349,10 +352,14 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
     rest, facets = given.get("rest"), given.get("facets", math.inf)
     if isinstance(rest, np.ndarray) and rest.ndim > 0 and isinstance(facets, float) and math.isinf(facets):
         tables.refuse_rigid_facets(rest)
+    for term, law in given.get("laws", {}).items():
+        if term not in energy:
+            raise TypeError(f"a law of {term} is given without their stiffness")
+        energy[term]["law"] = law
     if "fraction" in given:
         energy.setdefault("creases", {})["fraction"] = given["fraction"]
     scene: dict[str, Any] = {"energy": energy, "mass": given.get("mass"), "lock": _locks(given.get("locks", ()))}
-    scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "drive")}
+    scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "spring", "drive")}
     return {name: value for name, value in scene.items() if value}
 
 
