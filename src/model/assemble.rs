@@ -39,8 +39,27 @@ impl Listed {
 
 /// Builds the model of a tiling, without the kinds of hinges that `terms` does not have.
 pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
+    let [soft, stiff] = listed(drawn, tiling, terms);
+    let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
+    let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
+    let loads = net_loads(terms, drawn.coordinates.len(), &pinned);
+    let equations = Equations {
+        domain: drawn.domain.clone(),
+        drawn: drawn.coordinates.clone(),
+        bodies: Bodies::new(&terms.parts, &drawn.coordinates),
+        soft: soft.terms,
+        stiff: stiff.terms,
+        edges: tiling.edges.len(),
+        mean_edge: drawn.mean_edge(tiling),
+        gauge,
+    };
+    let supports = terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect();
+    Model::new(equations, [soft.springs, stiff.springs].concat(), Conditions { pinned, supports, loads })
+}
+
+/// Returns the terms whose elements enter with their energy, and those whose elements have tensions.
+fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
     let (mut soft, mut stiff) = (Listed::default(), Listed::default());
-    let mean_edge = drawn.mean_edge(tiling);
     let in_part = inside_a_part(&terms.parts, tiling.positions.len());
     let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
     if let Some(given) = &terms.bars {
@@ -88,21 +107,7 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         list.terms.push(own.elements.clone());
         list.springs.extend(&own.springs);
     }
-    let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
-    let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
-    let loads = net_loads(terms, drawn.coordinates.len(), &pinned);
-    let equations = Equations {
-        domain: drawn.domain.clone(),
-        drawn: drawn.coordinates.clone(),
-        bodies: Bodies::new(&terms.parts, &drawn.coordinates),
-        soft: soft.terms,
-        stiff: stiff.terms,
-        edges: tiling.edges.len(),
-        mean_edge,
-        gauge,
-    };
-    let supports = terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect();
-    Model::new(equations, [soft.springs, stiff.springs].concat(), Conditions { pinned, supports, loads })
+    [soft, stiff]
 }
 
 /// Returns the force on every coordinate, zero where a pin takes it up. The list is empty if all forces are zero, so

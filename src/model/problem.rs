@@ -123,7 +123,8 @@ impl Model {
             gap_scale: vec![],
             units: vec![],
         };
-        model.accept_angles(&model.base[..model.points()].to_vec());
+        let equations = model.equations.clone();
+        model.accept_angles(&equations.drawn);
         model.units = model.units_at(&model.base);
         model.count_measures();
         model.choose_unknowns();

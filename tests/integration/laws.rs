@@ -26,12 +26,17 @@ fn pulled(stiffness: f64, force: f64) -> Builder {
     bars.pin(0, [0, 0], [true; 3]).pin(1, [0, 0], [false, true, true]).pin(2, [0, 0], [false, false, true])
 }
 
+/// Gives bars a law.
+type Given = fn(Builder) -> Builder;
+/// The force of a bar by its stretch, over `EA`.
+type Force = fn(f64) -> f64;
+
 /// Claim: a bar under a force is stretched as its law says, be it soft or 1e12 times stiffer. Source: the laws, force by stretch, as
 /// published. Tolerance: 1e-10 of the force, which is that of the residual; forces are known to 1e-10 of themselves where strains are
 /// above 1e-3, and strains to rounding below.
 #[test]
 fn bars_are_stretched_by_their_law() {
-    let forces: [(fn(Builder) -> Builder, fn(f64) -> f64); 3] = [
+    let forces: [(Given, Force); 3] = [
         (|bars| bars.law(TermKind::Bars, Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
         (|bars| bars.law(TermKind::Bars, Ogden { exponents: [2.0, 0.0] }), |l| (l - 1.0 / l) / 2.0),
         (|bars| bars.law(TermKind::Bars, GreenLagrange), |l| l * (l * l - 1.0) / 2.0),

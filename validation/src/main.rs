@@ -13,6 +13,7 @@
 //! | 1 | a claim fails |
 //! | 2 | a claim does not exist, or is none |
 //! | 3 | a report cannot be written |
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod claim;
 mod experiment;

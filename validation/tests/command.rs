@@ -1,4 +1,5 @@
 //! The program: exit statuses, reports, and a wrong claim.
+#![allow(clippy::unwrap_used)]
 
 use approx::abs_diff_eq;
 use assert_cmd::Command;
