@@ -6,8 +6,8 @@
 //! stores beyond it.
 
 use super::boundary::Drawn;
-use super::element::{Elements, Spring, Term, TermKind};
-use super::law::Stored;
+use super::element::{Elements, Term, TermKind};
+use super::law::{Spring, Stored};
 use super::measure::{FoldAngle, Length};
 use super::part::Part;
 use super::problem::{Bodies, Conditions, Equations, Gauge, Model, Support};

@@ -1,22 +1,12 @@
 //! Terms of the energy: lists of elements with the same measure; and the elements of a model, each with a spring law.
 
 use super::domain::{Domain, Site};
-use super::law::Stored;
+use super::law::{Spring, Stored};
 use super::measure::Measure;
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-
-/// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](super::Law) near rest; infinite stiffness means
-/// `value = rest` exactly.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
-    /// Spring constant: force per length for a bar, torque per radian for a hinge; may be infinite.
-    pub stiffness: f64,
-    /// Value without force: a length, or an angle in radians.
-    pub rest: f64,
-}
 
 /// The kind of the elements of a term. Code that treats kinds differently must match all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,17 @@
-//! Laws: how the energy of an element depends on the value of its measure.
+//! Springs and other laws: how the energy of an element depends on the value of its measure.
 
-use super::element::Spring;
 use std::fmt;
 use std::sync::Arc;
+
+/// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](Law) near rest; infinite stiffness means
+/// `value = rest` exactly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// Spring constant: force per length for a bar, torque per radian for a hinge; may be infinite.
+    pub stiffness: f64,
+    /// Value without force: a length, or an angle in radians.
+    pub rest: f64,
+}
 
 /// A law `phi` of an element: its energy is `k phi(m, rest)`, `k` the spring constant, `m` the value of its measure, a length or an
 /// angle in radians.

@@ -1,8 +1,8 @@
 //! Terms of a user's own: a measure and a law on chosen points.
 
 use super::domain::Site;
-use super::element::{Elements, Spring, Term, TermKind};
-use super::law::{Law, Stored};
+use super::element::{Elements, Term, TermKind};
+use super::law::{Law, Spring, Stored};
 use super::measure::Measure;
 use std::fmt;
 use std::sync::Arc;

@@ -1,8 +1,9 @@
 //! The model: terms on a domain, with pins, loads and a gauge, as the problem that the solver minimises.
 
 use super::domain::Domain;
-use super::element::{Element, Elements, Spring};
+use super::element::{Element, Elements};
 use super::gauge;
+use super::law::Spring;
 use crate::math::Vec3;
 use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::Cliques;

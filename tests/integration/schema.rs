@@ -54,7 +54,7 @@ fn findings(schema: &Value, place: &str) -> Vec<String> {
     open.into_iter().chain(silent.map(|(name, _)| format!("{place}.{name} says nothing"))).collect()
 }
 
-/// Claim: every key of a summary, also of a sweep, is described, and no table allows other keys; the results of studies are parts of the
+/// Claim: every key of a summary, also of a sweep, is described, and no table but that of energies allows other keys; the results of studies are parts of the
 /// table of a study, which allows no other keys.
 #[test]
 fn every_key_of_a_summary_is_described() {
@@ -75,5 +75,5 @@ fn every_key_of_a_summary_is_described() {
         closed["additionalProperties"] = Value::Bool(false);
         found.extend(findings(&closed, kind));
     }
-    assert_eq!(found, Vec::<String>::new());
+    assert_eq!(found, ["EnergySummary is open"], "energies are listed by the names of terms");
 }

@@ -1,7 +1,7 @@
 //! Tests of terms: angles continue from the last accepted state.
 
-use crate::model::element::{Local, Spring, Term, TermKind};
-use crate::model::law::Stored;
+use crate::model::element::{Local, Term, TermKind};
+use crate::model::law::{Spring, Stored};
 use crate::model::measure::FoldAngle;
 use crate::model::problem::{Bodies, Conditions, Equations, Gauge, Model};
 use crate::model::{Domain, Site};
