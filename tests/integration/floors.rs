@@ -71,8 +71,10 @@ const DECOMPOSITIONS: &[&str] = &[
 
 /// All entries at the root except those that begin with a dot.
 const ROOT: &[&str] = &[
+    "ARCHITECTURE.md",
     "CHANGELOG.md",
     "CITATION.cff",
+    "CONTRIBUTING.md",
     "Cargo.lock",
     "Cargo.toml",
     "LICENSE-APACHE",
