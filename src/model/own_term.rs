@@ -9,6 +9,9 @@ use std::sync::Arc;
 
 /// A term of one's own: elements with a measure and a law of one's own, and a name under which their energy is listed.
 ///
+/// Its energy must not change where the whole sheet moves as a rigid body, unless pins prevent that: coordinates are held against such
+/// motions, and forces on them are not looked at.
+///
 /// ```
 /// use foldwell::model::{Length, OwnTerm, RIGID, Site, Spring};
 /// use foldwell::{Assembly, Pattern, generate, relax};
