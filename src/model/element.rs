@@ -283,6 +283,6 @@ impl<'a> Element<'a> {
 }
 
 /// An angle continued without a jump from the last one; other values, which have none, stay as they are.
-fn continued(last: f64, value: f64) -> f64 {
+pub(super) fn continued(last: f64, value: f64) -> f64 {
     if (last - value).abs() > PI { value + TAU * ((last - value) / TAU).round() } else { value }
 }

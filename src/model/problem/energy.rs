@@ -2,7 +2,7 @@
 
 use super::{Model, POSE};
 use crate::model::Site;
-use crate::model::element::{Element, Elements, Local};
+use crate::model::element::{Elements, Local, continued};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -122,8 +122,14 @@ impl Problem for Model {
 impl Model {
     /// Lets fold angles continue from the state with these coordinates; the unknowns and their units stay as they are.
     pub(in crate::model) fn accept_angles(&mut self, points: &[f64]) {
-        let value = |element: Element<'_>| if element.is_angle() { element.value(points) } else { f64::NAN };
-        self.last = self.elements().map(value).collect();
+        let soft = self.soft_elements();
+        let Self { equations, last, .. } = self;
+        let terms = numbered(&equations.soft, 0).chain(numbered(&equations.stiff, soft));
+        for (first, term) in terms.filter(|(_, term)| term.is_angle()) {
+            for (k, last) in last[first..first + term.len()].iter_mut().enumerate() {
+                *last = continued(*last, term.value(k, &equations.domain, points));
+            }
+        }
     }
 
     /// Displacement of the loads, each along its force and weighted by it, from the origin; the energy falls by it times
