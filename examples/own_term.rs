@@ -10,7 +10,7 @@
 
 use foldwell::analysis::path::{PathOptions, follow_path};
 use foldwell::math::Vec3;
-use foldwell::model::{Drive, Driven, Law, Measure, OwnTerm, RIGID, Site, Spring, TermKind};
+use foldwell::model::{Drive, Driven, Law, Measure, OwnTerm, RIGID, Site, Spring};
 use foldwell::{Assembly, Pattern, Rest, generate, relax};
 use nalgebra::{Matrix3, SVector};
 use std::error::Error;
@@ -26,7 +26,7 @@ impl Law for Hardening {
     }
 }
 
-/// One over the distance of two points.
+/// The reciprocal of the distance between two points.
 struct InverseDistance;
 
 impl Measure<2, 6> for InverseDistance {
@@ -73,7 +73,7 @@ impl Law for Constant {
 fn main() -> Result<(), Box<dyn Error>> {
     let sheet = generate(&Pattern::named("miura")?)?;
     let energy = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Assigned(0.6));
-    let hardening = energy.law(TermKind::Creases, Hardening).build()?;
+    let hardening = energy.crease_law(Hardening).build()?;
     let poles = [0, 3 * hardening.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
     let strength = Spring { stiffness: 5.0, rest: 0.0 };
     let magnets = hardening.with_own_term(OwnTerm::with_law("magnets", InverseDistance, [(poles, strength)], Constant));

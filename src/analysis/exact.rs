@@ -98,8 +98,8 @@ impl Springs {
     pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
         let closes = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus | Domain::Tube { .. });
-        let has_law = model.elements().any(|element| element.has_law() || element.edge().is_none());
-        if edges > MOST_EDGES || model.held_or_loaded() || closes || has_law {
+        let is_linear = model.elements().all(|element| !element.has_law() && element.edge().is_some());
+        if edges > MOST_EDGES || model.held_or_loaded() || closes || !is_linear {
             return None;
         }
         if !rests_at_drawn_lengths(sheet, tiling, model) {

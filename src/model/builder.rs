@@ -4,7 +4,6 @@
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
-use super::element::TermKind;
 use super::law::{Law, Laws};
 use super::mass::Mass;
 use super::part::Part;
@@ -189,17 +188,24 @@ impl Builder {
         self
     }
 
-    /// Gives the bars, creases or facets a law other than that of a spring; their stiffness is that at rest. Rigid elements have none, and
-    /// locks are rigid.
+    /// Gives the bars that are not rigid a law other than that of a spring; their stiffness is that at rest.
     #[must_use]
-    pub fn law(mut self, kind: TermKind, law: impl Law + 'static) -> Self {
-        let law = Some(Arc::new(law) as Arc<dyn Law>);
-        match kind {
-            TermKind::Bars => self.given.laws.bars = law,
-            TermKind::Creases => self.given.laws.creases = law,
-            TermKind::Facets => self.given.laws.facets = law,
-            TermKind::Locks | TermKind::Own => {}
-        }
+    pub fn bar_law(mut self, law: impl Law + 'static) -> Self {
+        self.given.laws.bars = Some(Arc::new(law));
+        self
+    }
+
+    /// Gives the creases that are not rigid a law, as [`Builder::bar_law`] does.
+    #[must_use]
+    pub fn crease_law(mut self, law: impl Law + 'static) -> Self {
+        self.given.laws.creases = Some(Arc::new(law));
+        self
+    }
+
+    /// Gives the diagonals of polygons that are not rigid a law, as [`Builder::bar_law`] does.
+    #[must_use]
+    pub fn facet_law(mut self, law: impl Law + 'static) -> Self {
+        self.given.laws.facets = Some(Arc::new(law));
         self
     }
 

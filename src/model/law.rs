@@ -18,10 +18,10 @@ pub struct Spring {
 ///
 /// Every law is a spring of constant `k` near rest: `phi = phi' = 0` and `phi'' = 1` at `m = rest`, unless rest is beyond a limit.
 /// Derivatives are by `m`. Where a value cannot be reached, as a fold angle beyond pi, the energy is infinite. A law is one file of a user's
-/// own: a type with this trait, given to [`Builder::law`](super::Builder::law).
+/// own: a type with this trait, given to [`Builder::bar_law`](super::Builder::bar_law).
 ///
 /// ```
-/// use foldwell::model::{Law, TermKind};
+/// use foldwell::model::Law;
 /// use foldwell::{Assembly, Pattern, Rest, generate, relax};
 ///
 /// /// Creases that become stiffer with the square of how far they are folded.
@@ -37,7 +37,7 @@ pub struct Spring {
 ///
 /// let sheet = generate(&Pattern::named("miura")?)?;
 /// let linear = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).rest(Rest::Angle(0.5));
-/// let hardening = linear.clone().law(TermKind::Creases, Hardening).build()?;
+/// let hardening = linear.clone().crease_law(Hardening).build()?;
 /// assert!(relax(&hardening)?.state.total() > relax(&linear.build()?)?.state.total());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -45,7 +45,7 @@ pub trait Law: fmt::Debug + Send + Sync {
     /// Returns `phi`, `phi'` and `phi''` at a value.
     fn at(&self, value: f64, rest: f64) -> [f64; 3];
 
-    /// Returns what changes with the rest value, `m` fixed: the derivative of `phi`, that of `phi'`, and the second one of `phi`. The
+    /// Returns derivatives by the rest value while `m` is fixed: the first of `phi`, the first of `phi'`, and the second of `phi`. The
     /// default is right for functions of `m - rest`.
     fn by_rest(&self, value: f64, rest: f64) -> [f64; 3] {
         let [_, force, stiffness] = self.at(value, rest);
@@ -79,19 +79,20 @@ impl Laws {
     }
 }
 
-/// What the elements of a term store.
+/// The way in which the elements of a term store energy.
 #[derive(Clone, Debug)]
 pub(super) enum Stored {
     /// The energy of a spring.
     Spring,
-    /// That of a law.
+    /// The energy of a law.
     Law(Arc<dyn Law>),
-    /// What a law stores beyond a spring, which has a tension of its own as unknown: so the law is exact at every stiffness.
+    /// The energy of a law less that of a spring. The spring is an element of its own, with a tension as unknown, so that the sum loses no
+    /// digits however stiff it is.
     BeyondSpring(Arc<dyn Law>),
 }
 
 impl Stored {
-    /// Whether it is no spring.
+    /// Whether a law is part of the energy.
     pub(super) fn is_law(&self) -> bool {
         !matches!(self, Self::Spring)
     }

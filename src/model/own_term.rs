@@ -42,14 +42,19 @@ impl OwnTerm {
         Self::storing(name, measure, elements, Stored::Spring)
     }
 
-    /// Makes a term of elements with this measure and law; stiffnesses are finite.
+    /// Makes a term of elements with this measure and law.
+    ///
+    /// # Panics
+    /// If a stiffness is infinite: a rigid element has no law.
     pub fn with_law<M: Measure<N, D> + 'static, const N: usize, const D: usize>(
         name: &str,
         measure: M,
         elements: impl IntoIterator<Item = ([Site; N], Spring)>,
         law: impl Law + 'static,
     ) -> Self {
-        Self::storing(name, measure, elements, Stored::Law(Arc::new(law)))
+        let term = Self::storing(name, measure, elements, Stored::Law(Arc::new(law)));
+        assert!(!term.is_stiff(), "a rigid element has no law");
+        term
     }
 
     fn storing<M: Measure<N, D> + 'static, const N: usize, const D: usize>(

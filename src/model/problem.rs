@@ -35,7 +35,7 @@ pub(super) const RIGHT_WING: Range<u32> = 9..12;
 /// rigid motions count as dependent.
 const DEPENDENT: f64 = 1e-9;
 
-/// What stays the same in all runs of a solver: measures on a domain, and rigid parts.
+/// The equations of a sheet, which no run of a solver changes: measures on a domain, and rigid parts.
 pub(super) struct Equations {
     /// The map from coordinates to points.
     pub domain: Domain,
@@ -55,7 +55,7 @@ pub(super) struct Equations {
     pub gauge: Gauge,
 }
 
-/// What holds and loads a sheet.
+/// The pins, supports and loads of a sheet.
 pub(super) struct Conditions {
     /// Indices of the coordinates held by pins and by the boundary conditions.
     pub pinned: Vec<usize>,

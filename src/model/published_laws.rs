@@ -31,7 +31,7 @@ impl Law for Stiffening {
         [energy, off + unit * turned.tan(), turned.cos().powi(-2)]
     }
 
-    /// What is beyond the limits does not depend on the rest angle.
+    /// The torque beyond a limit, the tangent above, does not depend on the rest angle.
     fn by_rest(&self, angle: f64, rest: f64) -> [f64; 3] {
         [rest - angle, -1.0, 1.0]
     }

@@ -6,6 +6,7 @@ use super::own_term::OwnTerm;
 use super::part::Part;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;
+use std::collections::BTreeSet;
 
 /// The stiffness of a term that is exactly rigid: infinity.
 pub const RIGID: f64 = f64::INFINITY;
@@ -128,19 +129,14 @@ impl Terms {
         terms.into_iter().find(|(_, uneven)| *uneven).map(|(term, _)| term)
     }
 
-    /// Returns the names of the terms of one's own, each once.
-    pub fn own_names(&self) -> Vec<&str> {
-        let mut names = Vec::new();
-        self.own.iter().map(OwnTerm::name).for_each(|name| {
-            if !names.contains(&name) {
-                names.push(name)
-            }
-        });
-        names
+    /// Returns the names of the terms of one's own, in the order in which tables and summaries list them.
+    pub fn own_names(&self) -> BTreeSet<&str> {
+        self.own.iter().map(OwnTerm::name).collect()
     }
 
-    /// Returns the name of the first term that is no spring of an edge: one with a law, or one of one's own; `None` if there is none.
-    pub fn first_not_of_springs(&self) -> Option<&str> {
+    /// Returns the name of the first term that is not made of linear springs along edges: one with a law, or one of one's own; `None` if
+    /// there is none.
+    pub fn first_not_linear(&self) -> Option<&str> {
         self.laws.first().or_else(|| self.own.first().map(OwnTerm::name))
     }
 

@@ -19,11 +19,11 @@ pub enum HessianKind {
 pub struct SoftElement<'a> {
     /// Stiffness `k >= 0` of the Gauss-Newton part: for a spring the second derivative of the energy by the measure.
     pub stiffness: f64,
-    /// What the second derivative is beyond `k`, for a measure whose energy is not quadratic.
+    /// Second derivative of the energy by the measure, less `k`: not zero where the energy is not quadratic.
     pub excess: f64,
     /// Force `f`: the first derivative of the energy by the measure.
     pub force: f64,
-    /// Change of the measure that is as large as one of 1 rad; infinite where no change is too large for one step.
+    /// Change of the measure that counts as one radian where steps are bounded; infinite for a measure that bounds no step.
     pub size: f64,
     /// Gradient `g` of the measure by the unknowns of the element.
     pub gradient: &'a [f64],
@@ -48,7 +48,7 @@ pub struct Linearization {
     pub soft_gradients: Vec<f64>,
     /// Stiffnesses of the soft elements.
     pub soft_stiffness: Vec<f64>,
-    /// Sizes of the changes of the soft measures.
+    /// For each soft element the change of its measure that counts as one radian; see [`SoftElement::size`].
     pub soft_sizes: Vec<f64>,
     /// Natural size of each stiff measure's gradient: 1 for lengths, one over the unit of length for angles. Rows of
     /// the Jacobian are compared in these units, so that nothing depends on the unit of length.

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use crate::analysis::path::{PathBranch, PathEvent};
-use crate::model::{Drive, Driven, TermKind};
+use crate::model::{Drive, Driven};
 use crate::output::figure::reaction::{self, PlottedState, ReactionPlot};
 
 /// The words for a driven quantity and its conjugate.
@@ -43,13 +43,7 @@ impl Words {
             Driven::Lock(_) => words("lock", "fold angle of the lock (rad)".into(), "torque"),
             Driven::Rest => words("rest", "rest angles (0: as drawn, 1: as given)".into(), "derivative of the energy"),
             Driven::Stiffness(kind) => {
-                let term = match kind {
-                    TermKind::Bars => "bars",
-                    TermKind::Creases => "creases",
-                    TermKind::Facets => "facets",
-                    TermKind::Locks | TermKind::Own => "locks",
-                };
-                words("stiffness", format!("stiffness of {term}"), "derivative of the energy")
+                words("stiffness", format!("stiffness of {}", kind.name()), "derivative of the energy")
             }
         }
     }

@@ -36,10 +36,10 @@ pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<()
     }
 }
 
-/// Checks that all elements are springs.
-pub(super) fn springs(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
-    let Some(term) = context.assembly.terms().first_not_of_springs() else { return Ok(()) };
-    let message = format!("{what} are those of springs of edges, and the {term} are others");
+/// Checks that all elements are linear springs along edges.
+pub(super) fn linear_springs(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
+    let Some(term) = context.assembly.terms().first_not_linear() else { return Ok(()) };
+    let message = format!("{what} need linear bars and hinges and no other terms, and here is another: {term}");
     Err(context.refuse(message, "leave out `law` of bars, creases and facets, and [[spring]]").into())
 }
 

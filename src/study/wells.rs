@@ -48,7 +48,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
     }
     supported::drawn_lengths(context, "wells")?;
     if spec.rigid || !spec.barriers.is_empty() {
-        supported::springs(context, "barriers and rigid wells")?;
+        supported::linear_springs(context, "barriers and rigid wells")?;
     }
     if !terms.loads.is_empty() && free_rigid_motions(context.assembly) > 0 {
         let help = "pin three vertices that do not lie on a line, or leave out [[load]]";

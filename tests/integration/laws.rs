@@ -1,7 +1,9 @@
 //! Laws of bars and hinges against closed forms, at every stiffness.
 
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
-use foldwell::model::{Assembly, Builder, Drive, Driven, GreenLagrange, Law, Ogden, Stiffening, TermKind};
+use foldwell::model::{
+    Assembly, Builder, Drive, Driven, GreenLagrange, Law, Length, Ogden, OwnTerm, Site, Spring, Stiffening,
+};
 use foldwell::output::summary::{StudyResult, StudySummary};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKind, Sheet, fold};
@@ -37,9 +39,9 @@ type Force = fn(f64) -> f64;
 #[test]
 fn bars_are_stretched_by_their_law() {
     let forces: [(Given, Force); 3] = [
-        (|bars| bars.law(TermKind::Bars, Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
-        (|bars| bars.law(TermKind::Bars, Ogden { exponents: [2.0, 0.0] }), |l| (l - 1.0 / l) / 2.0),
-        (|bars| bars.law(TermKind::Bars, GreenLagrange), |l| l * (l * l - 1.0) / 2.0),
+        (|bars| bars.bar_law(Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
+        (|bars| bars.bar_law(Ogden { exponents: [2.0, 0.0] }), |l| (l - 1.0 / l) / 2.0),
+        (|bars| bars.bar_law(GreenLagrange), |l| l * (l * l - 1.0) / 2.0),
     ];
     for (law, by_stretch) in forces {
         for (stiffness, force) in [(3.0, 1.0), (3.0, -0.4), (1e3, 20.0), (1e6, -5.0), (1e12, 1.0)] {
@@ -68,7 +70,7 @@ fn hinges_do_not_fold_through() {
         let expected = (1.0 + unit * ((rest.abs() - 1.0) / unit).atan()).copysign(rest);
         for (bars, creases) in [(RIGID, 1.0), (1e3, 1.0), (1.0, 1e5)] {
             let hinge = Assembly::patch(hinge(), [1, 1]).bars(bars).creases(creases).rest(Rest::Angle(rest));
-            let assembly = hinge.law(TermKind::Creases, law).build().unwrap();
+            let assembly = hinge.crease_law(law).build().unwrap();
             let state = relax(&assembly).unwrap_or_else(|e| panic!("{rest} {bars} {creases}: {e}")).state;
             let edge = assembly.tiling().edges.iter().position(|edge| edge.kind == EdgeKind::Crease).unwrap();
             let angle = state.fold_angle[edge];
@@ -82,6 +84,14 @@ fn hinges_do_not_fold_through() {
     }
 }
 
+/// Claim: a rigid element cannot have a law, which would be left out without a word.
+#[test]
+#[should_panic(expected = "a rigid element has no law")]
+fn rigid_elements_have_no_law() {
+    let ends = [0, 1].map(|vertex| Site { vertex, shift: [0, 0] });
+    OwnTerm::with_law("rod", Length, [(ends, Spring { stiffness: RIGID, rest: 1.0 })], GreenLagrange);
+}
+
 /// Claim: on a path of rest angles the work of the drive is the energy, with laws too: the derivatives by rest values are those of the
 /// energy. Tolerance: that of the integral of the work over steps of 0.02, 1e-9.
 #[test]
@@ -93,8 +103,8 @@ fn rest_angles_do_work_against_laws() {
         (0..).zip(&drawn).map(|(k, angle)| angle + 1.5 * ((f64::from(k) * 0.618).fract() - 0.5)).collect();
     for (bars, creases) in [(1e3, 1.0), (1e6, 1e5)] {
         let energy = Assembly::patch(sheet.clone(), [2, 2]).bars(bars).creases(creases).facets(3.0);
-        let energy = energy.rest(Rest::PerEdge(rest.clone())).law(TermKind::Bars, GreenLagrange);
-        let laws = energy.law(TermKind::Creases, Stiffening { limits: [-1.05 * largest, 1.05 * largest] });
+        let energy = energy.rest(Rest::PerEdge(rest.clone())).bar_law(GreenLagrange);
+        let laws = energy.crease_law(Stiffening { limits: [-1.05 * largest, 1.05 * largest] });
         let drive = Drive { quantity: Driven::Rest, to: 1.0 };
         let options = PathOptions { max_step: 0.02, ..PathOptions::default() };
         let found = follow_path(&laws.build().unwrap(), &drive, None, &options, &mut |_, _| true).unwrap();
@@ -150,8 +160,8 @@ fn laws_are_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let limits = "kind = \"stiffening\", limits = [-2.5, 2.5]";
     for (law, study, said) in [
-        (limits, "kind = \"landscape\"\nmodes = [[1.0, 0.0, 0.0]]\namplitudes = [0.1]", "the bars are others"),
-        (limits, "kind = \"wells\"\nbarriers = [[0, 1]]", "the bars are others"),
+        (limits, "kind = \"landscape\"\nmodes = [[1.0, 0.0, 0.0]]\namplitudes = [0.1]", "here is another: bars"),
+        (limits, "kind = \"wells\"\nbarriers = [[0, 1]]", "here is another: bars"),
         ("kind = \"stiffening\", limits = [0.5, 2.5]", "kind = \"relax\"", "the limits are 0.5 and 2.5 rad"),
         ("kind = \"stiff\"", "kind = \"relax\"", "unknown word `stiff`"),
     ] {

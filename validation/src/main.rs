@@ -1,11 +1,9 @@
 //! Checks claims about foldwell, and writes a report.
 //!
-//! There is one case for each claim. A claim is a file in `validation/claims/` with its source, the expected value, and
-//! a tolerance with the reason for it ([`claim`]). The value
-//! comes from an experiment: a scene of `meshes/`, run as by `foldwell run`, or a measurement programmed in
-//! [`measure`]. It is compared with the expected value ([`verdict`]). The reports `report.json`, `report.md` and
-//! `report.html` ([`report`], [`page`]) are written again after every case, so that an interrupted validation leaves
-//! the results up to then.
+//! A claim is a file in `validation/claims/`: a sentence, its source, the expected value, and a tolerance with its reason ([`claim`]). The
+//! value comes from an experiment: a scene of `meshes/`, run as by `foldwell run`, or a measurement programmed in [`measure`]. Each claim
+//! becomes a case of the report, which says whether it holds ([`verdict`]). The reports `report.json`, `report.md` and `report.html`
+//! ([`report`], [`page`]) are written again after every case, so that an interrupted validation leaves the results up to then.
 //!
 //! | exit status | meaning |
 //! |---|---|

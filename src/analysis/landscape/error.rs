@@ -21,9 +21,9 @@ pub enum LandscapeError {
         /// Name of the term.
         term: &'static str,
     },
-    /// The elements of a term are no springs.
-    #[error("a landscape is that of springs of edges, and the {term} are others")]
-    Law {
+    /// A term is not made of linear springs along edges.
+    #[error("a landscape needs linear bars and hinges and no other terms, and here is another: {term}")]
+    NotLinear {
         /// Name of the term.
         term: String,
     },

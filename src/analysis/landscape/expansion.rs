@@ -14,7 +14,7 @@ use super::prediction::{curvature_forces, drawn};
 use super::settling::{Settling, TermValues};
 use super::taylor_path::HeldState;
 use super::{HeldSheet, LandscapeError, TaylorPath};
-use crate::model::Model;
+use crate::model::{Element, Model};
 use crate::numerics::vector::dot;
 
 /// Coefficients of the powers of the amplitude.
@@ -54,12 +54,12 @@ impl Expansion {
         let model = &held.model;
         let (x0, x1) = (model.coordinates(&model.start()), held.motion(rates));
         let still = vec![0.0; x0.len()];
-        let [second, _, _] = powers(model, &[&x0, &x1, &still]);
+        let [second, _, _] = powers(model, &[&x0, &x1, &still])?;
         let at_second = settling.settle((&second.0, &second.1), None)?;
         let torques: Vec<f64> = settling.stiffness().iter().zip(&at_second.off).map(|(k, off)| k * off).collect();
         let work = |(soft, stiff): &TermValues| dot(&torques, soft) + dot(&at_second.place.tension, stiff);
 
-        let [_, third, fourth] = powers(model, &[&x0, &x1, &model.velocity(&at_second.place.x)]);
+        let [_, third, fourth] = powers(model, &[&x0, &x1, &model.velocity(&at_second.place.x)])?;
         let bent = model.unknowns(&curvature_forces(model, &x1, (&torques, &at_second.place.tension)));
         let against: Vec<f64> = bent.iter().map(|force| -force).collect();
         let at_third = settling.settle((&third.0, &third.1), Some(&against))?;
@@ -74,9 +74,14 @@ impl Expansion {
 }
 
 /// The second, third and fourth powers of all measures, soft ones and stiff ones, along a path of all coordinates.
-fn powers(model: &Model, path: &[&[f64]; 3]) -> [TermValues; 3] {
-    let series: Vec<_> = model.elements().map(|element| element.along(path).unwrap_or_default().0).collect();
+///
+/// # Errors
+/// [`LandscapeError::NotLinear`] for a measure without series.
+fn powers(model: &Model, path: &[&[f64]; 3]) -> Result<[TermValues; 3], LandscapeError> {
+    let no_series = |element: &Element<'_>| LandscapeError::NotLinear { term: element.name().to_owned() };
+    let series = model.elements().map(|element| element.along(path).ok_or_else(|| no_series(&element)));
+    let series: Vec<[f64; 5]> = series.map(|found| Ok(found?.0)).collect::<Result<_, LandscapeError>>()?;
     let (soft, stiff) = series.split_at(model.soft_elements());
     let of = |power: usize, series: &[[f64; 5]]| series.iter().map(|series| series[power]).collect();
-    [2, 3, 4].map(|power| (of(power, soft), of(power, stiff)))
+    Ok([2, 3, 4].map(|power| (of(power, soft), of(power, stiff))))
 }

@@ -45,8 +45,8 @@ impl HeldSheet {
         if let Some(term) = assembly.terms().uneven_term() {
             return Err(LandscapeError::Uneven { term });
         }
-        if let Some(term) = assembly.terms().first_not_of_springs() {
-            return Err(LandscapeError::Law { term: term.to_owned() });
+        if let Some(term) = assembly.terms().first_not_linear() {
+            return Err(LandscapeError::NotLinear { term: term.to_owned() });
         }
         if !assembly.has_drawn_lengths() {
             return Err(LandscapeError::OffRest { bars: assembly.bars_off_rest() });

@@ -57,9 +57,9 @@ const SHORTEST: f64 = 1.05;
 /// Why there is no pass.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BarrierError {
-    /// The elements of a term are no springs: states cannot be held near others by springs of their own kind.
-    #[error("barriers are those of springs of edges, and the {term} are others")]
-    Law {
+    /// A term is not made of linear springs along edges, by whose rest angles states are held near others.
+    #[error("barriers need linear bars and hinges and no other terms, and here is another: {term}")]
+    NotLinear {
         /// Name of the term.
         term: String,
     },
@@ -163,8 +163,8 @@ pub fn barrier(
     between: [usize; 2],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
-    if let Some(term) = assembly.terms().first_not_of_springs() {
-        return Err(BarrierError::Law { term: term.to_owned() });
+    if let Some(term) = assembly.terms().first_not_linear() {
+        return Err(BarrierError::NotLinear { term: term.to_owned() });
     }
     let creases = assembly.crease_stiffness();
     let own = assembly.bar_stiffness();
