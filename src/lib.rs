@@ -85,13 +85,14 @@ pub mod analysis;
 pub mod kinematics;
 pub mod math;
 pub mod model;
-pub mod numerics;
 pub mod output;
 pub mod run;
 pub mod scene;
 pub mod sheet;
-pub mod solver;
 pub mod study;
+
+pub use foldwell_numerics as numerics;
+pub use foldwell_solver as solver;
 
 pub use analysis::relax::{Relaxed, relax};
 pub use analysis::tube::rolled_up;

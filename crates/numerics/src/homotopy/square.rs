@@ -1,0 +1,122 @@
+//! As many quadrics as determine points: all paths are followed, and what they find is checked.
+
+use super::endgame::{self, PathEnd, Simple};
+use super::error::{HomotopyError, MOST_QUADRICS};
+use super::multiplicity::{Multiplicity, multiplicity};
+use super::solutions::{Group, SAME_SOLUTION_DISTANCE, Solution, Solutions, conjugate, grouped, multiple, turned};
+use super::system::{C, Quadrics, TotalDegree, distance};
+use super::track::{Care, Tracker};
+use crate::parallel;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+/// Number of attempts, each with smaller steps and other random numbers than the one before.
+const ATTEMPTS: u32 = 4;
+/// First step of a path in its parameter, which goes from 1 to 0.
+const FIRST_STEP: f64 = 0.05;
+
+/// Finds all solutions of `m` quadrics `x^T A_k x = 0` in `m + 1` homogeneous unknowns.
+///
+/// The symmetric part of each matrix counts. The same matrices give the same solutions: the random numbers have fixed
+/// seeds.
+///
+/// # Errors
+/// [`HomotopyError`] on matrices that are zero, not finite or of the wrong size or number, and where after several
+/// attempts paths and multiplicities still do not agree.
+pub(super) fn solve_square(quadrics: &Quadrics) -> Result<Solutions, HomotopyError> {
+    let count = quadrics.count();
+    if quadrics.unknowns != count + 1 {
+        return Err(HomotopyError::NotSquare { quadrics: count, unknowns: quadrics.unknowns });
+    }
+    if count > MOST_QUADRICS {
+        return Err(HomotopyError::TooMany { quadrics: count });
+    }
+    let mut found = attempt(quadrics, 0);
+    for repeated in 1..ATTEMPTS {
+        if found.is_ok() {
+            break;
+        }
+        found = attempt(quadrics, repeated);
+    }
+    found
+}
+
+fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyError> {
+    let homotopy = TotalDegree::new(quadrics, &mut ChaCha8Rng::seed_from_u64(u64::from(repeated)));
+    let paths = 1 << quadrics.count();
+    let path = |number: usize| {
+        let mut tracker = Tracker::new(&homotopy, Care::of_attempt(repeated));
+        let [start, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
+        let x = tracker.track(&homotopy.start(number), start, end, FIRST_STEP)?;
+        endgame::finish(&mut tracker, quadrics, x)
+    };
+    let ends: Vec<PathEnd> =
+        parallel::map_with_state(paths, || (), |(), number| path(number)).into_iter().filter_map(Result::ok).collect();
+    if ends.len() < paths {
+        return Err(HomotopyError::Lost { paths: paths - ends.len() });
+    }
+    let mut solutions = Solutions { paths, repeated, ..Solutions::default() };
+    add_simple(&ends, &mut solutions)?;
+    add_singular(quadrics, &ends, &mut solutions)?;
+    check_pairs(&solutions.isolated)?;
+    Ok(solutions)
+}
+
+/// Adds the simple solutions; fails where two paths ended at one.
+fn add_simple(ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
+    let simple = |end: &PathEnd| if let PathEnd::Simple(simple) = end { Some(simple.clone()) } else { None };
+    let simple: Vec<Simple> = ends.iter().filter_map(simple).collect();
+    let same = |a: &Simple, b: &Simple| distance(&a.point, &b.point) <= a.separation.max(b.separation);
+    let twice = |(k, one): (usize, &Simple)| simple[..k].iter().any(|other| same(one, other));
+    let paths = parallel::map_with_state(simple.len(), || (), |(), k| twice((k, &simple[k])))
+        .into_iter()
+        .filter(|twice| *twice)
+        .count();
+    if paths > 0 {
+        return Err(HomotopyError::Collision { paths });
+    }
+    solutions.isolated.extend(simple.into_iter().map(solution));
+    Ok(())
+}
+
+fn solution(Simple { point, error, separation }: Simple) -> Solution {
+    // a simple solution and its conjugate are one, or further apart than this
+    let real = distance(&point, &conjugate(&point)) <= separation;
+    Solution { point: turned(point, real), multiplicity: 1, real, error }
+}
+
+/// Puts ends that are the same together and adds them; fails where their number is not the multiplicity.
+fn add_singular(quadrics: &Quadrics, ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
+    let singular = |end: &PathEnd| match end {
+        PathEnd::Singular { point, error } => Some((point.clone(), *error)),
+        PathEnd::Simple(_) => None,
+    };
+    for Group { point, error, members } in grouped(ends.iter().filter_map(singular)) {
+        let paths = members.len();
+        match multiplicity(quadrics, &point, paths) {
+            Multiplicity::Larger => solutions.on_continua.extend(members),
+            Multiplicity::Isolated(multiplicity) if multiplicity != paths => {
+                return Err(HomotopyError::Multiplicity { paths, multiplicity });
+            }
+            Multiplicity::Isolated(_) | Multiplicity::Unknown => {
+                solutions.isolated.push(multiple(point, paths, error));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Solutions of real quadrics that are not real come in conjugate pairs, of equal multiplicity.
+fn check_pairs(solutions: &[Solution]) -> Result<(), HomotopyError> {
+    let alone = |solution: &Solution| {
+        let partner = conjugate(&solution.point);
+        let same = |other: &Solution| other.multiplicity == solution.multiplicity;
+        !solution.real
+            && !solutions.iter().any(|other| same(other) && distance(&other.point, &partner) <= SAME_SOLUTION_DISTANCE)
+    };
+    let lonely = parallel::map_with_state(solutions.len(), || (), |(), k| alone(&solutions[k]));
+    match lonely.into_iter().filter(|alone| *alone).count() {
+        0 => Ok(()),
+        paths => Err(HomotopyError::Unpaired { paths }),
+    }
+}

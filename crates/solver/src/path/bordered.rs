@@ -1,0 +1,303 @@
+//! The bordered linear system of a path: Newton's system with the parameter as one more unknown, and one more equation.
+//!
+//! `[ H   R^T  g ] [dx]   [a]`
+//! `[ R   -C   m ] [dt] = [b]`
+//! `[ n^T  0   p ] [dl]   [s]`
+//!
+//! Here `g` and `m` are the rates by the parameter `l`, and `(n, p)` is the normal of a plane. The system is regular
+//! where Newton's own is singular with a simple null space that the border meets: at limit points. It is solved by
+//! elimination of the parameter with the factorization of Newton's system, and conjugate residuals of the bordered
+//! system take back what that loses where Newton's system is nearly singular. The parameter is counted in units in
+//! which its scale is the unit of length. Next to a branch point there may be more unknowns, forces along given
+//! directions, and as many more planes.
+
+use super::problem::{ParametrizedProblem, Rates};
+use crate::corrections::{self, NearlySolved, Pair, Patience};
+use crate::inertia;
+use crate::kkt::{KktSystem, stiffness_size};
+use crate::linearization::{HessianKind, Linearization};
+use foldwell_numerics::DenseMatrix;
+use foldwell_numerics::dense::small::solve_square;
+use foldwell_numerics::factor::{FactorError, Inertia};
+use foldwell_numerics::sparse::symmetric_product;
+use foldwell_numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
+
+/// Relative residual to which bordered systems are solved, and the one above which a solution is not used.
+const WANTED_RESIDUAL: f64 = 1e-12;
+pub(super) const REFUSED_RESIDUAL: f64 = 1e-3;
+/// Part of the tensions above which what balances no force is a self stress, and not rounding.
+const SELF_STRESS: f64 = 1e-6;
+/// Shift of the Hessian where a pivot of the factorization without shift vanishes.
+const SINGULAR_SHIFT: f64 = 1e-6;
+/// Rounds of inverse iteration, and the relative residual to which their systems are solved.
+const SOFTEST_ROUNDS: usize = 5;
+const SOFTEST_RESIDUAL: f64 = 1e-8;
+/// Rate of a quantity, relative to that of a motion of unit arc length along all of the rates by the parameter, that is
+/// an error of the linear system from which tangents come.
+const RATE_ERROR: f64 = 1e-11;
+
+/// A plane in the space of unknowns and parameter: its normal, the parameter's part in units of length.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plane {
+    pub x: Vec<f64>,
+    pub parameter: f64,
+}
+
+/// The bordered system at one state.
+pub(super) struct Bordered {
+    /// The numbers of the problem at the state.
+    pub at: Linearization,
+    system: KktSystem,
+    compliance: Vec<f64>,
+    rates: [Vec<f64>; 2],
+    /// Length of a change of all unknowns by their natural size.
+    length: f64,
+    /// One unit of length of the parameter.
+    unit: f64,
+    /// Inertia of the last factorization; `None` where it needed a shift.
+    inertia: Option<Inertia>,
+    /// Response to the rates by the parameter, by the last factorization.
+    response: Pair,
+}
+
+impl Bordered {
+    /// Makes room for the systems of a problem.
+    pub fn new<P: ParametrizedProblem>(problem: &P) -> Result<Self, FactorError> {
+        let layout = problem.layout();
+        let length = problem.unit_of_length() * (layout.unknowns.max(1) as f64).sqrt();
+        Ok(Self {
+            at: Linearization::new(layout),
+            system: KktSystem::new(layout)?,
+            compliance: vec![],
+            rates: [vec![], vec![]],
+            length,
+            unit: problem.parameter_scale() / length,
+            inertia: None,
+            response: Pair(vec![], vec![]),
+        })
+    }
+
+    /// Linearizes at a state, with the problem's present parameter.
+    pub fn linearize<P: ParametrizedProblem>(&mut self, problem: &P, x: &[f64], tension: &[f64]) {
+        problem.linearize(x, tension, HessianKind::Full, &mut self.at);
+        self.compliance = problem.compliance().to_vec();
+        self.rates = problem.parameter_rates(&self.at, x, tension).map(|rates| scaled(rates, self.unit));
+    }
+
+    /// Factors Newton's system where it was linearized, shifted a little where it is singular.
+    pub fn factor(&mut self) -> Result<(), FactorError> {
+        let found = self.system.factor(&self.at, &self.compliance, 0.0);
+        self.inertia = match found {
+            Ok(inertia) => Some(inertia),
+            Err(FactorError::Singular { .. }) => {
+                self.system.factor(&self.at, &self.compliance, SINGULAR_SHIFT)?;
+                None
+            }
+            Err(error) => return Err(error),
+        };
+        let [force, gap] = &self.rates;
+        let (dx, dt) = self.system.apply(force, gap);
+        self.response = Pair(dx, dt);
+        Ok(())
+    }
+
+    /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free; `None`
+    /// where it cannot be established.
+    pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
+        match self.inertia {
+            Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(Some(inertia.negative)),
+            _ => {
+                let counted = inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)?;
+                self.factor()?;
+                Ok(counted)
+            }
+        }
+    }
+
+    /// Work of the rates by the parameter along a tangent. Where the parameter turns, the eigenvalue that passes zero has the
+    /// sign of the negative product of this work and the tangent's parameter: `t^T K t = -(g.t) t_l`.
+    pub fn work_along(&self, tangent: &Rates) -> f64 {
+        let [force, gap] = &self.rates;
+        (dot(force, &tangent.x) + dot(gap, &tangent.tension)) / self.unit
+    }
+
+    /// The largest rates that are errors of tangents of unit arc length: of the parameter, and of its conjugate.
+    pub fn rate_errors(&self) -> [f64; 2] {
+        let [force, gap] = &self.rates;
+        let stiffness = stiffness_size(&self.at, &self.compliance);
+        let lengths: Vec<f64> = gap.iter().zip(&self.at.sizes).map(|(gap, size)| gap / size).collect();
+        let pull = norm_blocked(&lengths) * stiffness + norm_blocked(force);
+        [RATE_ERROR * self.unit * self.length, RATE_ERROR * self.length * pull / self.unit]
+    }
+
+    /// Solves for a force on every unknown, a stretch of every measure and a distance from the plane. Returns the
+    /// changes, and the relative residual.
+    pub fn solve(&mut self, force: &[f64], stretch: &[f64], distance: f64, plane: &Plane) -> (Rates, f64) {
+        let planes = Planes { planes: &[plane], distances: &[distance], pulls: &[] };
+        let (rates, _, residual) = self.solve_across(force, stretch, &planes);
+        (rates, residual)
+    }
+
+    /// Solves as [`Bordered::solve`] does with several planes. Returns the changes, the pulls times a length, and the relative
+    /// residual.
+    pub fn solve_across(&mut self, force: &[f64], stretch: &[f64], planes: &Planes<'_>) -> (Rates, Vec<f64>, f64) {
+        let stiffness = stiffness_size(&self.at, &self.compliance);
+        let stretches: Vec<f64> = stretch.iter().zip(&self.at.sizes).map(|(b, size)| b / size).collect();
+        let mut forces = force.to_vec();
+        forces.extend(planes.distances.iter().map(|distance| stiffness * distance));
+        let right = Pair(forces, stretches);
+        let mut responses = vec![self.response.clone()];
+        for pull in planes.pulls {
+            let (dx, dt) = self.system.apply(pull, &vec![0.0; stretch.len()]);
+            let scaled = |rates: Vec<f64>| rates.into_iter().map(|rate| stiffness * rate).collect();
+            responses.push(Pair(scaled(dx), scaled(dt)));
+        }
+        let mut equations = Equations { bordered: self, planes, responses, stiffness };
+        let found = equations.solve(&right);
+        let pull = equations.bordered.pull(&found.1);
+        let units = [
+            norm_blocked(&right.0).max(1e-9 * pull),
+            norm_blocked(&right.1).max(1e-6 * norm_blocked(&found.0)).max(f64::MIN_POSITIVE),
+        ];
+        let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, Patience::Short));
+        let Pair(mut x, tension) = refined.found;
+        let more = x.split_off(force.len());
+        let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();
+        let pulls = more[1..].iter().map(|pull| stiffness * pull).collect();
+        (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
+    }
+
+    /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the system
+    /// finds from none, which it combines from motions. `None` where `tension` is these.
+    pub fn relieved(&mut self, tension: &[f64]) -> Option<Vec<f64>> {
+        let none = vec![0.0; tension.len()];
+        let (force, missing) = (self.at.force(&none), self.at.missing(&none, &self.compliance));
+        let found = self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt;
+        let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        (off(tension, &found) > SELF_STRESS * off(&found, &none)).then_some(found)
+    }
+
+    /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates of
+    /// unknowns and tensions, the former of length 1, and its stiffness. Where the system is singular it is a null vector.
+    pub fn softest(&mut self, guess: &[f64], others: &[Rates]) -> (Rates, f64) {
+        let nothing = vec![0.0; self.compliance.len()];
+        let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
+        let mut stiffness = f64::NAN;
+        for _ in 0..SOFTEST_ROUNDS {
+            let answer = self.system.solve(&self.at, &found.x, &nothing, SOFTEST_RESIDUAL);
+            stiffness = dot(&answer.dx, &found.x) / dot(&answer.dx, &answer.dx);
+            found = Rates { x: answer.dx, tension: answer.dt, parameter: 0.0 };
+            for other in others {
+                let part = dot(&found.x, &other.x);
+                add_scaled(&mut found.x, -part, &other.x);
+                add_scaled(&mut found.tension, -part, &other.tension);
+            }
+            let per_length = 1.0 / norm_blocked(&found.x).max(f64::MIN_POSITIVE);
+            found.x.iter_mut().chain(&mut found.tension).for_each(|rate| *rate *= per_length);
+        }
+        (found, stiffness)
+    }
+
+    /// The scaled force that rounding of unknowns of this size makes: a last place of them times the largest stiffness
+    /// that is not infinite. It is large only where nearly all forces vanish.
+    pub fn rounding_force(&self, size: f64) -> f64 {
+        let rows = self.at.rows();
+        let gradient = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]);
+        let finite = self.compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
+        let stiffest = finite.map(|(row, c)| gradient(row).powi(2) / c);
+        let stiffest = stiffest.fold(self.at.pattern().largest_diagonal(&self.at.hessian), f64::max);
+        f64::EPSILON * size * stiffest / self.at.largest_force
+    }
+
+    /// Norm of the forces of these tensions, in units of force, before they balance.
+    fn pull(&self, tensions: &[f64]) -> f64 {
+        let rows = self.at.rows();
+        let largest = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]) / self.at.sizes[row];
+        tensions.iter().enumerate().map(|(row, t)| (t * largest(row)).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Length of a change of all unknowns by their natural size: arc lengths are in this unit.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The unit of length of the parameter.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+}
+
+fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
+    values.iter_mut().for_each(|v| *v *= factor);
+    values
+}
+
+/// The equations of a bordered system beyond Newton's own: distances from planes; and its unknowns beyond the parameter,
+/// forces along given directions, one less than planes.
+pub(super) struct Planes<'a> {
+    pub planes: &'a [&'a Plane],
+    pub distances: &'a [f64],
+    pub pulls: &'a [Vec<f64>],
+}
+
+/// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter and the
+/// pulls, divided by a stiffness so that they are lengths, are the last unknowns, and the equations of the planes are
+/// multiplied by that stiffness, so that they are forces.
+struct Equations<'a> {
+    bordered: &'a mut Bordered,
+    planes: &'a Planes<'a>,
+    /// Response to the rates by the parameter and to each pull.
+    responses: Vec<Pair>,
+    stiffness: f64,
+}
+
+impl Equations<'_> {
+    /// Distance from a plane that a unit of the parameter makes (number 0), or of a pull (others).
+    fn corner(plane: &Plane, number: usize) -> f64 {
+        if number == 0 { plane.parameter } else { 0.0 }
+    }
+}
+
+impl NearlySolved for Equations<'_> {
+    fn product(&self, Pair(x, t): &Pair) -> Pair {
+        let Bordered { at, compliance, rates: [force, gap], .. } = &*self.bordered;
+        let (dx, more) = x.split_at(force.len());
+        let dt: Vec<f64> = t.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
+        let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
+        let rows = at.rows();
+        symmetric_product(at.pattern(), &at.hessian, dx, &mut a);
+        rows.add_transpose_product(&dt, &mut a);
+        rows.product(dx, &mut b);
+        add_scaled(&mut a, more[0], force);
+        for (pull, along) in more[1..].iter().zip(self.planes.pulls) {
+            add_scaled(&mut a, self.stiffness * pull, along);
+        }
+        for (k, b) in b.iter_mut().enumerate() {
+            *b = (*b - compliance[k] * dt[k] + more[0] * gap[k]) / at.sizes[k];
+        }
+        let off = |plane: &&Plane| self.stiffness * (dot(&plane.x, dx) + plane.parameter * more[0]);
+        a.extend(self.planes.planes.iter().map(off));
+        Pair(a, b)
+    }
+
+    fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
+        let sizes = self.bordered.at.sizes.clone();
+        let stretch: Vec<f64> = b.iter().zip(&sizes).map(|(b, size)| b * size).collect();
+        let planes = self.planes.planes;
+        let (force, distances) = a.split_at(a.len() - planes.len());
+        let (mut dx, mut dt) = self.bordered.system.apply(force, &stretch);
+        let left = DenseMatrix::from_fn(planes.len(), planes.len(), |row, column| {
+            dot(&planes[row].x, &self.responses[column].0) - Self::corner(planes[row], column)
+        });
+        let right =
+            DenseMatrix::from_fn(planes.len(), 1, |row, _| dot(&planes[row].x, &dx) - distances[row] / self.stiffness);
+        let more = solve_square(left, &right).unwrap_or(right.map(|_| f64::NAN));
+        for (part, Pair(by_x, by_t)) in more.iter().zip(&self.responses) {
+            add_scaled(&mut dx, -part, by_x);
+            add_scaled(&mut dt, -part, by_t);
+        }
+        dt.iter_mut().zip(&sizes).for_each(|(t, size)| *t *= size);
+        dx.extend(more.iter());
+        Pair(dx, dt)
+    }
+}

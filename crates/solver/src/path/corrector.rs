@@ -1,0 +1,188 @@
+//! Newton's method onto a path, across a plane.
+
+use super::bordered::{Bordered, Plane, REFUSED_RESIDUAL};
+use super::problem::{ParametrizedProblem, PathState, Rates};
+use crate::problem::Residuals;
+use foldwell_numerics::factor::FactorError;
+use foldwell_numerics::vector::{add_scaled, larger, max_abs, norm_blocked};
+
+/// Largest number of Newton steps from a predicted state.
+const MOST_STEPS: usize = 12;
+/// Length of a Newton step over that of the one before above which the iteration does not contract.
+const SLOWEST_CONTRACTION: f64 = 0.6;
+/// Relative length of Newton steps that are rounding error.
+const ROUNDING: f64 = 1e-13;
+/// Number of steps of that length after which a state is taken as it is.
+const MOST_POLISHED: usize = 2;
+/// Relative length of a Newton step that moves next to nothing: where the iteration no longer contracts and forces are rounding
+/// errors, a state is taken as it is only there.
+const NEXT_TO_NOTHING: f64 = 1e-9;
+/// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
+const MOST_ROUNDING: f64 = 1e-8;
+
+/// A state near the path.
+#[derive(Clone, Debug)]
+pub(super) struct Guess {
+    pub x: Vec<f64>,
+    pub tension: Vec<f64>,
+    pub parameter: f64,
+}
+
+impl Guess {
+    pub(super) fn add(&mut self, step: &Rates) {
+        add_scaled(&mut self.x, 1.0, &step.x);
+        add_scaled(&mut self.tension, 1.0, &step.tension);
+        self.parameter += step.parameter;
+    }
+}
+
+/// A state on the path, and how it was reached.
+pub(super) struct Corrected {
+    pub at: Guess,
+    pub residuals: Residuals,
+    /// Length of the first Newton step, the error of the prediction.
+    pub off: f64,
+    pub iterations: usize,
+}
+
+/// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge,
+/// or leads to a state in which derivatives tell nothing.
+///
+/// # Errors
+/// [`FactorError`] where a system cannot be factored.
+pub(super) fn correct<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    mut at: Guess,
+    plane: &Plane,
+    tolerance: f64,
+) -> Result<Option<Corrected>, FactorError> {
+    let (mut last, mut off, mut polished) = (f64::INFINITY, 0.0, 0);
+    for iterations in 0..=MOST_STEPS {
+        problem.set_parameter(at.parameter);
+        bordered.linearize(problem, &at.x, &at.tension);
+        let residuals = Residuals::new(problem, &bordered.at, &at.tension);
+        let size = larger(residuals.force, residuals.length);
+        // no step makes residuals smaller that rounding errors of the unknowns make
+        let rounding = larger(MOST_ROUNDING, bordered.rounding_force(max_abs(&at.x)));
+        let rounded = residuals.length <= tolerance && size <= rounding;
+        if size <= tolerance || (polished == MOST_POLISHED && rounded) {
+            let broken_down = problem.breakdown(&at.x).is_some();
+            return Ok((!broken_down).then_some(Corrected { at, residuals, off, iterations }));
+        }
+        if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
+            break;
+        }
+        bordered.factor()?;
+        let (force, missing) = (bordered.at.force(&at.tension), bordered.at.missing(&at.tension, problem.compliance()));
+        let (step, residual) = bordered.solve(&force, &missing, 0.0, plane);
+        let length = norm_blocked(&step.x).hypot(step.parameter / bordered.unit());
+        let small = length <= ROUNDING * larger(max_abs(&at.x), bordered.length());
+        if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || length <= SLOWEST_CONTRACTION * last) {
+            // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
+            let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), bordered.length());
+            let kept = Corrected { at, residuals, off, iterations };
+            return Ok((rounded && is_short).then(|| bettered(problem, bordered, kept, &step)));
+        }
+        if iterations == 0 {
+            off = length;
+        }
+        polished += usize::from(small);
+        last = length;
+        at.add(&step);
+    }
+    Ok(None)
+}
+
+/// Returns the state that a step leads to if its residuals are smaller, otherwise the state as it is.
+fn bettered<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    kept: Corrected,
+    step: &Rates,
+) -> Corrected {
+    let mut at = kept.at.clone();
+    at.add(step);
+    problem.set_parameter(at.parameter);
+    bordered.linearize(problem, &at.x, &at.tension);
+    let residuals = Residuals::new(problem, &bordered.at, &at.tension);
+    if larger(residuals.force, residuals.length) < larger(kept.residuals.force, kept.residuals.length) {
+        return Corrected { at, residuals, off: kept.off, iterations: kept.iterations + 1 };
+    }
+    problem.set_parameter(kept.at.parameter);
+    bordered.linearize(problem, &kept.at.x, &kept.at.tension);
+    kept
+}
+
+/// Takes the self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
+fn relieved<P: ParametrizedProblem>(
+    problem: &P,
+    bordered: &mut Bordered,
+    found: Corrected,
+) -> Result<Corrected, FactorError> {
+    let Some(tension) = bordered.relieved(&found.at.tension) else { return Ok(found) };
+    bordered.linearize(problem, &found.at.x, &tension);
+    let residuals = Residuals::new(problem, &bordered.at, &tension);
+    if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {
+        bordered.factor()?;
+        return Ok(Corrected { at: Guess { tension, ..found.at }, residuals, ..found });
+    }
+    bordered.linearize(problem, &found.at.x, &found.at.tension);
+    bordered.factor()?;
+    Ok(found)
+}
+
+/// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
+/// inertia.
+///
+/// # Errors
+/// [`FactorError`] where the system cannot be factored.
+pub(super) fn complete<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    found: Corrected,
+    plane: &Plane,
+    arc_length: f64,
+) -> Result<PathState, FactorError> {
+    bordered.factor()?;
+    let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } =
+        relieved(problem, bordered, found)?;
+    let negative_eigenvalues = bordered.negative_eigenvalues()?;
+    let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
+    let (mut tangent, _) = bordered.solve(&forces, &stretches, 1.0, plane);
+    let speed = norm_blocked(&tangent.x).hypot(tangent.parameter / bordered.unit()) / bordered.length();
+    tangent.x.iter_mut().chain(&mut tangent.tension).for_each(|rate| *rate /= speed);
+    tangent.parameter /= speed;
+    let conjugate =
+        [problem.conjugate(&bordered.at, &x, &tension), problem.conjugate_rate(&bordered.at, &x, &tension, &tangent)];
+    let (work_along, rate_errors) = (bordered.work_along(&tangent), bordered.rate_errors());
+    Ok(PathState {
+        arc_length,
+        x,
+        tension,
+        parameter,
+        tangent,
+        conjugate,
+        residual_force: residuals.force,
+        residual_length: residuals.length,
+        negative_eigenvalues,
+        work_along,
+        rate_errors,
+        iterations,
+        choice: problem.choice(),
+    })
+}
+
+impl Plane {
+    /// The plane across these rates, of which the parameter is counted in this unit of length.
+    pub(super) fn across(rates: &Rates, unit: f64) -> Self {
+        let parameter = rates.parameter / unit;
+        let per_length = 1.0 / norm_blocked(&rates.x).hypot(parameter).max(f64::MIN_POSITIVE);
+        Self { x: rates.x.iter().map(|x| x * per_length).collect(), parameter: parameter * per_length }
+    }
+
+    /// The plane of a fixed parameter, with the normal towards larger (`1.0`) or smaller ones (`-1.0`).
+    pub(super) fn of_parameter(unknowns: usize, sign: f64) -> Self {
+        Self { x: vec![0.0; unknowns], parameter: sign }
+    }
+}

@@ -1,0 +1,162 @@
+//! Steps along a path: predictor, corrector, and the length of the next step.
+
+use super::bordered::{Bordered, Plane};
+use super::corrector::{Guess, complete, correct};
+use super::interpolant::Cubic;
+use super::outcome::{PathError, PathSettings};
+use super::problem::{ParametrizedProblem, PathState, Rates};
+use foldwell_numerics::vector::{add_scaled, dot, norm_blocked};
+
+/// Length of the first step relative to the longest one, and the shortest one relative to it.
+const FIRST_STEP: f64 = 0.1;
+const SHORTEST_STEP: f64 = 1e-9;
+/// Error of a prediction relative to the step that is aimed at.
+const WANTED_ERROR: f64 = 0.02;
+/// Cosine of the largest angle between the tangents at both ends of a step.
+const LEAST_TANGENT_COSINE: f64 = 0.8;
+/// Largest change of the measure of a soft element in a step: a fold angle in radians.
+const LARGEST_MEASURE_CHANGE: f64 = 0.5;
+/// Bounds of the ratio of one step to the one before.
+const SHRINK: f64 = 0.4;
+const GROWTH: f64 = 1.6;
+
+/// A path on its way.
+pub(super) struct Follower<'a, P: ParametrizedProblem> {
+    pub problem: &'a mut P,
+    pub bordered: Bordered,
+    pub settings: PathSettings,
+}
+
+impl<'a, P: ParametrizedProblem> Follower<'a, P> {
+    /// Makes room for the systems of a problem.
+    pub fn new(problem: &'a mut P, settings: PathSettings) -> Result<Self, PathError> {
+        let bordered = Bordered::new(problem)?;
+        Ok(Self { problem, bordered, settings })
+    }
+
+    /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
+    pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<PathState, PathError> {
+        let plane = Plane::of_parameter(x.len(), sign);
+        let guess = Guess { x, tension, parameter: self.problem.parameter() };
+        self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart).map(|(state, _)| state)
+    }
+
+    /// Goes to how a state is written, with the reference that belongs to it.
+    pub fn go_to(&mut self, state: &PathState, reference: &[f64]) -> Result<(), PathError> {
+        self.problem.set_reference(reference);
+        if self.problem.choice() != state.choice {
+            self.problem.set_choice(&state.choice);
+            self.bordered = Bordered::new(self.problem)?;
+        }
+        Ok(())
+    }
+
+    /// The last state of a path as it is written by a new choice, where the present one would soon be singular.
+    pub fn chosen_anew(&mut self, last: &PathState) -> Result<Option<PathState>, PathError> {
+        let Some([x, rates]) = self.problem.choose_anew(&last.x, &last.tangent.x) else { return Ok(None) };
+        self.bordered = Bordered::new(self.problem)?;
+        let tangent = Rates { x: rates, ..last.tangent.clone() };
+        let per_length = 1.0 / self.size(&tangent);
+        let conjugate = [last.conjugate[0], last.conjugate[1] * per_length];
+        let work_along = last.work_along * per_length;
+        let choice = self.problem.choice();
+        Ok(Some(PathState { x, tangent: tangent.scaled(per_length), conjugate, work_along, choice, ..last.clone() }))
+    }
+
+    /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
+    pub fn settle(&mut self, guess: Guess, plane: &Plane, arc: f64) -> Result<Option<(PathState, f64)>, PathError> {
+        let Self { problem, bordered, settings } = self;
+        let Some(found) = correct(*problem, bordered, guess, plane, settings.tolerance)? else { return Ok(None) };
+        let off = found.off;
+        Ok(Some((complete(*problem, bordered, found, plane, arc)?, off)))
+    }
+
+    /// One step from the last of two states (or the only one) of about this length. Returns the state and the length
+    /// of the next step; `None` where no step leads on.
+    pub fn step(
+        &mut self,
+        before: Option<&PathState>,
+        last: &PathState,
+        length: f64,
+    ) -> Result<Option<(PathState, f64)>, PathError> {
+        let mut length = length.min(self.settings.max_step);
+        let unit_of_length = self.bordered.length();
+        while length > SHORTEST_STEP * self.settings.max_step {
+            let guess = predicted(before, last, length);
+            let plane = Plane::across(&last.tangent, self.bordered.unit());
+            if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
+                let chord = Cubic::new(last, &state).chord();
+                let way = norm_blocked(&chord.x).hypot(chord.parameter / self.bordered.unit()) / unit_of_length;
+                let turn = self.cosine(&last.tangent, &state.tangent);
+                let folds = self.bordered.at.largest_measure_change(&chord.x);
+                let error = off / (unit_of_length * length);
+                if turn >= LEAST_TANGENT_COSINE && folds <= LARGEST_MEASURE_CHANGE && error <= 10.0 * WANTED_ERROR {
+                    state.arc_length = last.arc_length + way;
+                    self.problem.accept(&mut state.x);
+                    let factor = (WANTED_ERROR / error.max(1e-12)).powf(1.0 / 3.0);
+                    return Ok(Some((state, length * factor.clamp(SHRINK, GROWTH))));
+                }
+            }
+            length *= SHRINK;
+        }
+        Ok(None)
+    }
+
+    /// First step of a path.
+    pub fn first_step(&self) -> f64 {
+        FIRST_STEP * self.settings.max_step
+    }
+
+    /// Cosine of the angle between two tangents.
+    pub fn cosine(&self, a: &Rates, b: &Rates) -> f64 {
+        self.product(a, b) / (self.product(a, a) * self.product(b, b)).sqrt()
+    }
+
+    /// Product of two changes, the parameter's part in units of length.
+    pub fn product(&self, a: &Rates, b: &Rates) -> f64 {
+        let unit = self.bordered.unit();
+        dot(&a.x, &b.x) + a.parameter * b.parameter / (unit * unit)
+    }
+
+    /// The state of the path at a part of the way from one state to the next.
+    pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Result<Option<PathState>, PathError> {
+        let cubic = Cubic::new(from, to);
+        let plane = Plane::across(&cubic.chord(), self.bordered.unit());
+        let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
+        Ok(self.settle(cubic.at(part), &plane, arc_length)?.map(|(state, _)| state))
+    }
+
+    /// The state of the path with this parameter next to a part of the way from one state to the next.
+    pub fn at_parameter(
+        &mut self,
+        from: &PathState,
+        to: &PathState,
+        parameter: f64,
+    ) -> Result<Option<PathState>, PathError> {
+        let part = (parameter - from.parameter) / (to.parameter - from.parameter);
+        let guess = Guess { parameter, ..Cubic::new(from, to).at(part) };
+        let plane = Plane::of_parameter(from.x.len(), (to.parameter - from.parameter).signum());
+        let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
+        if let Some((state, _)) = self.settle(guess, &plane, arc_length)? {
+            return Ok(Some(state));
+        }
+        // next to a state at which the parameter turns only planes across the path meet it well
+        self.locate([from, to], &mut |_, state| state.parameter - parameter)
+    }
+}
+
+/// The state predicted at this arc length beyond the last of two states, or beyond the only one.
+fn predicted(before: Option<&PathState>, last: &PathState, length: f64) -> Guess {
+    if let Some(before) = before {
+        let part = 1.0 + length / (last.arc_length - before.arc_length);
+        // far beyond the interval a cubic is worth less than the tangent
+        if part <= 1.0 + 2.0 * GROWTH {
+            return Cubic::new(before, last).at(part);
+        }
+    }
+    let mut guess = Guess { x: last.x.clone(), tension: last.tension.clone(), parameter: last.parameter };
+    add_scaled(&mut guess.x, length, &last.tangent.x);
+    add_scaled(&mut guess.tension, length, &last.tangent.tension);
+    guess.parameter += length * last.tangent.parameter;
+    guess
+}

@@ -1,0 +1,52 @@
+//! The state of a path at its target, without the special states on the way.
+
+use super::follower::Follower;
+use super::outcome::{PathError, PathSettings};
+use super::problem::{ParametrizedProblem, PathState};
+use crate::newton::Start;
+
+/// Where a path led that was followed for its end.
+#[derive(Clone, Debug)]
+pub enum Reached {
+    /// The state at the target.
+    Target(PathState),
+    /// The last state within the largest number of states, or from which no step led on.
+    Lost(PathState),
+    /// The observer asked to stop at this state.
+    Stopped(PathState),
+}
+
+/// Follows the equilibria of a problem from a start near one, at its present parameter, until its parameter first passes the target
+/// of the settings. `observe` sees every state and returns false to stop.
+///
+/// # Errors
+/// [`PathError`] if no equilibrium is found to begin with, or a linear system is too large.
+pub fn reach<P: ParametrizedProblem>(
+    problem: &mut P,
+    start: Start,
+    settings: &PathSettings,
+    observe: &mut dyn FnMut(&P, &PathState) -> bool,
+) -> Result<Reached, PathError> {
+    let tension = start.tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
+    let target = settings.target;
+    let sign = if target < problem.parameter() { -1.0 } else { 1.0 };
+    let mut follower = Follower::new(problem, settings.clone())?;
+    let mut last = follower.begin(start.x, tension, sign)?;
+    let (mut before, mut length) = (None, follower.first_step());
+    for _ in 0..settings.steps {
+        if let Some(rewritten) = follower.chosen_anew(&last)? {
+            (before, last) = (None, rewritten);
+        }
+        let Some((next, longer)) = follower.step(before.as_ref(), &last, length)? else { break };
+        if (last.parameter - target) * (next.parameter - target) <= 0.0 {
+            let end = follower.at_parameter(&last, &next, target)?;
+            follower.problem.set_parameter(target);
+            return Ok(end.map_or(Reached::Lost(last), Reached::Target));
+        }
+        if !observe(follower.problem, &next) {
+            return Ok(Reached::Stopped(next));
+        }
+        (before, last, length) = (Some(last), next, longer);
+    }
+    Ok(Reached::Lost(last))
+}
