@@ -17,8 +17,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use foldwell::output;
-use foldwell::output::summary::to_json;
+use foldwell::output::json::to_json;
 use foldwell::run::{self, FilmOptions, Listed, RunOptions, Shard, Wanted};
 use foldwell::scene::Setting;
 use foldwell::sheet::pattern::Cleanup;
@@ -230,8 +229,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             say(&films.iter().map(|film| format!("{}\n", film.display())).collect::<String>())
         }
         Command::Schema { of: Described::Scene } => say(&foldwell::scene::schema()),
-        Command::Schema { of: Described::Summary } => say(&output::schema::schema()),
-        Command::Schema { of: Described::Sweep } => say(&output::schema::of_sweep()),
+        Command::Schema { of: Described::Summary } => say(&run::schema::schema()),
+        Command::Schema { of: Described::Sweep } => say(&run::schema::of_sweep()),
         Command::Completions { shell } => say(&completions(shell)),
     }
 }

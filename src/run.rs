@@ -24,7 +24,9 @@ mod meshes;
 mod report;
 mod resume;
 mod runner;
+pub mod schema;
 mod single;
+mod summary;
 mod sweep;
 mod view;
 
@@ -40,7 +42,11 @@ pub use ledger::Ledger;
 use meshes::{MeshKind, read_mesh};
 pub use report::{RunOptions, RunReport};
 pub use single::run;
-pub use sweep::{Shard, ShardError, SweepReport, assemble, assemble_at, points, run_point, sweep};
+pub use summary::{SheetSummary, Summary};
+pub use sweep::{
+    PointStatus, Shard, ShardError, SweepReport, SweepSummary, UnansweredPoint, assemble, assemble_at, points,
+    run_point, sweep,
+};
 pub use view::view;
 
 /// Reads a scene, computes its studies and writes their files.

@@ -6,7 +6,7 @@ use crate::values::{table, text};
 use crate::watch::watched;
 use foldwell::run::{self, Ledger, Progress, RunError, RunOptions};
 use foldwell::scene::{SceneFile, Setting, build, parse_set};
-use foldwell::{Pattern, output};
+use foldwell::Pattern;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -104,7 +104,7 @@ pub(crate) fn pattern_help(name: &str) -> PyResult<&'static str> {
 pub(crate) fn schema(of: &str) -> PyResult<String> {
     match of {
         "scene" => Ok(foldwell::scene::schema().to_string()),
-        "summary" => Ok(output::schema::schema().to_string()),
+        "summary" => Ok(run::schema::schema().to_string()),
         _ => Err(PyValueError::new_err("schemas are those of `scene` and `summary`")),
     }
 }

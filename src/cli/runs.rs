@@ -3,8 +3,9 @@
 use std::io::{self, Write};
 use std::sync::Arc;
 
-use foldwell::output::summary::{Summary, SweepSummary, to_json};
+use foldwell::output::json::to_json;
 use foldwell::run::{self, Ledger, RunOptions, RunReport, Shard, SweepReport};
+use foldwell::run::{Summary, SweepSummary};
 use foldwell::scene::SceneFile;
 use serde::Serialize;
 

@@ -1,25 +1,26 @@
-//! Output: tables, files for ParaView, drawings, and the summary of a run.
+//! Output: tables, files for ParaView, and drawings.
 //!
 //! All files are written through [`files`], so that a file appears complete or not at all.
 
 pub mod artifact;
 pub(crate) mod claim;
+mod counted;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod figure;
 pub mod files;
 pub(crate) mod film;
 pub(crate) mod html;
+pub mod json;
 pub(crate) mod paraview;
 pub mod picture;
-pub mod schema;
 pub(crate) mod sequence;
 pub(crate) mod strain_space;
-pub mod summary;
 pub mod table;
 pub mod vtk;
 
 pub use artifact::Artifact;
+pub use counted::counted;
 pub use error::OutputError;
 pub use picture::Picture;
 pub use strain_space::StrainSurface;

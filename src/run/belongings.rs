@@ -7,9 +7,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
-use crate::output::summary::Files;
 use crate::scene::outputs::{is_one_of, outputs, owned};
 use crate::scene::{Fingerprint, SceneFile};
+use crate::study::Files;
 
 /// The assignment of files to studies.
 pub(crate) struct Belongings {

@@ -6,7 +6,7 @@ use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::OutputError;
-use crate::output::summary::Summary;
+use crate::run::Summary;
 use crate::scene::SceneFile;
 use crate::scene::spec::StudySpec;
 use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};

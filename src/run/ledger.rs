@@ -7,8 +7,9 @@
 
 use super::{RunError, RunReport};
 use crate::output::files;
-use crate::output::summary::{StudySummary, Summary};
+use crate::run::Summary;
 use crate::scene::spec::StudySpec;
+use crate::study::StudySummary;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 

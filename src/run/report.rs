@@ -1,6 +1,6 @@
 //! The options of a run and its report.
 
-use crate::output::summary::Summary;
+use crate::run::Summary;
 use std::path::PathBuf;
 
 /// The options of a run that the command line sets.

@@ -3,8 +3,8 @@
 use crate::model::Configuration;
 use crate::output::artifact::Artifact;
 use crate::output::figure::surface::PathPoint;
-use crate::output::summary::{StudyResult, StudySummary};
 use crate::scene::spec::StudySpec;
+use crate::study::{StudyResult, StudySummary};
 
 /// The answer of a study, not yet written to files.
 #[derive(Debug)]

@@ -1,10 +1,13 @@
 //! `kind = "bloch"`: spatially varying modes of the drawn state, or of a state that an earlier study found.
 
+mod summary;
+
 use super::answer::Answer;
 use super::bands::{FoundBands, facet_stiffness};
 use super::context::Context;
 use super::error::StudyError;
 use super::strip::FoundStrip;
+use super::summary::StudyResult;
 use super::{bands, start, states, strip};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
@@ -19,12 +22,12 @@ use crate::output::Picture;
 use crate::output::artifact::Artifact;
 use crate::output::figure::bloch::{self as figure, BlochPlot};
 use crate::output::figure::rounded;
-use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, ZeroLineSummary};
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, Draw};
 use crate::scene::{Located, SceneFile};
 use std::f64::consts::TAU;
+pub use summary::{BlochSummary, DecaySummary, RegionSummary, StripSummary, ZeroLineSummary};
 
 /// Numbers of wavenumbers along the two directions, unless the scene gives others.
 const GRID: [usize; 2] = [256, 256];

@@ -1,14 +1,17 @@
 //! `kind = "branches"`: the rays along which rigid folding leaves the drawn state.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
+use super::summary::StudyResult;
 use super::supported;
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
 use crate::model::{Assembly, Boundary};
-use crate::output::summary::{BranchesSummary, RaySummary, StudyResult};
 use crate::output::table::{Table, Value};
+pub use summary::{BranchesSummary, RaySummary};
 
 /// Largest difference between the angle of a lock and the drawn angle, in radians, at which both count as equal.
 const AS_DRAWN: f64 = 1e-9;

@@ -2,8 +2,27 @@
 
 use crate::analysis::state::State;
 use crate::model::Terms;
-use crate::output::summary::EnergySummary;
 use crate::output::table::Energies;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Energy by terms; null where the term is not there, or not finite after a relaxation that failed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnergySummary {
+    /// Stretching.
+    pub bars: Option<f64>,
+    /// Folding.
+    pub creases: Option<f64>,
+    /// Bending of polygons.
+    pub facets: Option<f64>,
+    /// The other terms, each by its name.
+    #[serde(flatten)]
+    pub others: BTreeMap<String, Option<f64>>,
+    /// Their sum: the elastic energy.
+    #[schemars(with = "Option<f64>")]
+    pub total: f64,
+}
 
 /// Returns the energies of the terms and their sum, which is always given.
 pub(crate) fn columns(terms: &Terms, state: &State) -> Energies {

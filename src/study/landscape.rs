@@ -1,9 +1,12 @@
 //! `kind = "landscape"`: the energy of a patch or a torus along folding modes, with fits and the predicted expansion.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::energies;
 use super::error::StudyError;
+use super::summary::StudyResult;
 use super::{map, relax};
 use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
@@ -11,12 +14,12 @@ use crate::model::{Assembly, Boundary};
 use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
-use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult};
 use crate::output::table::{Solution, Table, Value};
 use crate::scene::Located;
 use crate::scene::build;
 use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec};
+pub use summary::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 
 /// Checks that the sheet is a patch or torus of a periodic sheet with bars and creases, without locks, pins and loads.
 pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {

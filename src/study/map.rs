@@ -14,9 +14,9 @@ use crate::model::Assembly;
 use crate::numerics::worst;
 use crate::output::artifact::{Artifact, Net};
 use crate::output::figure::sphere::{self as figure, Sphere};
-use crate::output::summary::MapSummary;
 use crate::output::table::{Table, Value};
 use crate::scene::spec::{Draw, MapSpec};
+use crate::study::landscape::MapSummary;
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 

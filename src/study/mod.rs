@@ -17,37 +17,41 @@
 
 pub mod answer;
 mod bands;
-mod bloch;
-mod branches;
+pub mod bloch;
+pub mod branches;
 pub mod context;
-mod energies;
+pub mod energies;
 mod error;
-mod landscape;
+mod keys;
+mod kinds;
+pub mod landscape;
 mod map;
-mod modes;
+pub mod modes;
 mod page;
-mod path;
+pub mod path;
 mod path_plot;
 mod path_table;
 mod ratios;
 mod reason;
-mod relax;
-mod response;
+pub mod relax;
+pub mod response;
 mod start;
 mod states;
 mod strip;
+mod summary;
 mod supported;
-mod surface;
-mod trace;
+pub mod surface;
+pub mod trace;
 mod trajectory;
 mod tube;
 mod vibrations;
-mod wells;
+pub mod wells;
 
 use crate::scene::spec::StudyKind;
 pub use answer::Answer;
 pub use context::{Checkpoints, Context, Observer, PreviousAnswers, Progress};
 pub use error::StudyError;
+pub use summary::{Files, StudyResult, StudySummary};
 pub use surface::left_out;
 
 /// Checks that the settings of a study fit its sheet.

@@ -1,8 +1,11 @@
 //! `kind = "modes"`: zero modes and self-stresses of the bars, linear folding modes, the spectrum of the energy.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
+use super::summary::StudyResult;
 use super::{start, states, supported, vibrations};
 use crate::analysis::modes::{
     Modes, ModesError, SPARSE_EIGENVALUES, Vibrations, check_masses, decomposed_dense, modes_at,
@@ -10,9 +13,9 @@ use crate::analysis::modes::{
 use crate::model::Gauge;
 use crate::output::figure::rounded;
 use crate::output::picture::Picture;
-use crate::output::summary::{ModesSummary, SeamMotionsSummary, StudyResult};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
+pub use summary::{ModesSummary, SeamMotionsSummary};
 
 /// Checks that a start file fits the sheet, and that the model is not too large for the number of eigenvalues that the
 /// study asks for.

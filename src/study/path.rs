@@ -1,10 +1,13 @@
 //! `kind = "path"`: equilibria while a quantity is driven, through limit points, with branches on request.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::path_plot::{Words, event_word, figure};
 use super::states::{self, Shown};
+use super::summary::StudyResult;
 use super::{path_table, ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
@@ -14,13 +17,11 @@ use crate::analysis::path::{
 use crate::model::{Assembly, Drive, DriveError, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
-use crate::output::summary::{
-    FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary, StudyResult,
-};
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, PathSpec};
 use std::collections::BTreeSet;
+pub use summary::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
 
 /// Number of pictures in the series, apart from more events and ends than that.
 const PICTURES: usize = 60;

@@ -1,10 +1,13 @@
 //! `kind = "relax"`: the equilibrium that Newton's method reaches from a start.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::reason::reason;
 use super::states::{self, Shown};
+use super::summary::StudyResult;
 use super::{branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
@@ -15,13 +18,11 @@ use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
-use crate::output::summary::{
-    BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, RouteSummary, StudyResult,
-};
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::{Failure, Step};
 use std::num::NonZeroUsize;
 use std::ops::Range;
+pub use summary::{BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, RouteSummary};
 
 /// Reason for the failure of a relaxation that has left a singular start with extensible bars.
 const NO_BRANCH: &str = "the start is singular, and the state that bars that stretch reach from it has no rigid one nearby: \

@@ -1,8 +1,11 @@
 //! `kind = "response"`: the linear modes of a periodic sheet, what they do to it as a whole, and Poisson's ratios.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
+use super::summary::StudyResult;
 use super::{start, states};
 use crate::analysis::response::{
     Field, LinearMode, Moduli, NoRatio, Principal, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
@@ -11,14 +14,14 @@ use crate::math::Vec3;
 use crate::model::{Domain, Gauge};
 use crate::output::figure::{ratios, rounded};
 use crate::output::picture::Picture;
-use crate::output::summary::{
-    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
-    RigidLimitSummary, StressSummary, StudyResult, SymmetrySummary, TableSummary,
-};
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, ResponseSpec};
 use std::f64::consts::PI;
+pub use summary::{
+    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
+    RigidLimitSummary, StressSummary, SymmetrySummary, TableSummary,
+};
 
 /// Directions over half a turn, if the scene does not say.
 const DIRECTIONS: u32 = 72;

@@ -7,11 +7,11 @@ use super::error::StudyError;
 use crate::analysis::bloch::strip::{StripModes, fit};
 use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Strip};
 use crate::numerics::worst;
-use crate::output::summary::StripSummary;
 use crate::output::table::{Table, Value};
 use crate::scene::build;
 use crate::scene::spec::{BlochSpec, StripSpec};
 use crate::sheet::Sheet;
+use crate::study::bloch::StripSummary;
 use nalgebra::Complex;
 
 /// Fewest cells across a strip; with an interface, of each half.

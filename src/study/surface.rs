@@ -1,8 +1,11 @@
 //! `kind = "surface"`: the surface of folded states of one cell, or their curve.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
+use super::summary::StudyResult;
 use super::supported;
 use super::trace::enter_folded;
 use super::{energies, states};
@@ -17,7 +20,6 @@ use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
 use crate::output::figure::surface::{self as figure, PathPoint};
 use crate::output::strain_space::StrainSurface;
-use crate::output::summary::{PieceSummary, StudyResult, SurfaceSummary};
 use crate::output::table::{Solution, StateRow, Table};
 use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
 use crate::scene::values::Count;
@@ -25,6 +27,7 @@ use crate::scene::{Located, SceneFile};
 use crate::sheet::Edge;
 use crate::solver::atlas::{Coverage, KEPT};
 use std::f64::consts::TAU;
+pub use summary::{PieceSummary, SurfaceSummary};
 
 /// Number of states over a whole turn, along each direction, unless the scene gives another.
 const RESOLUTION: u32 = 32;

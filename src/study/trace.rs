@@ -1,9 +1,12 @@
 //! `kind = "trace"`: trajectories of rigid folding from the drawn state, and relaxations at their states.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
+use super::summary::StudyResult;
 use super::trajectory::{Path, is_tube, summary};
 use super::{branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
@@ -16,13 +19,13 @@ use crate::model::{Assembly, Boundary, Configuration, Gauge, Model};
 use crate::numerics::{larger, worst};
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
-use crate::output::summary::StudyResult;
 use crate::output::table::{Solution, StateRow};
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Draw, Engine, TraceSpec};
 use crate::sheet::EdgeKey;
 use crate::solver::continuation;
 use crate::solver::{Options, Problem};
+pub use summary::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 
 /// Longest step, and tolerance of the closure residual, used unless the scene gives others.
 const MAX_STEP: f64 = 0.25;

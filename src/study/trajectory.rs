@@ -9,10 +9,10 @@ use crate::kinematics::RealDirections;
 use crate::model::{Assembly, Boundary};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
-use crate::output::summary::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 use crate::scene::spec::Engine;
 use crate::solver::Failure;
 use crate::solver::continuation::{self, End};
+use crate::study::trace::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 
 /// A trajectory, with the relaxations at its states if they were computed.
 pub(super) struct Path<'a> {

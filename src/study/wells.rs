@@ -1,11 +1,14 @@
 //! `kind = "wells"`: minima reached from random starts, the barriers between them, and the landscape of the rigid
 //! sheet.
 
+mod summary;
+
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::start;
 use super::states::{self, Shown};
+use super::summary::StudyResult;
 use super::supported;
 use super::surface::{check_resolution, curvature_of_cell};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
@@ -20,15 +23,14 @@ use crate::model::{Assembly, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
-use crate::output::summary::{
-    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, StudyResult, WellSummary,
-    WellsSummary,
-};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::{Draw, WellsSpec};
 use crate::solver::Options;
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
+pub use summary::{
+    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, WellSummary, WellsSummary,
+};
 
 /// Number of starts, and of states over a whole turn, unless the scene gives others.
 const STARTS: u32 = 64;

@@ -1,8 +1,9 @@
 //! Barriers of structures whose wells exist only at their stiffness of bars, and random starts that fail.
 
 use approx::assert_relative_eq;
-use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::study::wells::WellsSummary;
+use foldwell::study::{StudyResult, StudySummary};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;

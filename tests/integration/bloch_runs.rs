@@ -2,9 +2,10 @@
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::analysis::bloch::{Decay, Determinant, Rigidity};
-use foldwell::output::summary::{BlochSummary, StudyResult};
 use foldwell::run::{RunError, RunOptions, RunReport, run_scene};
 use foldwell::sheet::generate::{Pattern, Random, generate};
+use foldwell::study::StudyResult;
+use foldwell::study::bloch::BlochSummary;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

@@ -13,11 +13,12 @@ use foldwell::analysis::modes::modes;
 use foldwell::analysis::response::{NoRatio, Response, response};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::{Assembly, RIGID};
-use foldwell::output::summary::{BlochSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::Eggbox;
 use foldwell::sheet::{Pattern, Sheet, fold, generate};
+use foldwell::study::StudyResult;
+use foldwell::study::bloch::BlochSummary;
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::ops::ControlFlow;
 

@@ -1,8 +1,9 @@
 //! The scenes of driven paths that the gallery shows: what each of them is there to show.
 
-use foldwell::output::summary::{PathSummary, StudyResult};
 use foldwell::output::vtk::read_vtu;
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::study::StudyResult;
+use foldwell::study::path::PathSummary;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::path::PathBuf;

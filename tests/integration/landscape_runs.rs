@@ -3,10 +3,10 @@
 use crate::common;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::kinematics::folding_modes_with_locked;
-use foldwell::output::summary::{StudyResult, StudySummary};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::generate::{Pattern, generate};
 use foldwell::sheet::{Edge, EdgeKind};
+use foldwell::study::{StudyResult, StudySummary};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

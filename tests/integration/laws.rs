@@ -4,9 +4,9 @@ use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
 use foldwell::model::{
     Assembly, Builder, Drive, Driven, GreenLagrange, Law, Length, Ogden, OwnTerm, Site, Spring, Stiffening,
 };
-use foldwell::output::summary::{StudyResult, StudySummary};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKind, Sheet, fold};
+use foldwell::study::{StudyResult, StudySummary};
 use foldwell::{Pattern, RIGID, Rest, generate, relax};
 use std::f64::consts::PI;
 use std::fs;

@@ -5,9 +5,10 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::relax::Relaxed;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Terms};
-use foldwell::output::summary::{RelaxSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::fold;
+use foldwell::study::StudyResult;
+use foldwell::study::relax::RelaxSummary;
 use std::ops::ControlFlow;
 
 /// Returns four cells of `open-star` with rigid bars and rest angles within 0.1 rad of the drawn angles.

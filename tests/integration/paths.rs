@@ -4,8 +4,9 @@
 //! with `l^2 = w^2 + z^2`; the drum of Kresling's pattern, whose bars have the lengths `sqrt(h^2 + 2 - 2 cos t)` and
 //! `sqrt(h^2 + 2 - 2 cos(t - pi/3))` at height `h` and twist `t`, minimised over the twist.
 
-use foldwell::output::summary::{PathBranchSummary, PathSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::study::StudyResult;
+use foldwell::study::path::{PathBranchSummary, PathSummary};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

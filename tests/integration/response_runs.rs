@@ -1,9 +1,10 @@
 //! Studies of kind `response` as a user runs them: files, summary, starts and refusals.
 
 use crate::common::assert_refused;
-use foldwell::output::summary::{ResponseSummary, StudyResult, StudySummary};
 use foldwell::output::vtk::read_vtu;
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::study::response::ResponseSummary;
+use foldwell::study::{StudyResult, StudySummary};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

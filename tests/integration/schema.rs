@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Returns names of the files in `validation/schema`, and the output of `foldwell schema NAME`.
 fn schemas() -> [(&'static str, String); 3] {
-    use foldwell::output::schema::{of_sweep, schema};
+    use foldwell::run::schema::{of_sweep, schema};
     [("scene", foldwell::scene::schema()), ("summary", schema()), ("sweep", of_sweep())]
 }
 
@@ -58,12 +58,12 @@ fn findings(schema: &Value, place: &str) -> Vec<String> {
 /// table of a study, which allows no other keys.
 #[test]
 fn every_key_of_a_summary_is_described() {
-    let summary: Value = serde_json::from_str(&foldwell::output::schema::schema()).unwrap();
+    let summary: Value = serde_json::from_str(&foldwell::run::schema::schema()).unwrap();
     let mut found = findings(&summary, "summary");
     for (name, table) in summary["$defs"].as_object().unwrap() {
         found.extend(findings(table, name));
     }
-    let sweep: Value = serde_json::from_str(&foldwell::output::schema::of_sweep()).unwrap();
+    let sweep: Value = serde_json::from_str(&foldwell::run::schema::of_sweep()).unwrap();
     found.extend(findings(&sweep, "sweep"));
     found.extend(findings(&sweep["$defs"]["UnansweredPoint"], "unanswered"));
     let answers = summary["$defs"]["StudySummary"]["allOf"].as_array().unwrap();

@@ -410,7 +410,7 @@ fn shards_share_a_folder() {
 /// left as it is.
 #[test]
 fn the_library_runs_single_points() {
-    use foldwell::output::summary::PointStatus;
+    use foldwell::run::PointStatus;
     use foldwell::run::{RunOptions, assemble, points, read_scene, run_point};
     use std::ops::ControlFlow;
 

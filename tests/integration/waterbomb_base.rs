@@ -8,8 +8,9 @@
 use crate::common::ForceCurve;
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::math::Vec3;
-use foldwell::output::summary::{StudyResult, WellsSummary};
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::study::StudyResult;
+use foldwell::study::wells::WellsSummary;
 use std::f64::consts::FRAC_PI_4;
 use std::fs;
 use std::ops::ControlFlow;

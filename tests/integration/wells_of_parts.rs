@@ -7,9 +7,10 @@
 use crate::common::{ForceCurve, assert_refused};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::math::Vec3;
-use foldwell::output::summary::{StudyResult, WellsSummary};
 use foldwell::output::vtk::read_vtu;
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::study::StudyResult;
+use foldwell::study::wells::WellsSummary;
 use std::f64::consts::FRAC_PI_3;
 use std::fs;
 use std::ops::ControlFlow;

@@ -2,7 +2,7 @@
 
 use super::page;
 use super::report::Report;
-use foldwell::output::summary::to_json;
+use foldwell::output::json::to_json;
 use foldwell::output::{OutputError, files};
 use std::path::Path;
 

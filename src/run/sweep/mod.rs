@@ -10,6 +10,7 @@ mod pool;
 mod record;
 mod scalars;
 mod shard;
+mod summary;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -19,7 +20,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::belongings::Belongings;
 use super::{Ledger, Observer, Progress, RunError, RunOptions, claim, inputs, single};
-use crate::output::summary::{PointStatus, SweepSummary};
 use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Sweep};
 use assemble::Board;
@@ -29,6 +29,7 @@ use place::{CHECKS, POINTS, folder, point_folder};
 use pool::Pool;
 use record::Record;
 pub use shard::{Shard, ShardError};
+pub use summary::{PointStatus, SweepSummary, UnansweredPoint};
 
 /// Exit status where the input is wrong.
 const WRONG_INPUT: u8 = 2;

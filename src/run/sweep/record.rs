@@ -11,12 +11,14 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::output::summary::{Files, PointStatus, to_json};
+use super::summary::PointStatus;
+use crate::output::json::to_json;
 use crate::output::{OutputError, files};
 use crate::run::RunError;
 use crate::run::belongings::Belongings;
 use crate::run::ledger::INTERRUPTED;
 use crate::scene::{Fingerprint, SceneFile, digest};
+use crate::study::Files;
 
 /// Name of the summary of a run.
 pub(super) const SUMMARY: &str = "summary.json";

@@ -1,5 +1,6 @@
 //! The results of a study of kind `landscape` in the summary.
 
+use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -80,4 +81,25 @@ pub struct SampleSummary {
     pub below_rounding: bool,
     /// Whether it was found.
     pub converged: bool,
+}
+
+impl LandscapeSummary {
+    /// One sentence: the exponent of every mode, and what theory predicts.
+    pub(crate) fn sentence(&self) -> String {
+        let modes = self.modes.iter().map(|one| {
+            let mode = match (one.wave, one.mode) {
+                (Some(wave), _) => format!("wave {wave:?}"),
+                (_, mode) => format!("{:?}", mode.unwrap_or([f64::NAN; 3])),
+            };
+            let exponent = one.exponent.map_or("?".into(), |exponent| format!("{exponent:.3}"));
+            let [c4, c6] = [one.predicted_coefficient, one.predicted_sixth].map(|c| c.unwrap_or(f64::NAN));
+            let below = match one.below_rounding {
+                0 => String::new(),
+                count => format!(" ({} below rounding left out)", counted(count, "sample")),
+            };
+            let agrees = if one.fit_agrees == Some(false) { "; THE FIT DISAGREES" } else { "" };
+            format!("{mode}: exponent {exponent}{below}, predicted {c4:.6e} a^4, {c6:.6e} a^6{agrees}")
+        });
+        modes.collect::<Vec<_>>().join("; ")
+    }
 }

@@ -1,5 +1,6 @@
 //! The results of a study of kind `path` in the summary.
 
+use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -89,4 +90,34 @@ pub struct FirstCrossing {
     pub arc_length: f64,
     /// The driven value; null: infinite stiffness.
     pub drive: Option<f64>,
+}
+
+impl PathSummary {
+    /// One sentence: the end of every branch, and its events.
+    pub(crate) fn sentence(&self) -> String {
+        let value = |value: Option<f64>| value.map_or("inf".to_owned(), |value| format!("{value:.6}"));
+        let branches = self.branches.iter().map(|branch| {
+            let events = branch.events.iter().map(|event| {
+                let eigenvalues = event.multiplicity.filter(|count| *count > 1);
+                let eigenvalues = eigenvalues.map_or(String::new(), |count| format!(" of {count} eigenvalues"));
+                let place = format!("{}{eigenvalues} at {}", event.event, value(event.drive));
+                format!("; {place}, reaction {:.6e}{}", event.reaction, half_branches(event.half_branches.as_ref()))
+            });
+            let number = if self.branches.len() > 1 { format!("branch {}: ", branch.branch) } else { String::new() };
+            let end = format!("{number}{} at {} {}", branch.end, self.drive, value(branch.drive));
+            format!("{end}, {}{}", counted(branch.steps, "state"), events.collect::<String>())
+        });
+        branches.collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Describes how many half branches were found; empty where none were sought.
+fn half_branches(sought: Option<&HalfBranchesSummary>) -> String {
+    match sought {
+        None => String::new(),
+        Some(HalfBranchesSummary { found, expected: Some(expected), .. }) => {
+            format!(", {found} of {expected} half branches")
+        }
+        Some(HalfBranchesSummary { found, .. }) => format!(", {found} half branches, not all directions sought"),
+    }
 }

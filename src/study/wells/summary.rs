@@ -1,5 +1,6 @@
 //! The results of a study of kind `wells` in the summary.
 
+use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -131,4 +132,37 @@ pub struct RigidPassSummary {
     pub energy: f64,
     /// Whether branches cross there.
     pub singular: bool,
+}
+
+impl WellsSummary {
+    /// One sentence: the wells and the passes between them, and starts that ended elsewhere.
+    pub(crate) fn sentence(&self) -> String {
+        let energies = self.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");
+        let barriers = self.barriers.iter().map(|barrier| {
+            let bars = barrier.bars.map_or("rigid bars".to_owned(), |bars| format!("bars of {bars:e}"));
+            let known = match (barrier.singular, barrier.flat, barrier.limit_error) {
+                (true, true, _) => ", the flat state".to_owned(),
+                (true, false, Some(error)) => format!(", extrapolated with an error of about {error:.0e}"),
+                _ => String::new(),
+            };
+            let energy =
+                barrier.energy.map_or("not self".to_owned(), |energy| format!("{energy:.6e} with {bars}{known}"));
+            format!("; pass {:?} {energy}", barrier.between)
+        });
+        let count = counted(self.wells.len(), "well");
+        format!("{count} ({energies}){}{}", barriers.collect::<String>(), failures(self))
+    }
+}
+
+/// Describes how many random starts ended in no minimum, and how many failed with the reasons; empty if there are none.
+fn failures(found: &WellsSummary) -> String {
+    let saddles = match found.saddles {
+        0 => String::new(),
+        count => format!("; {count} of {} ended in no minimum", counted(found.starts, "start")),
+    };
+    if found.failed == 0 {
+        return saddles;
+    }
+    let reasons: Vec<String> = found.failures.iter().map(|one| format!("{}: {}", one.starts, one.reason)).collect();
+    format!("{saddles}; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
 }

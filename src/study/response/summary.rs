@@ -1,5 +1,6 @@
 //! The results of a study of kind `response` in the summary.
 
+use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -169,4 +170,28 @@ pub struct PoissonSummary {
     /// Height above vertex 0, along the normal, at which the modes with curvature have no strain of their own; null
     /// where there is none.
     pub neutral_height: Option<f64>,
+}
+
+impl ResponseSummary {
+    /// One sentence: the modes, and Poisson's ratios along the first lattice vector.
+    pub(crate) fn sentence(&self) -> String {
+        let poisson = &self.poisson;
+        let ratio = |ratio: Option<f64>, reason: &Option<String>| {
+            let reason = reason.iter().map(|reason| format!(" [{reason}]")).collect::<String>();
+            ratio.map_or_else(|| format!("none{reason}"), |ratio| format!("{ratio:.6}"))
+        };
+        let opposite = match poisson.opposite {
+            Some(true) => ", opposite in every direction",
+            Some(false) => ", not opposite in every direction",
+            None => "",
+        };
+        format!(
+            "{}, table of rank {}; Poisson's ratio {} in the plane, {} of bending{opposite} ({})",
+            counted(self.linear_modes.len(), "linear mode"),
+            self.table_rank,
+            ratio(poisson.in_plane, &poisson.no_in_plane),
+            ratio(poisson.bending, &poisson.no_bending),
+            poisson.because
+        )
+    }
 }

@@ -1,6 +1,7 @@
 //! The results of a study of kind `branches` in the summary.
 
-use super::keys;
+use crate::output::counted;
+use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -53,4 +54,21 @@ pub struct RaySummary {
     /// Sign of the curvature, positive towards the face normals, 0 without any; null for a finite sheet.
     #[schemars(extend("minimum" = -1, "maximum" = 1))]
     pub curvature_sign: Option<i8>,
+}
+
+impl BranchesSummary {
+    /// One sentence: the number of rays, and whether these are all directions in which the sheet folds.
+    pub(crate) fn sentence(&self) -> String {
+        let rays = match self.directions.as_str() {
+            "continuum" => {
+                format!(
+                    "{}, and infinitely many directions that fill a curve or more",
+                    counted(self.real_rays, "single real ray")
+                )
+            }
+            "not-established" => format!("{} found, others not excluded", counted(self.real_rays, "real ray")),
+            _ => counted(self.real_rays, "real ray"),
+        };
+        format!("{rays}, {} complex solutions of {}", self.complex_solutions, self.expected)
+    }
 }

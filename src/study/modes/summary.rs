@@ -1,5 +1,6 @@
 //! The results of a study of kind `modes` in the summary.
 
+use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -47,4 +48,41 @@ pub struct SeamMotionsSummary {
     pub both: usize,
     /// Smallest of the four gaps of singular values, as `gap`; null: nothing was dropped.
     pub gap: Option<f64>,
+}
+
+impl ModesSummary {
+    /// One sentence. Folding modes are counted separately, by fold angles: they are not a part of the zero modes.
+    pub(crate) fn sentence(&self) -> String {
+        format!(
+            "{}, of which {} {} rigid; {}; {}",
+            counted(self.zero_modes, "zero mode"),
+            self.rigid_motions,
+            if self.rigid_motions == 1 { "is" } else { "are" },
+            if self.self_stresses == 1 {
+                "1 self stress".into()
+            } else {
+                format!("{} self stresses", self.self_stresses)
+            },
+            match (self.folding_modes, &self.seam) {
+                (Some(count), _) => counted(count, "folding mode"),
+                (None, Some(SeamMotionsSummary { free, turn, rise, both, .. })) => format!(
+                    "{} of the closed tube, {turn} if the seam may slip, {rise} if it may open, {free} without conditions",
+                    counted(*both, "folding mode")
+                ),
+                (None, None) => "folding self unknown".into(),
+            },
+        ) + &frequencies(self)
+    }
+}
+
+/// Describes the lowest frequency above zero and the number of motions that grow; empty without mass.
+fn frequencies(modes: &ModesSummary) -> String {
+    let Some(frequencies) = &modes.frequencies else { return String::new() };
+    let lowest = frequencies.iter().flatten().find(|frequency| **frequency > 0.0);
+    let lowest =
+        lowest.map_or("; no frequency above 0".to_owned(), |lowest| format!("; lowest frequency {lowest:.6e}"));
+    match modes.growth_rates.len() {
+        0 => lowest,
+        count => format!("{lowest}, {} without frequency that grow", counted(count, "motion")),
+    }
 }

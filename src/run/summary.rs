@@ -1,45 +1,13 @@
 //! The summary of a run (`summary.json`) and of a sheet (`foldwell info`).
 //!
 //! Numbers that were not computed, NaN and infinity are written as `null`. The doc comments of the keys are the
-//! descriptions in the JSON schema ([`super::schema::schema`]); for a key that can be `null`, they say when.
+//! descriptions in the JSON schema ([`super::schema`]); for a key that can be `null`, they say when.
 
-mod bloch;
-mod branches;
-mod json;
-mod keys;
-mod kinds;
-mod landscape;
-mod modes;
-mod path;
-mod relax;
-mod response;
-mod surface;
-mod sweep;
-mod trace;
-mod wells;
-
-pub use bloch::{BlochSummary, DecaySummary, RegionSummary, StripSummary, ZeroLineSummary};
-pub use branches::{BranchesSummary, RaySummary};
-pub use json::to_json;
-pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
-pub use modes::{ModesSummary, SeamMotionsSummary};
-pub use path::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
-pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary, RouteSummary};
-pub use response::{
-    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
-    RigidLimitSummary, StressSummary, SymmetrySummary, TableSummary,
-};
-pub use surface::{PieceSummary, SurfaceSummary};
-pub use sweep::{PointStatus, SweepSummary, UnansweredPoint};
-pub use trace::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
-pub use wells::{
-    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, WellSummary, WellsSummary,
-};
-
-use super::OutputError;
-use super::files;
+use crate::output::json::to_json;
+use crate::output::{OutputError, files};
+use crate::study::StudySummary;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::path::Path;
 
 /// What a run of `foldwell` found: `summary.json`. Angles are radians; lengths and energies have the units of the scene.
@@ -88,87 +56,6 @@ pub struct SheetSummary {
     pub degrees_of_freedom: usize,
 }
 
-/// What came out of a study.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StudySummary {
-    /// Its name.
-    pub name: String,
-    /// Its kind; the other keys depend on it.
-    #[schemars(schema_with = "kinds::kind")]
-    pub kind: String,
-    /// Whether it gave its answer.
-    pub converged: bool,
-    /// Time in seconds, drawing and writing excluded.
-    pub seconds: f64,
-    /// The study's own error estimate; null where it gave no answer.
-    pub error: Option<f64>,
-    /// Why it did not converge; absent where it did.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "String")]
-    pub reason: Option<String>,
-    /// What it wrote, by which a resumed run sees whether that is still there; absent while it is not finished.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Files")]
-    pub files: Option<Files>,
-    /// The keys of its kind; null where it did not get so far.
-    #[serde(flatten)]
-    #[schemars(schema_with = "kinds::answers")]
-    pub result: Option<StudyResult>,
-}
-
-/// The files of a study, taken together.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Files {
-    /// How many there are.
-    pub count: usize,
-    /// Their bytes in all.
-    pub bytes: u64,
-    /// Sixteen hexadecimal digits that change with any name and any byte of theirs.
-    pub digest: String,
-}
-
-/// The results of each kind of study.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum StudyResult {
-    /// `kind = "relax"`.
-    Relax(RelaxSummary),
-    /// `kind = "modes"`.
-    Modes(ModesSummary),
-    /// `kind = "branches"`.
-    Branches(BranchesSummary),
-    /// `kind = "surface"`.
-    Surface(SurfaceSummary),
-    /// `kind = "landscape"`.
-    Landscape(LandscapeSummary),
-    /// `kind = "bloch"`.
-    Bloch(Box<BlochSummary>),
-    /// `kind = "wells"`.
-    Wells(WellsSummary),
-    /// `kind = "path"`.
-    Path(PathSummary),
-    /// `kind = "response"`.
-    Response(Box<ResponseSummary>),
-    /// `kind = "trace"`.
-    Trace(TraceSummary),
-}
-
-impl StudySummary {
-    /// Makes the summary of a study that has no result yet.
-    pub(crate) fn unanswered(name: &str, kind: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            kind: kind.to_owned(),
-            converged: false,
-            seconds: 0.0,
-            error: None,
-            reason: None,
-            files: None,
-            result: None,
-        }
-    }
-}
-
 impl Summary {
     /// Whether every study gave a result.
     pub fn converged(&self) -> bool {
@@ -192,6 +79,10 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::StudyResult;
+    use crate::study::branches::BranchesSummary;
+    use crate::study::modes::ModesSummary;
+    use crate::study::relax::RelaxSummary;
     use serde_json::{Value, json};
 
     fn sample() -> Summary {

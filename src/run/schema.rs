@@ -1,4 +1,4 @@
-//! The JSON schema of `summary.json`. It is generated from the types that are written ([`super::summary`]), so that
+//! The JSON schema of `summary.json`. It is generated from the types that are written ([`Summary`], [`SweepSummary`]), so that
 //! both always agree.
 //!
 //! The schema allows no keys other than those described. A study that gave a result has all keys of its kind; the other
@@ -8,7 +8,8 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
-use super::summary::{Summary, SweepSummary};
+use super::summary::Summary;
+use super::sweep::SweepSummary;
 
 /// Returns the JSON schema (draft 2020-12) of `summary.json`, pretty-printed.
 pub fn schema() -> String {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::json::to_json;
+use crate::output::json::to_json;
 
 /// What a sweep of `foldwell` found: `sweep.json`. The results of its points are in `sweep.csv`, a row for each.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

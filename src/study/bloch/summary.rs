@@ -1,6 +1,7 @@
 //! The results of a study of kind `bloch` in the summary.
 
-use super::keys;
+use crate::output::counted;
+use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -122,4 +123,20 @@ pub struct RegionSummary {
     pub sign: i8,
     /// Its part of the zone.
     pub fraction: f64,
+}
+
+impl BlochSummary {
+    /// One sentence: zero lines, and how well roots pair.
+    pub(crate) fn sentence(&self) -> String {
+        let lines = self.zero_lines.map(|count| counted(count, "zero line"));
+        let lines = lines
+            .or_else(|| self.no_determinant.clone())
+            .or_else(|| self.no_zero_lines.clone())
+            .unwrap_or_else(|| "no real determinant, so that zero lines are not looked for".to_owned());
+        let pairing = self
+            .pairing_error
+            .map_or("no root known well enough to be paired".to_owned(), |error| format!("pairing error {error:.1e}"));
+        let decays = self.polarization.map(|[p1, p2]| format!(", {pairing}, polarization ({p1}, {p2})"));
+        lines + &decays.unwrap_or_default()
+    }
 }

@@ -1,6 +1,6 @@
 //! The results of a study of kind `surface` in the summary.
 
-use super::keys;
+use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,4 +55,15 @@ pub struct PieceSummary {
     pub sign: i8,
     /// States.
     pub points: usize,
+}
+
+impl SurfaceSummary {
+    /// One sentence: the states, and what is established about them.
+    pub(crate) fn sentence(&self) -> String {
+        let SurfaceSummary { points, dimension, triangles, coverage, gaps, .. } = self;
+        let shape = if *dimension == 1 { "a curve".to_owned() } else { format!("{triangles} triangles") };
+        let established = self.established.iter().map(|established| format!(": {established}"));
+        let gaps = (*gaps > 0).then(|| format!(", but triangles are missing beside {gaps} states"));
+        format!("{points} states, {shape}, {coverage}") + &established.chain(gaps).collect::<String>()
+    }
 }

@@ -1,6 +1,6 @@
 //! The results of a study of kind `trace` in the summary.
 
-use super::keys;
+use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -102,4 +102,20 @@ pub struct TurningPoint {
     pub arc_length: f64,
     /// Its value there.
     pub value: f64,
+}
+
+impl TraceSummary {
+    /// One sentence: the end of every trajectory, and whether there are directions that no trajectory follows.
+    pub(crate) fn sentence(&self) -> String {
+        let ends = self.branches.iter().map(|one| match one.branch {
+            Some(_) => format!("{} at {:.6}", one.end, one.arc_length),
+            None => "no real direction to fold along".to_owned(),
+        });
+        let others = match self.directions.as_str() {
+            "continuum" => "; infinitely many other directions are not followed",
+            "not-established" => "; other directions are not excluded",
+            _ => "",
+        };
+        ends.collect::<Vec<_>>().join(", ") + others
+    }
 }

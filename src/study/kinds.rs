@@ -1,9 +1,15 @@
 //! The kinds of study in the JSON schema, and the keys that belong to each kind.
 
-use super::{
-    BlochSummary, BranchesSummary, LandscapeSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary,
-    SurfaceSummary, TraceSummary, WellsSummary,
-};
+use super::bloch::BlochSummary;
+use super::branches::BranchesSummary;
+use super::landscape::LandscapeSummary;
+use super::modes::ModesSummary;
+use super::path::PathSummary;
+use super::relax::RelaxSummary;
+use super::response::ResponseSummary;
+use super::surface::SurfaceSummary;
+use super::trace::TraceSummary;
+use super::wells::WellsSummary;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::json;
 

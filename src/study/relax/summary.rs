@@ -1,25 +1,9 @@
 //! The results of a study of kind `relax` in the summary.
 
+use crate::output::counted;
+use crate::study::energies::EnergySummary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-
-/// Energy by terms; null where the term is not there, or not finite after a relaxation that failed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EnergySummary {
-    /// Stretching.
-    pub bars: Option<f64>,
-    /// Folding.
-    pub creases: Option<f64>,
-    /// Bending of polygons.
-    pub facets: Option<f64>,
-    /// The other terms, each by its name.
-    #[serde(flatten)]
-    pub others: BTreeMap<String, Option<f64>>,
-    /// Their sum: the elastic energy.
-    #[schemars(with = "Option<f64>")]
-    pub total: f64,
-}
 
 /// An equilibrium.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -132,4 +116,47 @@ pub enum MethodName {
     /// Positions of the vertices, while rigid bars stretch to leave a singular start.
     #[serde(rename = "soft-bars")]
     SoftBars,
+}
+
+impl RelaxSummary {
+    /// One sentence: energy and residuals, and a warning if the state is unstable, if faces pass through each other, or if other
+    /// branches leave the start.
+    pub(crate) fn sentence(&self, converged: bool) -> String {
+        let unstable = match self.negative_eigenvalues {
+            None if converged => ", whether it is stable is not known".to_owned(),
+            None | Some(0) => String::new(),
+            Some(count) => format!(", not stable ({})", counted(count, "negative eigenvalue")),
+        };
+        let crossing = if self.self_intersecting == Some(true) { ", faces pass through each other" } else { "" };
+        let residuals = match [self.residual_force, self.residual_length] {
+            [force, length] if force.is_nan() && length.is_nan() => "no residuals".to_owned(),
+            [force, length] => format!("residuals {force:.1e} (force) {length:.1e} (length)"),
+        };
+        let iterations = counted(self.iterations, "iteration");
+        let by_way_of: Vec<&str> =
+            self.routes.iter().skip(1).filter(|route| route.iterations > 0).map(|route| route.name.as_str()).collect();
+        let by_way_of =
+            if by_way_of.is_empty() { String::new() } else { format!(", by way of {}", by_way_of.join(", ")) };
+        let branching = match (self.branch_point_start, self.directions_at_start.as_deref()) {
+            (_, Some("continuum")) => {
+                ", infinitely many directions leave the start: others may lead to other equilibria".into()
+            }
+            (Some(rays), _) => {
+                format!(", the start is a branch point with {rays} rays: other branches may have other equilibria")
+            }
+            (None, Some("not-established")) => ", it is not known whether the start is a branch point".into(),
+            (None, _) => String::new(),
+        };
+        let left =
+            self.branch_choice.map_or(String::new(), |BranchChoiceSummary { hinges, on_rest_side, soft_bars }| {
+                let by = if soft_bars { ", by bars that stretch at first" } else { "" };
+                format!(
+                    ", the start was left with {on_rest_side} of {hinges} hinges on the side of their rest angles{by}"
+                )
+            });
+        format!(
+            "energy {:.9e}, {iterations}, {residuals}{by_way_of}{unstable}{crossing}{branching}{left}",
+            self.energy.total
+        )
+    }
 }
