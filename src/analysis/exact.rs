@@ -27,8 +27,6 @@ const KNOWN: f64 = 1e-10;
 /// Largest difference of a rest length from the drawn length, relative to the positions of its ends, at which the bar is
 /// at rest as drawn.
 const SAME_LENGTH: f64 = 1e-12;
-/// Largest difference of a fold angle to an exact state that is still near by: half a turn.
-const FARTHEST_RAD: f64 = std::f64::consts::PI;
 /// Largest change of an angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
@@ -55,6 +53,8 @@ pub struct Stationary {
     /// How far from closed the angles may be, in radians: the residual over the smallest singular value of closure that is none of
     /// its zeros. Next to a state with more motions, as that of a screw without curvature, it is the larger the nearer it is.
     pub error: f64,
+    /// Whether every step was shorter than the one before, as they are on the way to a state near by.
+    pub(crate) is_near: bool,
 }
 
 /// The energy along the closed states at one of them, to second order in coordinates along its tangents.
@@ -76,9 +76,9 @@ struct Along {
 /// large, no exact state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
-    let exact = springs.stationary(&springs.start).filter(|exact| exact.error <= KNOWN)?.angles;
+    let exact = springs.stationary(&springs.start).filter(|exact| exact.is_near && exact.error <= KNOWN)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
-    worst(known.map(|(exact, angle)| (exact - angle).abs())).filter(|error| *error <= FARTHEST_RAD)
+    worst(known.map(|(exact, angle)| (exact - angle).abs()))
 }
 
 /// Whether the bars of a model are at rest at their drawn lengths, which exact folding keeps.
@@ -139,11 +139,13 @@ impl Springs {
     pub(crate) fn stationary(&self, start: &[f64]) -> Option<Stationary> {
         let mut closing = Closing::new(&self.closure, self.start.clone());
         let mut x = closing.folding(start);
+        let (mut last, mut is_near) = (f64::INFINITY, true);
         for _ in 0..STEPS {
             x = close(&mut closing, x)?;
             let along = self.along(&closing, &x)?;
             let step = along.step()?;
             let longest = step.amax();
+            (last, is_near) = (longest, is_near && longest < last);
             let part = (LONGEST_ANGLE_STEP_RAD / longest).min(1.0);
             x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += part * d);
             if longest <= LAST_ANGLE_CHANGE_RAD {
@@ -152,7 +154,7 @@ impl Springs {
                 let along = self.along(&closing, &x)?;
                 let (energy, residual) = (self.energy(&angles), self.closure.residual(&angles).amax());
                 let (negative_eigenvalues, error) = (along.negative()?, residual / along.least);
-                return Some(Stationary { angles, energy, negative_eigenvalues, residual, error });
+                return Some(Stationary { angles, energy, negative_eigenvalues, residual, error, is_near });
             }
         }
         None

@@ -30,7 +30,7 @@ const FELL: [u64; 29] = [
     12071, 12920, 13210, 13432, 13568, 14790, 16586, 18530, 18956, 19010,
 ];
 /// Seeds of unusual sheets that once fell, without those that take minutes.
-const FELL_UNUSUAL: [u64; 6] = [139, 371, 679, 1015, 1549, 1767];
+const FELL_UNUSUAL: [u64; 9] = [139, 371, 679, 1015, 1549, 1767, 3115, 3422, 9458];
 /// Unusual cases where nothing else is asked for.
 const USUAL_UNUSUAL: u64 = 25;
 /// Cases where nothing else is asked for.

@@ -221,6 +221,7 @@ impl Net {
             negative_eigenvalues: 0,
             residual,
             error,
+            is_near: true,
         })
     }
 
