@@ -27,13 +27,13 @@ class Assembly:
     edges: Ints
     kinds: list[str]
     cells: list[int]
-    scene: str
     def __new__(
-        cls, scene: dict[str, Any] | Path, base: Path, settings: list[str], sheet: Sheet | None
+        cls, scene: dict[str, Any] | Path, base: Path, settings: list[str], sheet: Sheet | None, arrays: dict[str, Floats]
     ) -> Assembly: ...
     def compute(
         self,
         studies: list[dict[str, Any]],
+        arrays: dict[str, Floats],
         earlier: Sequence[tuple[str, Answer]],
         threads: int | None,
         progress: Callback,

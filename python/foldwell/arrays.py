@@ -15,7 +15,7 @@ def vector(values: ArrayLike, name: str, length: int | tuple[int, ...]) -> NDArr
         TypeError: they are no real numbers.
         ValueError: there are too many or too few of them, or one is not finite.
     """
-    found = _numbers(values, name)
+    found = numbers(values, name)
     lengths = (length,) if isinstance(length, int) else length
     if found.ndim != 1 or found.shape[0] not in lengths:
         expected = " or ".join(f"({n},)" for n in dict.fromkeys(lengths))
@@ -32,7 +32,7 @@ def matrix(values: ArrayLike, name: str, columns: tuple[int, ...], rows: int | N
         TypeError: they are no real numbers.
         ValueError: the shape is wrong, or a number is not finite.
     """
-    found = _numbers(values, name)
+    found = numbers(values, name)
     if found.ndim != 2 or found.shape[1] not in columns or (rows is not None and found.shape[0] != rows):
         expected = " or ".join(f"({'n' if rows is None else rows}, {width})" for width in columns)
         raise ValueError(f"{name} has shape {found.shape}, expected {expected}")
@@ -42,8 +42,16 @@ def matrix(values: ArrayLike, name: str, columns: tuple[int, ...], rows: int | N
     return found
 
 
-def _numbers(values: ArrayLike, name: str) -> NDArray[np.float64]:
+def numbers(values: ArrayLike, name: str, dimensions: int | None = None) -> NDArray[np.float64]:
+    """Returns `values` as a contiguous array of doubles.
+
+    Raises:
+        TypeError: they are no real numbers.
+        ValueError: the array has another number of dimensions.
+    """
     given = np.asarray(values)
     if given.dtype.kind not in "fiub":
         raise TypeError(f"{name} has numbers of type {given.dtype}, expected real numbers")
+    if dimensions not in (None, given.ndim):
+        raise ValueError(f"{name} has shape {given.shape}, expected an array of {dimensions} dimension")
     return np.ascontiguousarray(given, dtype=np.float64)

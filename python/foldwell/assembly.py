@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import vector
+from .arrays import matrix, numbers, vector
 from .sheet import Sheet
 from .state import State
 
@@ -31,6 +30,9 @@ Table = Mapping[str, Any]
 Stiffness = float | str | Table | NDArray[Any]
 Rest = float | str | Table | NDArray[Any]
 EdgeName = Sequence[int]
+
+#: Arguments that may be arrays with a number for each edge.
+PER_EDGE = ("bars", "rest_lengths", "creases", "rest", "facets", "facet_rest")
 
 
 class Assembly:
@@ -63,7 +65,8 @@ class Assembly:
             locks: Creases that keep their angle: a dict from names `(i, j, n1, n2)` to angles in radians (None: the drawn one),
                 or names alone.
             pins: Vertices that are held, each a dict as `[[pin]]`: `{"vertex": 3, "cell": (0, 0), "axes": "xyz"}`.
-            loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`.
+            loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`; or an array with
+                a force for each vertex, cell by cell, shape (n, 3).
             parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
             springs: Springs between two vertices, each a dict as `[[spring]]`: `{"vertices": [3, (7, 0, 1)], "stiffness": 2.0}`.
             drives: Quantities that `path` drives, each a dict as `[[drive]]`.
@@ -142,16 +145,15 @@ class Assembly:
             SceneError: the scene is wrong.
         """
         given = dict(scene) if isinstance(scene, Mapping) else Path(scene)
-        return cls(_foldwell.Assembly(given, Path(base), settings(set), None))
+        return cls(_foldwell.Assembly(given, Path(base), settings(set), None, {}))
 
     @classmethod
     def _build(cls, sheet: Sheet, place: Table, terms: dict[str, Any]) -> Assembly:
         if not isinstance(sheet, Sheet):
             raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
-        scene: dict[str, Any] = {"sheet": {"mesh": sheet.title or "sheet", **place}}
-        with tempfile.TemporaryDirectory() as folder:
-            scene.update(_terms(terms, _Tables(sheet, place, Path(folder))))
-            return cls(_foldwell.Assembly(scene, Path(), [], sheet._inner))
+        scene, arrays = _terms(terms)
+        scene["sheet"] = {"mesh": sheet.title or "sheet", **place}
+        return cls(_foldwell.Assembly(scene, Path(), [], sheet._inner, arrays))
 
     @property
     def sheet(self) -> Sheet:
@@ -282,55 +284,8 @@ class Assembly:
         return f"<foldwell.Assembly of {self.sheet.title!r}: {self.cells[0]} x {self.cells[1]} cells>"
 
 
-class _Tables:
-    """Arrays as the tables that a scene names."""
-
-    def __init__(self, sheet: Sheet, place: Table, folder: Path) -> None:
-        self._sheet = sheet
-        self._place = place
-        self._folder = folder
-
-    @cached_property
-    def _bare(self) -> _foldwell.Assembly:
-        return _foldwell.Assembly({"sheet": {"mesh": "sheet", **self._place}}, Path(), [], self._sheet._inner)
-
-    def value(self, given: Any, term: str, name: str, column: str) -> Any:
-        """Returns a value of a scene: an array as a table in a file, everything else as it is."""
-        if not isinstance(given, np.ndarray) or given.ndim == 0:
-            return given
-        if given.dtype.kind not in "fiu":
-            raise TypeError(f"{name} has numbers of type {given.dtype}, expected real numbers")
-        of_cell = given.shape == self._sheet.kinds.shape
-        edges = self._sheet.edges if of_cell else self._bare.edges
-        kinds = self._sheet.kinds if of_cell else np.array(self._bare.kinds)
-        here = np.full(len(kinds), True) if term == "bars" else kinds == term.removesuffix("s")
-        rigid = column == "stiffness" and given.dtype.kind == "f"
-        wanted = given if given.shape != here.shape else np.where(here, given, 0.0)
-        vector(np.where(np.isposinf(wanted), 1.0, wanted) if rigid else wanted, name, (len(self._sheet.kinds), len(edges)))
-        rows = [
-            ",".join(map(str, [*edge, repr(value)]))
-            for edge, value in zip(edges[here].tolist(), given[here].tolist(), strict=True)
-        ]
-        header = "i,j,n1,n2" if of_cell else "cell1,cell2,i,j,n1,n2"
-        path = self._folder / f"{name}.csv"
-        path.write_text("\n".join([f"{header},{column}", *rows]) + "\n")
-        return {"file": path}
-
-    def refuse_rigid_facets(self, rest: NDArray[Any]) -> None:
-        """Refuses an array of rest angles of creases that has one at a facet, where facets are rigid."""
-        of_cell = rest.shape == self._sheet.kinds.shape
-        edges, kinds = (self._sheet.edges, self._sheet.kinds) if of_cell else (self._bare.edges, np.array(self._bare.kinds))
-        given = (kinds == "facet") & ~np.isnan(rest) & (rest != 0.0)
-        if given.any():
-            k = int(np.flatnonzero(given)[0])
-            edge = tuple(map(int, edges[k]))
-            raise ValueError(
-                f"rest[{k}] is {float(rest[k])!r}, but edge {edge} is a facet, which is rigid; give 0 or nan there, or `facets` a stiffness"
-            )
-
-
-def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
-    """Returns the tables of a scene for the keyword arguments of `Assembly.patch`."""
+def _terms(terms: dict[str, Any]) -> tuple[dict[str, Any], dict[str, NDArray[np.float64]]]:
+    """Returns the tables of a scene for the keyword arguments of `Assembly.patch`, and the arrays that they name as files."""
     known = {
         *("bars", "rest_lengths", "creases", "rest", "fraction", "facets", "facet_rest"),
         *("locks", "pins", "loads", "parts", "springs", "drives", "mass", "laws"),
@@ -338,20 +293,16 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
     if unknown := terms.keys() - known:
         raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(known))}")
     given = {name: value for name, value in terms.items() if value is not None}
-    stiffness = {name: tables.value(given.get(name), name, name, "stiffness") for name in ("bars", "creases", "facets")}
-    energy: dict[str, dict[str, Any]] = {k: {"stiffness": v} for k, v in stiffness.items() if v is not None}
-    for term, name, column in [
-        ("bars", "rest_lengths", "length"),
-        ("creases", "rest", "angle"),
-        ("facets", "facet_rest", "angle"),
-    ]:
+    arrays = {name: numbers(given[name], name, 1) for name in PER_EDGE if isinstance(given.get(name), np.ndarray) and given[name].ndim}
+    given |= {name: {"file": name} for name in arrays}
+    if isinstance(given.get("loads"), np.ndarray):
+        arrays["loads"] = matrix(given.pop("loads"), "loads", (3,)).ravel()
+    energy: dict[str, dict[str, Any]] = {k: {"stiffness": given[k]} for k in ("bars", "creases", "facets") if k in given}
+    for term, name in [("bars", "rest_lengths"), ("creases", "rest"), ("facets", "facet_rest")]:
         if name in given:
             if term not in energy:
                 raise TypeError(f"{name} is given without {term}")
-            energy[term]["rest"] = tables.value(given[name], term, name, column)
-    rest, facets = given.get("rest"), given.get("facets", math.inf)
-    if isinstance(rest, np.ndarray) and rest.ndim > 0 and isinstance(facets, float) and math.isinf(facets):
-        tables.refuse_rigid_facets(rest)
+            energy[term]["rest"] = given[name]
     for term, law in given.get("laws", {}).items():
         if term not in energy:
             raise TypeError(f"a law of {term} is given without their stiffness")
@@ -360,7 +311,7 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
         energy.setdefault("creases", {})["fraction"] = given["fraction"]
     scene: dict[str, Any] = {"energy": energy, "mass": given.get("mass"), "lock": _locks(given.get("locks", ()))}
     scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "spring", "drive")}
-    return {name: value for name, value in scene.items() if value}
+    return {name: value for name, value in scene.items() if value}, arrays
 
 
 def _locks(locks: Mapping[Any, Any] | Iterable[EdgeName]) -> list[dict[str, Any]]:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _foldwell
-from .arrays import vector
+from .arrays import numbers
 from .assembly import Assembly
 from .errors import DidNotConverge
 from .progress import Progress, listener
@@ -144,22 +142,11 @@ def landscape(
         map: Energies in all directions: `{"amplitude": a, "rings": n}`.
         **common: As for every study, see `compute`.
     """
-    with TemporaryDirectory() as folder:
-        given = [_mode(mode, assembly, Path(folder) / f"mode-{k}.csv") for k, mode in enumerate(modes)]
-        keys = {"modes": given, "amplitudes": np.asarray(amplitudes, dtype=float), "map": map}
-        return compute(assembly, "landscape", keys, **common)
-
-
-def _mode(mode: Mode, assembly: Assembly, path: Path) -> Any:
-    """Returns a mode of a scene; rates of edges are written to a file."""
-    if isinstance(mode, Mapping) or len(mode) == 3:
-        return mode
-    edges = assembly.sheet.edges
-    rates = vector(mode, "mode", len(edges))
-    folds = assembly.sheet.kinds != "boundary"
-    rows = [",".join(map(str, [*edge, repr(rate)])) for edge, rate in zip(edges[folds].tolist(), rates[folds].tolist(), strict=True)]
-    path.write_text("\n".join(["i,j,n1,n2,rate", *rows]) + "\n")
-    return {"rates": path}
+    given = {f"modes[{k}]": mode for k, mode in enumerate(modes)}
+    rates = {name: numbers(mode, name, 1) for name, mode in given.items() if not isinstance(mode, Mapping) and len(mode) != 3}
+    named = [{"rates": name} if name in rates else mode for name, mode in given.items()]
+    keys = {"modes": named, "amplitudes": np.asarray(amplitudes, dtype=float), "map": map}
+    return compute(assembly, "landscape", keys, arrays=rates, **common)
 
 
 def bloch(
@@ -261,6 +248,7 @@ def compute(
     kind: str,
     keys: Mapping[str, Any],
     *,
+    arrays: Mapping[str, NDArray[np.float64]] | None = None,
     start: Start = None,
     name: str | None = None,
     draw: Sequence[str] = ("vtk",),
@@ -275,6 +263,7 @@ def compute(
         assembly: The sheet with its boundary conditions and terms.
         kind: Kind of the study.
         keys: Its keys; those with the value None are left out.
+        arrays: Arrays with a number for each edge, by the names that keys have for them where a scene names files.
         start: The state where it starts, for kinds that have one.
         name: Name of the study; left out: its kind.
         draw: What is kept to be drawn: "vtk" for states and maps, "svg" for a drawing, "html" for a page.
@@ -304,7 +293,7 @@ def compute(
     names = [(str(before["name"]), answer) for before, answer in earlier]
     with listener(progress) as callback:
         tables = [dict(before) for before, _ in earlier] + [study]
-        _, answers, _ = assembly._inner.compute(tables, names, threads, callback)
+        _, answers, _ = assembly._inner.compute(tables, dict(arrays or {}), names, threads, callback)
     result = Result(answers[0], study)
     if must_converge and not result.converged:
         raise DidNotConverge(f"{result.name}: {result.summary.get('reason', 'no answer')}", result)

@@ -1,15 +1,27 @@
 //! Vectors of the library as arrays of NumPy.
 
 use foldwell::math::Vec3;
+use foldwell::scene::Arrays;
 use numpy::ndarray::{ArrayView1, ArrayView2};
-use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::PyClass;
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Array of one dimension.
 pub(crate) type Array1<'py, T> = Bound<'py, PyArray1<T>>;
 /// Array of two dimensions.
 pub(crate) type Array2<'py, T> = Bound<'py, PyArray2<T>>;
+
+/// Array of one dimension that a caller gives.
+pub(crate) type Given1<'py> = PyReadonlyArray1<'py, f64>;
+
+/// Returns given arrays as those of a scene.
+pub(crate) fn shared(arrays: BTreeMap<PathBuf, Given1<'_>>) -> PyResult<Arrays> {
+    let copied = |(name, array): (PathBuf, Given1<'_>)| Ok((name, array.as_slice()?.to_vec()));
+    arrays.into_iter().map(copied).collect::<PyResult<BTreeMap<_, _>>>().map(Into::into)
+}
 
 /// Returns numbers that `owner` contains as an array that cannot be written, without copying them. The array keeps the owner
 /// alive.

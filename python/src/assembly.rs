@@ -1,7 +1,7 @@
 //! Assemblies: sheets with boundary conditions and terms, and the studies of them.
 
 use crate::answer::{Answer, answers};
-use crate::arrays::{Array2, rows};
+use crate::arrays::{Array2, Given1, rows, shared};
 use crate::errors::{raise, refused};
 use crate::forms::Forms;
 use crate::run::Given;
@@ -10,10 +10,11 @@ use crate::values::{table, text};
 use crate::watch::watched;
 use foldwell::model::Boundary;
 use foldwell::run::{self, RunError};
-use foldwell::scene::{build, parse};
+use foldwell::scene::{Arrays, SceneFile, build, parse};
 use foldwell::study::PreviousAnswers;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::{Table, Value};
 
@@ -25,6 +26,23 @@ pub(crate) struct Assembly {
     scene: Table,
     /// The path of the scene, to which paths in it are relative.
     path: PathBuf,
+    /// The arrays that the scene names.
+    arrays: Arrays,
+}
+
+impl Assembly {
+    /// Builds the assembly of a scene, of which `sheet`, if there is one, replaces the mesh.
+    fn of(py: Python<'_>, file: SceneFile, arrays: Arrays, sheet: Option<&Bound<'_, Sheet>>) -> PyResult<Self> {
+        let sheet = sheet.map(|sheet| sheet.get().sheet.clone());
+        let mut scene: Table = file.text().parse().unwrap_or_default(); // it was read before
+        scene.retain(|key, _| key != "study" && key != "sweep");
+        let (path, file) = (file.path().to_owned(), file.with_arrays(arrays.clone()));
+        let built = watched(py, None, move |_| match sheet {
+            Some(sheet) => build::assembly_of(&file, sheet),
+            None => build::assembly(&file),
+        })?;
+        Ok(Self { assembly: built.map_err(|error| raise(py, &error.into()))?, scene, path, arrays })
+    }
 }
 
 /// Whether the coordinates of a state of one assembly are those of a state of the other: the same vertices, joined in
@@ -41,7 +59,7 @@ fn has_same_coordinates(one: &foldwell::Assembly, other: &foldwell::Assembly) ->
 
 #[pymethods]
 impl Assembly {
-    /// Builds the assembly of a scene; `sheet` replaces its mesh.
+    /// Builds the assembly of a scene with some arrays in the place of tables; `sheet` replaces its mesh.
     #[new]
     fn new(
         py: Python<'_>,
@@ -49,25 +67,19 @@ impl Assembly {
         base: PathBuf,
         settings: Vec<String>,
         sheet: Option<&Bound<'_, Sheet>>,
+        arrays: BTreeMap<PathBuf, Given1<'_>>,
     ) -> PyResult<Self> {
-        let file = scene.read(py, &base, &settings)?;
-        let sheet = sheet.map(|sheet| sheet.get().sheet.clone());
-        let mut scene: Table = file.text().parse().unwrap_or_default(); // it was read above
-        scene.retain(|key, _| key != "study" && key != "sweep");
-        let path = file.path().to_owned();
-        let built = watched(py, None, move |_| match sheet {
-            Some(sheet) => build::assembly_of(&file, sheet),
-            None => build::assembly(&file),
-        })?;
-        Ok(Self { assembly: built.map_err(|error| raise(py, &error.into()))?, scene, path })
+        Self::of(py, scene.read(py, &base, &settings)?, shared(arrays)?, sheet)
     }
 
-    /// Computes studies, given as the tables of a scene. `earlier` are answers from which they start, by the names of their studies,
-    /// which are among `studies` too. Returns the summary as JSON, the answers, and whether the run was interrupted.
+    /// Computes studies, given as the tables of a scene, with arrays in the place of files that they name. `earlier` are answers from
+    /// which they start, by the names of their studies, which are among `studies` too. Returns the summary as JSON, the answers, and
+    /// whether the run was interrupted.
     fn compute(
         &self,
         py: Python<'_>,
         studies: Vec<Bound<'_, PyDict>>,
+        arrays: BTreeMap<PathBuf, Given1<'_>>,
         earlier: Vec<(String, Py<Answer>)>,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
@@ -76,6 +88,7 @@ impl Assembly {
         let mut scene = self.scene.clone();
         scene.insert("study".to_owned(), Value::Array(studies));
         let file = parse(&text(&scene)?, &self.path).map_err(|error| raise(py, &error.into()))?;
+        let file = file.with_arrays(shared(arrays)?);
         if earlier.iter().any(|(_, answer)| !has_same_coordinates(&answer.get().assembly, &self.assembly)) {
             let help = "vertices, edges, cells and boundary conditions are the same; stiffnesses and rest angles may be others";
             return Err(refused(py, "the start is a state of another assembly".to_owned(), help));
@@ -120,11 +133,5 @@ impl Assembly {
     #[getter]
     fn cells(&self) -> [usize; 2] {
         self.assembly.tiling().cells
-    }
-
-    /// The scene of the assembly, without studies, as text.
-    #[getter]
-    fn scene(&self) -> PyResult<String> {
-        text(&self.scene)
     }
 }

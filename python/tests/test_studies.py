@@ -94,10 +94,43 @@ def test_arrays_are_the_tables_of_a_scene(miura):
     assert lengths.energy(x) == pytest.approx(0.0, abs=1e-24)
 
 
+def test_loads_of_all_vertices_are_an_array(miura):
+    """Forces as an array are the same loads as those that are named one by one, and do the same work."""
+    force = np.zeros((16, 3))
+    force[7], force[15] = (0.0, 0.1, -0.2), (0.3, 0.0, 0.0)
+    terms = {"bars": 1e2, "creases": 1.0, "pins": [{"vertex": k} for k in range(3)]}
+    named = [{"vertex": 3, "cell": (1, 0), "force": force[7]}, {"vertex": 3, "cell": (1, 1), "force": force[15]}]
+    array, one_by_one = (fw.Assembly.patch(miura, (2, 2), loads=loads, **terms) for loads in (force, named))
+    x = array.start + 1e-2
+    assert array.energy(x) == one_by_one.energy(x) != fw.Assembly.patch(miura, (2, 2), **terms).energy(x)
+    assert np.array_equal(fw.relax(array).state.positions, fw.relax(one_by_one).state.positions)
+    for wrong, words in [(force[1:], r"loads has shape \(15, 3\), expected \(16, 3\)"), (force[:, 1:], r"\(16, 2\), expected \(n, 3\)")]:
+        with pytest.raises(ValueError, match=words):
+            fw.Assembly.patch(miura, (2, 2), loads=wrong, **terms)
+    with pytest.raises(fw.SceneError, match="vertices of a patch"):
+        fw.Assembly.torus(miura, (2, 2), bars=1.0, loads=force)
+    with pytest.raises(fw.SceneError, match="balance"):
+        fw.Assembly.patch(miura, (2, 2), bars=1.0, loads=force)
+
+
+def test_arrays_are_not_written_anywhere(miura, monkeypatch):
+    """Arrays come to the same assembly without a file: there is no folder for temporary ones, and a mode is an array too."""
+    monkeypatch.setattr("tempfile.tempdir", "/no/such/folder")
+    monkeypatch.setenv("TMPDIR", "/no/such/folder")
+    ones = np.ones(len(miura.edges))
+    assembly = fw.Assembly.patch(miura, (2, 2), bars=1e3 * ones, creases=ones, facets=ones, rest=0.25 * ones, facet_rest=0 * ones)
+    rates = np.where(miura.kinds == "crease", 1.0, np.nan)  # only creases have to have one
+    with pytest.raises(fw.SceneError, match=r"modes\[0\] has shape \(11,\), expected \(12,\)"):
+        fw.landscape(assembly, [rates[:-1]], [0.1])
+    with pytest.raises(fw.SceneError, match=r"modes\[0\]\[\d+\]: `NaN` in column `rate`"):
+        fw.landscape(assembly, [np.full(len(rates), np.nan)], [0.1])
+    assert fw.relax(assembly).converged
+
+
 def test_rest_angles_of_rigid_facets(miura):
     """A rest angle at a facet is refused by its place where facets are rigid, and 0, nan or an angle of a soft facet is not."""
     facet = int(np.flatnonzero(miura.kinds == "facet")[0])
-    edge = tuple(map(int, miura.edges[facet]))
+    edge = list(map(int, miura.edges[facet]))
     for angle, facets, wrong in [(0.0, None, False), (np.nan, None, False), (0.1, 5.0, False), (0.1, None, True), (0.1, fw.RIGID, True)]:
         rest = np.full(len(miura.edges), 0.25)
         rest[miura.kinds == "facet"] = 0.0
@@ -116,10 +149,12 @@ def test_rest_angles_of_rigid_facets(miura):
         ({"bars": 1.0, "rest": "flat"}, TypeError, "rest is given without creases"),
         ({"bars": np.ones(5)}, ValueError, r"bars has shape \(5,\), expected \(12,\) or"),
         ({"bars": np.ones((12, 2))}, ValueError, r"bars has shape \(12, 2\)"),
-        ({"creases": np.full(12, np.nan)}, ValueError, r"creases\[0\] is not finite"),
-        ({"creases": 1.0, "rest": np.full(12, np.inf)}, ValueError, r"rest\[0\] is not finite"),
+        ({"creases": np.full(12, np.nan)}, ValueError, r"creases\[0\]: `NaN` in column `stiffness`"),
+        ({"creases": 1.0, "rest": np.full(12, np.inf)}, ValueError, r"rest\[0\]: `inf` in column `angle` is not a finite"),
+        ({"creases": 1.0, "rest": np.full(12, 40.0)}, ValueError, r"rest\[0\]: the angle 40 is more than a whole turn"),
+        ({"bars": 1.0, "rest_lengths": np.zeros(12)}, ValueError, r"rest_lengths\[0\]: `0` in column `length`"),
         ({"bars": np.array(["a"] * 12)}, TypeError, "expected real numbers"),
-        ({"bars": np.full(12, -2.0)}, fw.SceneError, "-2"),
+        ({"bars": np.full(12, -2.0)}, fw.SceneError, r"bars\[0\]: `-2` in column `stiffness` is not a positive number"),
         ({"bar": 1.0}, TypeError, "unknown argument 'bar'"),
         ({"bars": object()}, TypeError, "a object is no value of a scene"),
         ({"creases": 1.0, "locks": {(0, 9, 0, 0): 1.0}}, fw.SceneError, r"no crease \[0, 9, 0, 0\]"),

@@ -5,7 +5,7 @@ use super::forms::{Mode, RatesFile};
 use super::mass::mass;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
-use super::rows::{self, Column};
+use super::rows::Column;
 use super::spec::{BarLawSpec, DomainSpec, HingeLawSpec, Lattice};
 use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives};
@@ -232,7 +232,11 @@ impl<'a> Reader<'a> {
             RestSpec::Flat => Ok(vec![0.0; self.angles.len()]),
             RestSpec::Angle(angle) => Ok(vec![angle.radians; self.angles.len()]),
             RestSpec::Mode(mode) => self.along_mode(mode, of, rigid_facets),
-            RestSpec::File(name) => self.values.file_values(name, Column::Angle, of),
+            RestSpec::File(name) => {
+                let angles = self.values.file_values(name, Column::Angle, of)?;
+                let rigid = if of == ElementKind::Creases { rigid_facets } else { &[] };
+                self.values.flat_at(rigid, &name.file).map(|()| angles)
+            }
         }
     }
 
@@ -281,8 +285,7 @@ impl<'a> Reader<'a> {
 
     /// Returns the rates of a table: every hinge of the first term has one, and hinges of the second may have one.
     fn rates(&self, name: &RatesFile, of: (ElementKind, ElementKind)) -> Result<Vec<f64>, SceneError> {
-        let path = self.file.resolve(&name.rates);
-        self.values.table(&path, &rows::read(&path, Column::Rate)?, of, name.rates.span())
+        self.values.named_values(&name.rates, Column::Rate, of)
     }
 
     fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {
@@ -329,7 +332,7 @@ impl<'a> Reader<'a> {
     fn balance(&self, assembly: &Assembly) -> Result<(), SceneError> {
         let driven = drives::supported(self.file, assembly)?;
         let Some((axis, force)) = assembly.terms().unbalanced_axis_beside(&driven) else { return Ok(()) };
-        let span = self.file.scene.loads[0].force.span();
+        let span = self.file.scene.loads.first().map_or(0..0, |load| load.force.span());
         let message = AssemblyError::Unbalanced { axis, force }.to_string();
         let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
                     still turns as a whole, until its loads pull straight";

@@ -10,7 +10,7 @@ use crate::sheet::angle::Angle;
 use crate::sheet::{Assignment, EdgeKey, EdgeKind, Sheet, Tiling};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The elements of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,8 +113,67 @@ impl<'a> ElementValues<'a> {
 
     /// Returns the values that a file gives the elements of a term, one for each edge of the tiling.
     pub(super) fn file_values(&self, name: &FileName, column: Column, of: ElementKind) -> Result<Vec<f64>, SceneError> {
-        let path = self.file.resolve(&name.file);
-        self.table(&path, &rows::read(&path, column)?, (of, of), name.file.span())
+        self.named_values(&name.file, column, (of, of))
+    }
+
+    /// Returns the values of the array or the file of this name; as [`table`](Self::table).
+    pub(super) fn named_values(
+        &self,
+        name: &Located<PathBuf>,
+        column: Column,
+        of: (ElementKind, ElementKind),
+    ) -> Result<Vec<f64>, SceneError> {
+        if let Some(array) = self.file.array(name) {
+            return self.array(array, name, column, of);
+        }
+        let path = self.file.resolve(name);
+        self.table(&path, &rows::read(&path, column)?, of, name.span())
+    }
+
+    /// Returns the values of an array on the edges of the tiling; NaN where no element is. Every element of the first term must have a
+    /// value, elements of the second may.
+    fn array(
+        &self,
+        array: &[f64],
+        name: &Located<PathBuf>,
+        column: Column,
+        (needed, also): (ElementKind, ElementKind),
+    ) -> Result<Vec<f64>, SceneError> {
+        let refused = |message, help: &str| Err(self.file.error_at(name.span(), message, help));
+        let (shown, cell, tiling) = (name.display(), self.sheet.edges.len(), self.tiling.edges.len());
+        if ![cell, tiling].contains(&array.len()) {
+            let message = format!("{shown} has shape ({},), expected ({cell},) or ({tiling},)", array.len());
+            return refused(message, "give one number for each edge of the cell, or of the model");
+        }
+        let of_cell = array.len() == cell;
+        let kind = |k: usize| if of_cell { self.sheet.edges[k].kind } else { self.tiling.edges[k].kind };
+        let mut values = vec![f64::NAN; array.len()];
+        for (k, &number) in array.iter().enumerate() {
+            if needed.is_at(kind(k)) || (also.is_at(kind(k)) && !number.is_nan()) {
+                match column.checked(number, number) {
+                    Ok(number) => values[k] = number,
+                    Err(fault) => {
+                        return refused(format!("{shown}[{k}]: {fault}"), "numbers of other edges are not read");
+                    }
+                }
+            }
+        }
+        Ok(if of_cell { self.tiling.edges.iter().map(|tiled| values[tiled.edge]).collect() } else { values })
+    }
+
+    /// Checks that no array of rest angles of creases, if that is what has this name, has an angle at one of these edges of the cell, which
+    /// are diagonals of rigid polygons.
+    pub(super) fn flat_at(&self, rigid: &[usize], name: &Located<PathBuf>) -> Result<(), SceneError> {
+        let Some(array) = self.file.array(name) else { return Ok(()) };
+        let cell = self.sheet.edges.len();
+        let mut is_rigid = vec![false; cell];
+        rigid.iter().for_each(|&edge| is_rigid[edge] = true);
+        let of_cell = |k: usize| if array.len() == cell { k } else { self.tiling.edges[k].edge };
+        let folded = |&k: &usize| is_rigid[of_cell(k)] && !array[k].is_nan() && array[k] != 0.0;
+        let Some(k) = (0..array.len()).find(folded) else { return Ok(()) };
+        let edge = self::name(self.sheet.edges[of_cell(k)].key);
+        let message = format!("{}[{k}] is {:?}, but edge {edge} is a facet, which is rigid", name.display(), array[k]);
+        Err(self.file.error_at(name.span(), message, "give 0 or nan there, or `facets` a stiffness"))
     }
 
     /// Returns the values of a table on the edges of the tiling; NaN where it has none. Every element of the first term

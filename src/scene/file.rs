@@ -1,5 +1,6 @@
 //! The types of a scene read from its text, which is kept for messages.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,6 +15,10 @@ use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::setting::{Setting, apply};
 use super::spec::Scene;
 
+/// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the cell, or of the tiling;
+/// and `loads`, three for each vertex of a patch.
+pub type Arrays = Arc<BTreeMap<PathBuf, Vec<f64>>>;
+
 /// A scene with the text from which it was read.
 #[derive(Clone, Debug)]
 pub struct SceneFile {
@@ -22,6 +27,7 @@ pub struct SceneFile {
     path: PathBuf,
     text: Arc<NamedSource<String>>,
     settings: Vec<String>,
+    arrays: Arrays,
 }
 
 impl SceneFile {
@@ -36,7 +42,8 @@ impl SceneFile {
         }
         let source = Arc::new(NamedSource::new(name, text).with_language("TOML"));
         let settings = settings.iter().map(Setting::to_string).collect();
-        Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source, settings })
+        let scene = deserialize(&source)?;
+        Ok(Self { scene, path: path.to_path_buf(), text: source, settings, arrays: Arrays::default() })
     }
 
     /// Reads another text in the place of this one, in which some more keys are set, without checking it.
@@ -44,6 +51,17 @@ impl SceneFile {
         let mut file = Self::unchecked(text, &self.path, settings)?;
         file.settings.splice(0..0, self.settings.iter().cloned());
         Ok(file)
+    }
+
+    /// Returns the same scene, in which a table of edges that has the name of an array is this array and no file.
+    #[must_use]
+    pub fn with_arrays(self, arrays: Arrays) -> Self {
+        Self { arrays, ..self }
+    }
+
+    /// Returns the array of this name.
+    pub(super) fn array(&self, name: &Path) -> Option<&[f64]> {
+        self.arrays.get(name).map(Vec::as_slice)
     }
 
     /// Returns the keys that were set in the text, each as `key=value`.

@@ -32,7 +32,7 @@ mod written;
 
 pub(crate) use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;
-pub use file::SceneFile;
+pub use file::{Arrays, SceneFile};
 pub use located::Located;
 pub use parse::{parse, parse_set, read, read_set};
 pub use schema::schema;

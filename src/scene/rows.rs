@@ -4,6 +4,7 @@
 //! patch; the last column is `angle`, `rate`, `stiffness` or `length`. Angles are in radians, a stiffness may be `inf`.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 use std::path::Path;
 
 use super::error::{SceneError, TableFault};
@@ -24,15 +25,34 @@ pub(crate) enum Column {
 }
 
 impl Column {
-    /// Returns the names of all columns of a table.
-    fn names(self) -> [&'static str; 7] {
-        let last = match self {
+    /// Returns the name of the last column.
+    fn name(self) -> &'static str {
+        match self {
             Self::Angle => "angle",
             Self::Rate => "rate",
             Self::Stiffness => "stiffness",
             Self::Length => "length",
-        };
-        ["cell1", "cell2", "i", "j", "n1", "n2", last]
+        }
+    }
+
+    /// Returns the names of all columns of a table.
+    fn names(self) -> [&'static str; 7] {
+        ["cell1", "cell2", "i", "j", "n1", "n2", self.name()]
+    }
+
+    /// Returns a number, if the column allows it. `field` is the number as it was given.
+    pub(super) fn checked(self, number: f64, field: impl Display) -> Result<f64, TableFault> {
+        let (field, column) = (|| field.to_string(), self.name());
+        match self {
+            Self::Angle | Self::Rate if !number.is_finite() => Err(TableFault::Number { field: field(), column }),
+            Self::Angle => match super::turns::fault_of_turns(number) {
+                Some([message, help]) => Err(TableFault::Turns { message, help }),
+                None => Ok(number),
+            },
+            Self::Stiffness if !(number > 0.0) => Err(TableFault::Stiffness { field: field(), column }),
+            Self::Length if !(number > 0.0 && number.is_finite()) => Err(TableFault::Length { field: field(), column }),
+            Self::Rate | Self::Stiffness | Self::Length => Ok(number),
+        }
     }
 }
 
@@ -88,7 +108,7 @@ fn columns<'a>(header: &str, all: &'a [&'static str; 7]) -> Option<&'a [&'static
 
 fn row(text: &str, (columns, value): (&[&'static str], Column), line: usize) -> Result<TableRow, TableFault> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let (Some((last, names)), [numbers @ .., number]) = (columns.split_last(), fields.as_slice()) else {
+    let (Some((_, names)), [numbers @ .., number]) = (columns.split_last(), fields.as_slice()) else {
         return Err(TableFault::Fields { found: fields.len(), expected: columns.len() });
     };
     if fields.len() != columns.len() {
@@ -96,7 +116,7 @@ fn row(text: &str, (columns, value): (&[&'static str], Column), line: usize) -> 
     }
     let whole: Vec<i64> =
         names.iter().zip(numbers).map(|(column, field)| integer(field, column)).collect::<Result<_, _>>()?;
-    let value = checked(number, last, value)?;
+    let value = checked(number, value)?;
     let (cell, name) = match whole[..] {
         [c1, c2, i, j, n1, n2] => (Some([c1, c2]), [i, j, n1, n2]),
         [i, j, n1, n2] => (None, [i, j, n1, n2]),
@@ -112,27 +132,11 @@ fn integer(field: &str, column: &'static str) -> Result<i64, TableFault> {
 }
 
 /// Returns the number of a field, if the column allows it.
-fn checked(field: &str, column: &'static str, of: Column) -> Result<f64, TableFault> {
-    let number = field.parse::<f64>().ok();
-    match of {
-        Column::Angle | Column::Rate => {
-            let number = number.filter(|x| x.is_finite());
-            let number = number.ok_or_else(|| TableFault::Number { field: field.into(), column })?;
-            match super::turns::fault_of_turns(number).filter(|_| of == Column::Angle) {
-                Some([message, help]) => Err(TableFault::Turns { message, help }),
-                None => Ok(number),
-            }
-        }
-        Column::Stiffness => {
-            // a number too large for a double is not meant to be rigid
-            let known = number.filter(|k| *k > 0.0 && (k.is_finite() || !field.contains(|c: char| c.is_ascii_digit())));
-            known.ok_or_else(|| TableFault::Stiffness { field: field.into(), column })
-        }
-        Column::Length => {
-            let length = number.filter(|length| *length > 0.0 && length.is_finite());
-            length.ok_or_else(|| TableFault::Length { field: field.into(), column })
-        }
-    }
+fn checked(field: &str, of: Column) -> Result<f64, TableFault> {
+    let number = field.parse().unwrap_or(f64::NAN);
+    // a number too large for a double is not meant to be rigid
+    let overflows = number == f64::INFINITY && field.contains(|c: char| c.is_ascii_digit());
+    of.checked(if overflows { f64::NAN } else { number }, field)
 }
 
 /// Returns the cell in which the canonical name starts: if the row names the edge in the opposite direction, this is
