@@ -74,22 +74,18 @@ class Sheet:
             SheetError: the arrays draw no sheet; the message names the vertex, edge or face.
         """
         points = matrix(vertices, "vertices", (2, 3))
-        fold: dict[str, Any] = {
-            "file_spec": 1.2,
-            "file_title": title,
-            "vertices_coords": points.tolist(),
-            "faces_vertices": [[int(vertex) for vertex in face] for face in faces],
-        }
-        if lattice is not None:
-            fold["foldwell:lattice"] = matrix(lattice, "lattice", (2, 3), rows=2).tolist()
-        if edges is not None:
-            fold["edges_vertices"] = np.asarray(edges, dtype=np.int64).reshape(-1, 2).tolist()
-        if letters is not None:
-            fold["edges_assignment"] = [str(letter) for letter in letters]
-        if fold_angles is not None:
-            degrees = np.degrees(np.asarray(fold_angles, dtype=float)).tolist()
-            fold["edges_foldAngle"] = [None if np.isnan(angle) else angle for angle in degrees]
-        return cls(_foldwell.Sheet.parse(json.dumps(fold), "arrays", None))
+        vectors = None if lattice is None else matrix(lattice, "lattice", (2, 3), rows=2)
+        ends = [] if edges is None else np.asarray(edges, dtype=np.int64).reshape(-1, 2).tolist()
+        words = [] if letters is None else [str(letter) for letter in letters]
+        angles = [] if fold_angles is None else np.asarray(fold_angles, dtype=float).tolist()
+        for name, values in (("letters", words), ("fold_angles", angles)):
+            if values and len(values) != len(ends):
+                raise ValueError(f"{name} has shape ({len(values)},), expected ({len(ends)},), one for each of `edges`")
+        corners = [[int(vertex) for vertex in face] for face in faces]
+        for name, lists in (("faces", corners), ("edges", ends)):
+            if (wrong := next((k for k, numbers in enumerate(lists) if min(numbers, default=0) < 0), None)) is not None:
+                raise ValueError(f"{name}[{wrong}] names vertex {min(lists[wrong])}, expected 0 or more")
+        return cls(_foldwell.Sheet.of_arrays(title, (points, corners, vectors), (ends, words, angles)))
 
     @property
     def title(self) -> str:

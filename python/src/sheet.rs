@@ -1,12 +1,15 @@
 //! Sheets: read, generated, written and looked at.
 
 use crate::arrays::{Array1, Array2, points, rows, vector};
-use crate::errors::{raise, raise_sheet};
+use crate::errors::{raise, raise_sheet, refused};
 use crate::values::table;
 use crate::watch::watched;
 use foldwell::kinematics::drawn_fold_angles;
-use foldwell::run;
+use foldwell::math::Vec3;
+use foldwell::run::{self, RunError};
+use foldwell::sheet::build::{self, Drawing};
 use foldwell::sheet::{Assignment, EdgeKey, EdgeKind, Info, fold, obj};
+use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -15,6 +18,15 @@ use std::path::PathBuf;
 #[pyclass(frozen, module = "foldwell._foldwell", subclass)]
 pub(crate) struct Sheet {
     pub sheet: foldwell::Sheet,
+}
+
+/// Given rows of numbers.
+type Rows<'py> = PyReadonlyArray2<'py, f64>;
+
+/// Returns the exception for a letter that FOLD does not have.
+fn no_letter(py: Python<'_>, letter: &str) -> PyErr {
+    let help = "letters are \"B\", \"M\", \"V\", \"F\", \"U\", \"C\" and \"J\"";
+    refused(py, format!("`{letter}` is no letter of an edge"), help)
 }
 
 #[pymethods]
@@ -34,6 +46,38 @@ impl Sheet {
             (false, frame) => fold::parse_frame(&text, &name, frame),
         })?;
         parsed.map(|sheet| Self { sheet }).map_err(|error| raise_sheet(py, error))
+    }
+
+    /// Makes a sheet from arrays: vertices in two or three columns, faces, lattice vectors, and edges with letters and fold angles, NaN
+    /// where there is none.
+    #[staticmethod]
+    fn of_arrays(
+        py: Python<'_>,
+        title: String,
+        shape: (Rows<'_>, Vec<Vec<usize>>, Option<Rows<'_>>),
+        listed: (Vec<[usize; 2]>, Vec<String>, Vec<f64>),
+    ) -> PyResult<Self> {
+        let ((vertices, faces, lattice), (edges, letters, fold_angles)) = (shape, listed);
+        let points = |array: &Rows<'_>| -> Vec<Vec3> {
+            let rows = array.as_array();
+            rows.rows().into_iter().map(|row| Vec3::from_fn(|axis, _| row.get(axis).copied().unwrap_or(0.0))).collect()
+        };
+        let letter = |letter: &String| Assignment::from_letter(letter).ok_or_else(|| no_letter(py, letter));
+        let letters = letters.iter().map(letter).collect::<PyResult<Vec<_>>>()?;
+        let angles = fold_angles.iter().map(|angle| Some(*angle).filter(|angle| !angle.is_nan()));
+        let drawn = Drawing {
+            title,
+            planar: vertices.as_array().ncols() == 2,
+            coords: points(&vertices),
+            faces,
+            lattice: lattice.and_then(|lattice| <[Vec3; 2]>::try_from(points(&lattice)).ok()),
+            assignments: edges.iter().copied().zip(letters).collect(),
+            fold_angles: edges.iter().copied().zip(angles).collect(),
+            ..Drawing::default()
+        };
+        let built = watched(py, None, move |_| build::build_arrays(&drawn, &edges))?;
+        let refused = |defect| raise(py, &RunError::NoSheet { path: "arrays".into(), defect });
+        built.map(|sheet| Self { sheet }).map_err(refused)
     }
 
     /// Generates a pattern from its table.

@@ -86,11 +86,46 @@ def test_mistakes_are_named(tmp_path):
         ([[0, 0], [1, 0], [1, 1]], [[0, 1, 7]], fw.SheetError, "7"),
         ([[0, 0], [1, 0], [1, 1]], [[0, 1, 1]], fw.SheetError, "face"),
         ([[0, 0], [1, 0], [1, 1]], [], fw.SheetError, "face"),
+        ([[0, 0], [1, 0], [1, 1]], [[0, 1, -1]], ValueError, r"faces\[0\] names vertex -1"),
     ],
 )
 def test_wrong_arrays_are_refused(vertices, faces, error, words):
     with pytest.raises(error, match=words):
         fw.Sheet.from_arrays(vertices, faces)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"edges": [[0, 7]]}, "edge 0 of the list names vertex 7"),
+        ({"edges": [[1, 1]]}, "edge 0"),
+        ({"edges": [[0, 2], [2, 0]]}, "edge 1"),
+        ({"edges": [[1, 3]]}, "side of no face"),
+        ({"edges": [[0, 2]], "letters": ["M", "V"]}, r"letters has shape \(2,\), expected \(1,\)"),
+        ({"edges": [[0, 2]], "fold_angles": []}, None),
+        ({"edges": [[0, 2]], "letters": ["X"]}, "`X` is no letter"),
+        ({"lattice": [[0, 0], [1, 0]]}, "lattice"),
+    ],
+)
+def test_wrong_edges_of_arrays_are_refused(more, words):
+    if words is None:
+        fw.Sheet.from_arrays(*SQUARE, **more)
+    else:
+        with pytest.raises(ValueError, match=words):
+            fw.Sheet.from_arrays(*SQUARE, **more)
+
+
+def test_sheets_of_arrays_are_those_of_files():
+    """Letters and angles of files, finite and periodic: the same sheet as the reader's, and letters of the other side turn the faces."""
+    for name in ("crane", "open-star", "near-cross", "drum", "degree-four"):
+        sheet = fw.Sheet.read(ROOT / f"meshes/{name}.fold")
+        fold = sheet.to_fold()
+        angles = [np.nan if angle is None else np.radians(angle) for angle in fold["edges_foldAngle"]]
+        given = {"edges": fold["edges_vertices"], "letters": fold["edges_assignment"], "fold_angles": angles, "title": sheet.title}
+        again = fw.Sheet.from_arrays(fold["vertices_coords"], fold["faces_vertices"], lattice=fold.get("foldwell:lattice"), **given)
+        for array in ("vertices", "edges", "letters", "kinds", "fold_angles"):
+            assert np.array_equal(getattr(again, array), getattr(sheet, array)), (name, array)
+        assert again.to_fold()["edges_foldAngle"] == pytest.approx(fold["edges_foldAngle"], abs=1e-12), name
 
 
 def test_the_cell_of_a_tube():

@@ -34,7 +34,7 @@ impl Assignment {
     ];
 
     /// Returns the assignment with this letter; `None` if FOLD has no such letter.
-    pub(crate) fn from_letter(letter: &str) -> Option<Self> {
+    pub fn from_letter(letter: &str) -> Option<Self> {
         Self::LETTERS.iter().find(|(_, known)| *known == letter).map(|(assignment, _)| *assignment)
     }
 

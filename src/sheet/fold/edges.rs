@@ -1,15 +1,12 @@
 //! Reads the list of edges of a FOLD file, with their fold angles and assignments.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use serde_json::value::RawValue;
 
 use super::keys::Keys;
 use super::locate::Source;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{Identified, edges_by_drawn_name};
-use crate::sheet::cell::{Corner, EdgeKey, Sheet};
-use crate::sheet::error::{DrawnEdge, Problem, SheetError};
+use crate::sheet::build::check_ends;
+use crate::sheet::error::{Problem, SheetError};
 
 /// The edges of a file; the lists are empty if the file does not have the keys.
 #[derive(Default)]
@@ -32,15 +29,8 @@ pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Re
     if let Some(value) = keys.edges_vertices {
         edges.rows = source.list(value, || "`edges_vertices`".into(), "a list of edges, [[0, 1], ...]")?;
     }
-    let mut seen = BTreeMap::new();
-    for (e, row) in edges.rows.iter().enumerate() {
-        let [a, b] = ends(source, row, e, count)?;
-        if let Some(other) = seen.insert([a.min(b), a.max(b)], e) {
-            let problem = Problem::DuplicateEdge { edge: e, other, ends: DrawnEdge(a, b) };
-            return Err(source.at(row, problem));
-        }
-        edges.ends.push([a, b]);
-    }
+    edges.ends = edges.rows.iter().enumerate().map(|(e, row)| ends(source, row, e, count)).collect::<Result<_, _>>()?;
+    check_ends(&edges.ends, count).map_err(|(e, problem)| source.at(edges.rows[e], problem))?;
     edges.angles = angles(source, keys, edges.rows.len())?;
     edges.assignments = assignments(source, keys, edges.rows.len())?;
     Ok(edges)
@@ -49,7 +39,6 @@ pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Re
 fn ends(source: &Source, row: &RawValue, e: usize, count: usize) -> Result<[usize; 2], SheetError> {
     let what = || format!("edge {e} of the list");
     match source.indices(row, what, count)?[..] {
-        [a, b] if a == b => Err(source.at(row, Problem::Loop { edge: e, vertex: a })),
         [a, b] => Ok([a, b]),
         _ => Err(source.mistyped(row, what(), "a pair of vertex numbers")),
     }
@@ -100,27 +89,4 @@ impl Edges<'_> {
             |(ends, (_, degrees)): (&[usize; 2], &(&RawValue, Option<f64>))| (*ends, degrees.map(f64::to_radians));
         self.ends.iter().zip(&self.angles).map(in_radians).collect()
     }
-}
-
-/// Checks that every listed edge is a side of a face.
-pub(super) fn check(source: &Source, edges: &Edges, sheet: &Sheet, identified: &Identified) -> Result<(), SheetError> {
-    let known = edges_by_drawn_name(sheet);
-    let sides = sides(sheet);
-    for (e, (row, ends)) in edges.rows.iter().zip(&edges.ends).enumerate() {
-        let [a, b] = ends.map(|v| identified.corner[v]);
-        let found = known.get(&EdgeKey::new(a, b).0).and_then(|numbers| numbers.first()).map(|&n| &sheet.edges[n]);
-        if !found.is_some_and(|edge| sides.contains(&edge.key)) {
-            let ends = DrawnEdge(ends[0], ends[1]);
-            return Err(source.at(row, Problem::LooseEdge { edge: e, ends }));
-        }
-    }
-    Ok(())
-}
-
-/// Returns the edges that are sides, and not diagonals, of polygons.
-fn sides(sheet: &Sheet) -> BTreeSet<EdgeKey> {
-    let sides = |polygon: &Vec<Corner>| {
-        (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0).collect::<Vec<_>>()
-    };
-    sheet.polygons.iter().flat_map(sides).collect()
 }

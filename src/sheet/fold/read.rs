@@ -12,10 +12,8 @@ use super::locate::Source;
 use super::{frames, record, stiffness};
 use crate::math::Vec3;
 use crate::sheet::ScrewLattice;
-use crate::sheet::assigned::is_same_angle;
-use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{Drawing, build, build_identified, edges_by_drawn_name, listed_order, rebuild_faces};
-use crate::sheet::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
+use crate::sheet::build::{Drawing, build_listed, rebuild_faces};
+use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
 use crate::sheet::record::FileRecord;
 use crate::sheet::text;
@@ -74,14 +72,9 @@ pub fn parse_frame(text: &str, name: &str, frame: Option<usize>) -> Result<Sheet
     if edges.rebuilt {
         rebuild_faces(&mut drawn, &edges.ends).map_err(locate)?;
     }
-    let turned = turned_over(&drawn);
-    let drawn = turned.as_ref().unwrap_or(&drawn);
-    let (mut sheet, identified) = build_identified(drawn).map_err(locate)?;
-    edges::check(&source, &edges, &sheet, &identified)?;
+    let (mut sheet, identified) = build_listed(&drawn, &edges.ends).map_err(locate)?;
     sheet.stiffness = stiffness::read(&source, &keys, &edges, &sheet, &identified)?;
-    let order = listed_order(drawn, &edges.ends);
-    sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
-    sheet.record = FileRecord { turned_over: turned.is_some(), ..record::read(&frame, drawn, &edges) };
+    sheet.record = FileRecord { turned_over: sheet.record.turned_over, ..record::read(&frame, &drawn, &edges) };
     Ok(sheet)
 }
 
@@ -221,30 +214,6 @@ fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<Str
         Ok((name, vertices))
     };
     lists.into_iter().map(read).collect()
-}
-
-/// Returns the mesh with all faces turned over if its letters are those of the other side: at least two creases are drawn
-/// as mountains and valleys, and every one of them is drawn as the other one.
-fn turned_over(drawn: &Drawing) -> Option<Drawing> {
-    let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
-    let letters: Vec<_> = drawn.assignments.iter().filter(|(_, letter)| folds(*letter)).collect();
-    if drawn.is_repeated() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
-        return None;
-    }
-    let bare = Drawing { assignments: vec![], ..drawn.clone() };
-    let sheet = build(&bare).ok()?;
-    let known = edges_by_drawn_name(&sheet);
-    let shown = letters.iter().filter_map(|(ends, letter)| {
-        let [a, b] = ends.map(Corner::home);
-        let edge = &sheet.edges[*known.get(&EdgeKey::new(a, b).0)?.first()?];
-        let angle = sheet.drawn_angle(edge).filter(|angle| !is_folded_flat(*angle) && !is_same_angle(*angle, 0.0))?;
-        Some((angle > 0.0) == (*letter == Assignment::Valley))
-    });
-    let agree: Vec<bool> = shown.collect();
-    (agree.len() > 1 && agree.iter().all(|agrees| !agrees)).then(|| {
-        let turn = |face: &Vec<usize>| face[..1].iter().chain(face[1..].iter().rev()).copied().collect();
-        Drawing { faces: drawn.faces.iter().map(turn).collect(), ..drawn.clone() }
-    })
 }
 
 /// Adds to a defect of the mesh the line of the text that has the defective part.

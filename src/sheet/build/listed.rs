@@ -1,0 +1,93 @@
+//! Drawings with a list of edges, as FOLD files and arrays have it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Drawing, Identified, build_identified, edges_by_drawn_name, listed_order};
+use crate::sheet::assigned::is_same_angle;
+use crate::sheet::assignment::Assignment;
+use crate::sheet::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
+use crate::sheet::error::{Defect, DrawnEdge, MeshPart, Problem};
+
+/// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces are turned over if
+/// the letters are those of the other side. Also returns the corner of the cell that each drawn vertex represents.
+///
+/// # Errors
+/// As [`build`](super::build); also if an edge of the list is no side of a face.
+pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sheet, Identified), Defect> {
+    let turned = turned_over(drawn);
+    let drawn = turned.as_ref().unwrap_or(drawn);
+    let (mut sheet, identified) = build_identified(drawn)?;
+    let (known, sides) = (edges_by_drawn_name(&sheet), sides(&sheet));
+    for (edge, ends) in listed.iter().enumerate() {
+        let [a, b] = ends.map(|v| identified.corner[v]);
+        let found = known.get(&EdgeKey::new(a, b).0).and_then(|numbers| numbers.first()).map(|&n| &sheet.edges[n]);
+        if !found.is_some_and(|edge| sides.contains(&edge.key)) {
+            let problem = Problem::LooseEdge { edge, ends: DrawnEdge(ends[0], ends[1]) };
+            return Err(Defect::new(MeshPart::Edge(edge), problem));
+        }
+    }
+    let order = listed_order(drawn, listed);
+    sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
+    sheet.record.turned_over = turned.is_some();
+    Ok((sheet, identified))
+}
+
+/// Does the same with arrays: their numbers of vertices may be wrong.
+///
+/// # Errors
+/// As [`build`](super::build); also for a wrong list of edges.
+pub fn build_arrays(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<Sheet, Defect> {
+    let edge = |(edge, problem)| Defect::new(MeshPart::Edge(edge), problem);
+    check_ends(listed, drawn.coords.len()).map_err(edge)?;
+    build_listed(drawn, listed).map(|(sheet, _)| sheet)
+}
+
+/// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error is that of an edge.
+pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize, Problem)> {
+    let mut seen = BTreeMap::new();
+    for (edge, &[a, b]) in ends.iter().enumerate() {
+        if let Some(beyond) = [a, b].into_iter().find(|&v| v >= count) {
+            let (what, last) = (format!("edge {edge} of the list"), count.saturating_sub(1));
+            return Err((edge, Problem::Index { what, found: beyond.to_string(), first: 0, last }));
+        }
+        if a == b {
+            return Err((edge, Problem::Loop { edge, vertex: a }));
+        }
+        if let Some(other) = seen.insert([a.min(b), a.max(b)], edge) {
+            return Err((edge, Problem::DuplicateEdge { edge, other, ends: DrawnEdge(a, b) }));
+        }
+    }
+    Ok(())
+}
+
+/// Returns the edges that are sides, and not diagonals, of polygons.
+fn sides(sheet: &Sheet) -> BTreeSet<EdgeKey> {
+    let sides = |polygon: &Vec<Corner>| {
+        (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0).collect::<Vec<_>>()
+    };
+    sheet.polygons.iter().flat_map(sides).collect()
+}
+
+/// Returns the mesh with all faces turned over if its letters are those of the other side: at least two creases are drawn
+/// as mountains and valleys, and every one of them is drawn as the other one.
+fn turned_over(drawn: &Drawing) -> Option<Drawing> {
+    let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
+    let letters: Vec<_> = drawn.assignments.iter().filter(|(_, letter)| folds(*letter)).collect();
+    if drawn.is_repeated() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
+        return None;
+    }
+    let bare = Drawing { assignments: vec![], ..drawn.clone() };
+    let sheet = super::build(&bare).ok()?;
+    let known = edges_by_drawn_name(&sheet);
+    let shown = letters.iter().filter_map(|(ends, letter)| {
+        let [a, b] = ends.map(Corner::home);
+        let edge = &sheet.edges[*known.get(&EdgeKey::new(a, b).0)?.first()?];
+        let angle = sheet.drawn_angle(edge).filter(|angle| !is_folded_flat(*angle) && !is_same_angle(*angle, 0.0))?;
+        Some((angle > 0.0) == (*letter == Assignment::Valley))
+    });
+    let agree: Vec<bool> = shown.collect();
+    (agree.len() > 1 && agree.iter().all(|agrees| !agrees)).then(|| {
+        let turn = |face: &Vec<usize>| face[..1].iter().chain(face[1..].iter().rev()).copied().collect();
+        Drawing { faces: drawn.faces.iter().map(turn).collect(), ..drawn.clone() }
+    })
+}
