@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::output::OutputError;
+use crate::output::{OutputError, Picture};
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::pattern::Cleanup;
 use crate::sheet::{Info, Pattern, Sheet, flatten, generate};
@@ -165,6 +165,15 @@ impl Wanted {
 /// [`RunError`] if the file cannot be read, is wrong or has an unknown ending, and if there is no such frame.
 pub fn read_sheet(path: &Path, frame: Option<usize>) -> Result<Sheet, RunError> {
     read_mesh(path, frame, meshes::READ)
+}
+
+/// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.obj`, `.fold` or `.glb`.
+///
+/// # Errors
+/// [`RunError`] if the ending is another one, if the file cannot be written, and if the state is no sheet for STL, OBJ and FOLD: a face has
+/// no area, for instance.
+pub fn write_state(picture: &Picture, path: &Path) -> Result<(), RunError> {
+    meshes::write_state(picture, path)
 }
 
 /// Writes a sheet into a file of the format of its ending. Returns a sentence for each part of the sheet that the file

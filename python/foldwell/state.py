@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -105,9 +104,13 @@ class State:
         return self._inner.torques
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the state as a VTU file, which ParaView, PyVista and meshio read.
+        """Writes the state in the format of the ending.
+
+        `.vtu` has everything, for ParaView, PyVista, meshio and `start`; `.glb` (binary glTF) faces and coloured edges, for viewers and
+        slides; `.stl` triangles, for printers; `.obj` and `.fold` the sheet as this state draws it, with its polygons and letters.
 
         Raises:
+            SceneError: the ending is another one, or the faces are no sheet: one has no area. Nothing is written.
             OutputError: the file cannot be written.
         """
         self._inner.save(Path(path))
@@ -116,10 +119,21 @@ class State:
         """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files. Needs PyVista."""
         import pyvista
 
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "state.vtu"
-            self.save(path)
-            return pyvista.read(path)
+        cells = {pyvista.CellType.TRIANGLE: self.faces, pyvista.CellType.LINE: self.edges}
+        grid = pyvista.UnstructuredGrid(cells, self.positions.copy())
+        grid.point_data["displacement"] = self.displacements.copy()
+        for name, numbers in zip(("vertex", "cell1", "cell2"), self.places.T.astype(np.int32), strict=True):
+            grid.point_data[name] = numbers
+        faces, inner = len(self.faces), self._inner
+        floats = {"fold_angle": inner.fold_angles, "rest_angle": inner.rest_angles, "strain": inner.strains}
+        floats |= {"energy": inner.energies, "tension": inner.tensions, "torque": inner.torques}
+        for name, values in floats.items():
+            grid.cell_data[name] = np.concatenate([np.full(faces, np.nan), values])
+        grid.cell_data["self_intersecting"] = np.concatenate([self.self_intersecting, np.zeros(len(self.edges), np.uint8)])
+        letters = np.array(["BMVFUCJ".index(letter) for letter in inner.letters], np.int32)
+        for name, wholes in (("edge", self.cell_edges), ("assignment", letters)):
+            grid.cell_data[name] = np.concatenate([np.full(faces, -1, np.int32), wholes])
+        return grid
 
     def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4", numbers: bool = False) -> Axes:
         """Draws the sheet in 3D: faces in the colour `paper`, valleys blue, mountains red, other edges grey. Needs Matplotlib.

@@ -4,7 +4,7 @@ use crate::arrays::{Array1, Array2, indices, rows, view, view_of_points};
 use crate::errors::raise;
 use crate::sheet::{kind_word, letter_word};
 use foldwell::Picture;
-use foldwell::write_vtu;
+use foldwell::run;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -98,6 +98,6 @@ impl State {
     }
 
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        write_vtu(&path, &self.picture).map_err(|error| raise(py, &error.into()))
+        run::write_state(&self.picture, &path).map_err(|error| raise(py, &error))
     }
 }

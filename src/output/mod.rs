@@ -1,4 +1,4 @@
-//! Output: tables, files for ParaView, and drawings.
+//! Output: tables, files for ParaView and for viewers, and drawings.
 //!
 //! All files are written through [`files`], so that a file appears complete or not at all.
 
@@ -10,6 +10,7 @@ pub(crate) mod fault;
 pub mod figure;
 pub mod files;
 pub(crate) mod film;
+pub(crate) mod glb;
 pub(crate) mod html;
 pub mod json;
 pub(crate) mod paraview;

@@ -74,7 +74,7 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
         notes.push("STL has triangles only: lattice vectors and letters of edges are not kept".to_owned());
     }
     if ending == "vtu" && sheet.lattice.is_some() {
-        let again = build::build(&drawing(drawn_mesh(sheet), String::new()));
+        let again = build::build(&drawing(mesh(Picture::drawn(sheet)), String::new()));
         let unread = again.err().map_or(String::new(), |defect| {
             format!("; it cannot be read as such, since with its own edges alone {}", defect.problem)
         });
@@ -90,9 +90,17 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     notes
 }
 
-/// Returns the mesh of the file into which a sheet is drawn.
-fn drawn_mesh(sheet: &Sheet) -> VtuMesh {
-    let Picture { points, triangles, lines, fold_angle, letters, .. } = Picture::drawn(sheet);
+/// Returns the mesh of the file of a picture, without the points that belong to no face.
+pub(super) fn mesh(picture: Picture) -> VtuMesh {
+    let Picture { mut points, mut triangles, mut lines, fold_angle, letters, .. } = picture;
+    let mut number = vec![None; points.len()];
+    triangles.iter().flatten().for_each(|&point| number[point] = Some(0));
+    number.iter_mut().flatten().enumerate().for_each(|(k, number)| *number = k);
+    let mut is_used = number.iter().map(Option::is_some);
+    points.retain(|_| is_used.next().unwrap_or_default());
+    // the ends of lines that are no sides are beyond the points, and are not looked at
+    let renumbered = |point: &mut usize| *point = number[*point].unwrap_or(usize::MAX);
+    triangles.iter_mut().flatten().chain(lines.iter_mut().flatten()).for_each(renumbered);
     VtuMesh { points, triangles, lines, fold_angle: Some(fold_angle), letters: Some(letters), ..VtuMesh::default() }
 }
 

@@ -6,7 +6,7 @@ use super::convert;
 use super::ending::ending;
 use super::error::RunError;
 use crate::output::picture::Picture;
-use crate::output::{files, vtk};
+use crate::output::{files, glb, vtk};
 use crate::sheet::pattern::{self, Cleanup, Format};
 use crate::sheet::{Sheet, build, fold, obj, stl};
 
@@ -16,6 +16,8 @@ pub(super) const READ: &str = ".fold, .obj, .vtu, .svg, .cp or .opx";
 pub(super) const READ_OR_SCENE: &str = ".fold, .obj, .vtu, .svg, .cp, .opx or .toml";
 /// Endings of meshes that are written.
 const WRITTEN: &str = ".fold, .obj, .vtu, .stl, .svg or .cp";
+/// Endings of states that are written.
+const STATES: &str = ".vtu, .stl, .obj, .fold or .glb";
 /// Endings of flat crease patterns that can be cleaned.
 const CLEANED: &str = ".fold, .svg, .cp or .opx";
 
@@ -96,4 +98,19 @@ pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
         notes.push(format!("CP has no hinges, joints and cuts: {changed} lines are written as auxiliary or boundary"));
     }
     Ok(notes)
+}
+
+/// Writes a state into a file of the format of its ending; STL, OBJ and FOLD files have the sheet as it is drawn in this state.
+pub(super) fn write_state(picture: &Picture, to: &Path) -> Result<(), RunError> {
+    match ending(to).as_str() {
+        "vtu" => Ok(vtk::write_vtu(to, picture)?),
+        "glb" => Ok(files::write(to, glb::bytes(picture))?),
+        "stl" | "obj" | "fold" => {
+            let title = to.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let sheet = build::build(&convert::drawing(convert::mesh(picture.clone()), title));
+            let sheet = sheet.map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;
+            write(&sheet, to).map(|_| ())
+        }
+        ending => Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: STATES }),
+    }
 }
