@@ -46,6 +46,9 @@ class Assembly:
     def __init__(self, inner: _foldwell.Assembly) -> None:
         self._inner = inner
 
+    def __reduce__(self) -> tuple[type[Assembly], tuple[_foldwell.Assembly]]:
+        return (type(self), (self._inner,))
+
     @classmethod
     def patch(cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), **terms: Any) -> Assembly:
         """Makes a patch: `cells[0]` times `cells[1]` cells with free edges, or a finite sheet.

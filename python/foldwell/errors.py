@@ -30,7 +30,7 @@ class FoldwellError(Exception):
         self.file = file
         self.line = line
 
-    def __reduce__(self) -> tuple[type[FoldwellError], tuple[str | int | None, ...]]:
+    def __reduce__(self) -> tuple[type[FoldwellError], tuple[Any, ...]]:
         return (type(self), (self.message, self.help, self.file, self.line))
 
     def __str__(self) -> str:
@@ -60,8 +60,8 @@ class DidNotConverge(FoldwellError):
         super().__init__(message)
         self.result = result
 
-    def __reduce__(self) -> tuple[type[FoldwellError], tuple[str | int | None, ...]]:
-        return (FoldwellError, (self.message,))  # a result cannot go to another process
+    def __reduce__(self) -> tuple[type[FoldwellError], tuple[Any, ...]]:
+        return (type(self), (self.message, self.result))
 
     @property
     def state(self) -> State | None:

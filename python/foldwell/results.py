@@ -38,6 +38,9 @@ class Result:
         self._study = dict(study)
         self.summary: dict[str, Any] = json.loads(inner.summary)
 
+    def __reduce__(self) -> tuple[type[Result], tuple[Any, ...]]:
+        return (type(self), (self._inner, self._study))
+
     @property
     def name(self) -> str:
         """Name of the study."""
@@ -59,10 +62,7 @@ class Result:
 
         Numbers that were not computed are NaN.
         """
-        return {
-            name: {column: np.asarray(values) for column, values in (self._inner.table(name) or {}).items()}
-            for name in self._inner.table_names
-        }
+        return {name: {column: np.asarray(values) for column, values in table.items()} for name, table in self._inner.tables()}
 
     @property
     def table(self) -> dict[str, Column]:

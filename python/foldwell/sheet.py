@@ -28,6 +28,9 @@ class Sheet:
     def __init__(self, inner: _foldwell.Sheet) -> None:
         self._inner = inner
 
+    def __reduce__(self) -> tuple[type[Sheet], tuple[_foldwell.Sheet]]:
+        return (type(self), (self._inner,))
+
     @classmethod
     def read(cls, source: str | os.PathLike[str] | TextIO, *, frame: int | None = None) -> Sheet:
         """Reads a mesh.

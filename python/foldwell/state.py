@@ -28,6 +28,9 @@ class State:
     def __init__(self, inner: _foldwell.State) -> None:
         self._inner = inner
 
+    def __reduce__(self) -> tuple[type[State], tuple[_foldwell.State]]:
+        return (type(self), (self._inner,))
+
     @property
     def positions(self) -> NDArray[np.float64]:
         """Positions of the points, shape (n, 3), in the unit of length of the sheet."""

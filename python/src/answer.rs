@@ -1,52 +1,107 @@
 //! Answers of studies.
 
 use crate::arrays::{Array1, vector, view};
+use crate::assembly::Assembly;
 use crate::errors::raise;
 use crate::state::State;
 use foldwell::Picture;
 use foldwell::analysis::restored;
 use foldwell::model::Configuration;
-use foldwell::output::{Artifact, Column, OutputError, Table};
+use foldwell::output::{Artifact, Column, OutputError, files};
 use foldwell::run::{Computed, RunError};
+use numpy::PyArrayMethods;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use std::path::PathBuf;
+use pyo3::types::{PyBytes, PyDict};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
 
 /// The answer of a study; see `foldwell.Result`.
 #[pyclass(frozen, module = "foldwell._foldwell")]
 pub(crate) struct Answer {
     summary: String,
-    pub assembly: foldwell::Assembly,
+    pub assembly: Py<Assembly>,
     states: Vec<(String, Py<State>)>,
-    files: Vec<(String, Artifact)>,
+    files: Vec<(String, File)>,
     pub saved: Option<Configuration>,
 }
 
+/// A file of an answer that is no state: as it was computed, or as a pickle has kept it.
+enum File {
+    Computed(Box<Artifact>),
+    Kept { bytes: Vec<u8>, columns: Option<Vec<(String, Column)>> },
+}
+
+/// The values of a column, as Python has them.
+#[derive(FromPyObject, IntoPyObject)]
+enum Values<'py> {
+    Whole(Array1<'py, i64>),
+    Numbers(Array1<'py, f64>),
+    Words(Vec<String>),
+}
+
+/// A kept file: name, bytes, and columns if it is a table.
+type KeptFile<'py> = (String, Bound<'py, PyBytes>, Option<Vec<(String, Values<'py>)>>);
+/// A kept configuration: coordinates, angles and tensions.
+type KeptState<'py> = (Array1<'py, f64>, Array1<'py, f64>, Option<Array1<'py, f64>>);
+/// What a pickle keeps: summary, assembly, states, files and configuration.
+type Kept<'py> = (String, Py<Assembly>, Vec<(String, Py<State>)>, Vec<KeptFile<'py>>, Option<KeptState<'py>>);
+
+impl File {
+    /// Returns the columns; `None` if the file is no table.
+    fn columns(&self) -> Option<Vec<(String, Column)>> {
+        match self {
+            Self::Computed(artifact) => {
+                let Artifact::Table(table) = &**artifact else { return None };
+                Some(table.columns().map(|(name, column)| (name.to_owned(), column)).collect())
+            }
+            Self::Kept { columns, .. } => columns.clone(),
+        }
+    }
+
+    fn bytes(&self, path: &Path) -> Result<Cow<'_, [u8]>, OutputError> {
+        match self {
+            Self::Computed(artifact) => artifact.bytes(path).map(Cow::Owned),
+            Self::Kept { bytes, .. } => Ok(bytes.into()),
+        }
+    }
+}
+
+impl<'py> Values<'py> {
+    fn new(py: Python<'py>, column: Column) -> Self {
+        match column {
+            Column::Whole(numbers) => Self::Whole(vector(py, numbers)),
+            Column::Numbers(numbers) => Self::Numbers(vector(py, numbers)),
+            Column::Words(words) => Self::Words(words),
+        }
+    }
+
+    fn column(self) -> PyResult<Column> {
+        Ok(match self {
+            Self::Whole(numbers) => Column::Whole(numbers.to_vec()?),
+            Self::Numbers(numbers) => Column::Numbers(numbers.to_vec()?),
+            Self::Words(words) => Column::Words(words),
+        })
+    }
+}
+
 impl Answer {
-    fn new(py: Python<'_>, assembly: &foldwell::Assembly, answer: foldwell::study::Answer) -> PyResult<Self> {
+    fn new(py: Python<'_>, assembly: &Py<Assembly>, answer: foldwell::study::Answer) -> PyResult<Self> {
         let (mut states, mut files) = (Vec::new(), Vec::new());
         for (name, artifact) in answer.files {
             match artifact {
                 Artifact::State(picture) => states.push((name, Py::new(py, State { picture })?)),
-                other => files.push((name, other)),
+                other => files.push((name, File::Computed(other.into()))),
             }
         }
         let summary = serde_json::to_string(&answer.summary).unwrap_or_default();
-        Ok(Self { summary, assembly: assembly.clone(), states, files, saved: answer.state })
-    }
-
-    fn tables(&self) -> impl Iterator<Item = (&str, &Table)> {
-        self.files.iter().filter_map(|(name, artifact)| match artifact {
-            Artifact::Table(table) => Some((name.as_str(), table)),
-            _ => None,
-        })
+        Ok(Self { summary, assembly: assembly.clone_ref(py), states, files, saved: answer.state })
     }
 }
 
 /// Returns the summary of a run as JSON, the answers of its studies, and whether it was interrupted.
 pub(crate) fn answers(
     py: Python<'_>,
-    assembly: &foldwell::Assembly,
+    assembly: &Py<Assembly>,
     computed: Result<Computed, RunError>,
 ) -> PyResult<(String, Vec<Answer>, bool)> {
     let Computed { summary, answers, interrupted } = computed.map_err(|error| raise(py, &error))?;
@@ -62,24 +117,16 @@ impl Answer {
         &self.summary
     }
 
-    /// The names of the tables.
-    #[getter]
-    fn table_names(&self) -> Vec<&str> {
-        self.tables().map(|(name, _)| name).collect()
-    }
-
-    /// Returns the columns of a table as arrays; columns of words are lists.
-    fn table<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some((_, table)) = self.tables().find(|(known, _)| *known == name) else { return Ok(None) };
-        let columns = PyDict::new(py);
-        for (name, column) in table.columns() {
-            match column {
-                Column::Whole(numbers) => columns.set_item(name, vector(py, numbers))?,
-                Column::Numbers(numbers) => columns.set_item(name, vector(py, numbers))?,
-                Column::Words(words) => columns.set_item(name, words)?,
-            }
+    /// The tables by the names of their files: the columns as arrays; columns of words are lists.
+    fn tables<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&str, Bound<'py, PyDict>)>> {
+        let mut tables = Vec::new();
+        for (file, content) in &self.files {
+            let Some(columns) = content.columns() else { continue };
+            let table = PyDict::new(py);
+            columns.into_iter().try_for_each(|(name, column)| table.set_item(name, Values::new(py, column)))?;
+            tables.push((file.as_str(), table));
         }
-        Ok(Some(columns))
+        Ok(tables)
     }
 
     /// The states that were kept, in the order of their files.
@@ -90,8 +137,8 @@ impl Answer {
 
     /// Returns the final state; `None` if the study has none.
     fn state(&self) -> Option<State> {
-        let state = restored::state(self.saved.as_ref()?, &self.assembly)?;
-        Some(State { picture: Picture::new(&self.assembly, &state) })
+        let state = restored::state(self.saved.as_ref()?, &self.assembly.get().assembly)?;
+        Some(State { picture: Picture::new(&self.assembly.get().assembly, &state) })
     }
 
     /// The coordinates of the final state.
@@ -102,11 +149,11 @@ impl Answer {
 
     /// The drawings as SVG, by their names.
     #[getter]
-    fn drawings(&self) -> Vec<(&str, &str)> {
+    fn drawings(&self) -> Vec<(&str, String)> {
         let mut drawings = Vec::new();
-        for (name, artifact) in &self.files {
-            if let Artifact::Svg(Ok(text)) = artifact {
-                drawings.push((name.as_str(), text.as_str()));
+        for (name, file) in self.files.iter().filter(|(name, _)| name.ends_with(".svg")) {
+            if let Ok(text) = file.bytes(Path::new(name)) {
+                drawings.push((name.as_str(), String::from_utf8_lossy(&text).into_owned()));
             }
         }
         drawings
@@ -118,10 +165,52 @@ impl Answer {
             for (name, state) in &self.states {
                 foldwell::write_vtu(&folder.join(name), &state.get().picture)?;
             }
-            self.files.iter().try_for_each(|(name, artifact)| artifact.write(&folder.join(name)))
+            let mut others = self.files.iter().map(|(name, file)| (folder.join(name), file));
+            others.try_for_each(|(path, file)| files::write(&path, file.bytes(&path)?))
         };
         py.detach(write).map_err(|error: OutputError| raise(py, &error.into()))?;
         let states = self.states.iter().map(|(name, _)| name.clone());
         Ok(states.chain(self.files.iter().map(|(name, _)| name.clone())).collect())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Kept<'py>)> {
+        let (py, answer) = (slf.py(), slf.get());
+        let mut kept: Vec<KeptFile<'py>> = Vec::new();
+        for (name, file) in &answer.files {
+            let bytes = file.bytes(Path::new(name)).map_err(|error| raise(py, &error.into()))?;
+            let columns = file
+                .columns()
+                .map(|columns| columns.into_iter().map(|(name, column)| (name, Values::new(py, column))).collect());
+            kept.push((name.clone(), PyBytes::new(py, &bytes), columns));
+        }
+        let array = |values: &Vec<f64>| vector(py, values.clone());
+        let saved = answer.saved.as_ref().map(|Configuration { coordinates, angles, tension }| {
+            (array(coordinates), array(angles), tension.as_ref().map(array))
+        });
+        let states = answer.states.iter().map(|(name, state)| (name.clone(), state.clone_ref(py))).collect();
+        let state = (answer.summary.clone(), answer.assembly.clone_ref(py), states, kept, saved);
+        Ok((slf.get_type().getattr("restore")?, state))
+    }
+
+    /// Makes the answer of what a pickle has kept.
+    #[staticmethod]
+    fn restore(
+        summary: String,
+        assembly: Py<Assembly>,
+        states: Vec<(String, Py<State>)>,
+        files: Vec<KeptFile<'_>>,
+        saved: Option<KeptState<'_>>,
+    ) -> PyResult<Self> {
+        let mut kept = Vec::new();
+        for (name, bytes, columns) in files {
+            let column = |(name, values): (String, Values<'_>)| Ok((name, values.column()?));
+            let columns = columns.map(|all| all.into_iter().map(column).collect::<PyResult<_>>()).transpose()?;
+            kept.push((name, File::Kept { bytes: bytes.as_bytes().to_vec(), columns }));
+        }
+        let configuration = |(coordinates, angles, tension): KeptState<'_>| {
+            let tension = tension.map(|tension| tension.to_vec()).transpose()?;
+            PyResult::Ok(Configuration { coordinates: coordinates.to_vec()?, angles: angles.to_vec()?, tension })
+        };
+        Ok(Self { summary, assembly, states, files: kept, saved: saved.map(configuration).transpose()? })
     }
 }

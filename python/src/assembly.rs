@@ -1,7 +1,7 @@
 //! Assemblies: sheets with boundary conditions and terms, and the studies of them.
 
 use crate::answer::{Answer, answers};
-use crate::arrays::{Array2, Given1, rows, shared};
+use crate::arrays::{Array1, Array2, Given1, rows, shared, vector};
 use crate::errors::{raise, refused};
 use crate::forms::Forms;
 use crate::run::Given;
@@ -30,9 +30,17 @@ pub(crate) struct Assembly {
     arrays: Arrays,
 }
 
+/// What a pickle keeps: scene, path, sheet and arrays.
+type Kept<'py> = (String, PathBuf, Sheet, BTreeMap<PathBuf, Array1<'py, f64>>);
+
 impl Assembly {
     /// Builds the assembly of a scene, of which `sheet`, if there is one, replaces the mesh.
-    fn of(py: Python<'_>, file: SceneFile, arrays: Arrays, sheet: Option<&Bound<'_, Sheet>>) -> PyResult<Self> {
+    pub(crate) fn of(
+        py: Python<'_>,
+        file: SceneFile,
+        arrays: Arrays,
+        sheet: Option<&Bound<'_, Sheet>>,
+    ) -> PyResult<Self> {
         let sheet = sheet.map(|sheet| sheet.get().sheet.clone());
         let mut scene: Table = file.text().parse().unwrap_or_default(); // it was read before
         scene.retain(|key, _| key != "study" && key != "sweep");
@@ -76,29 +84,52 @@ impl Assembly {
     /// which they start, by the names of their studies, which are among `studies` too. Returns the summary as JSON, the answers, and
     /// whether the run was interrupted.
     fn compute(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         studies: Vec<Bound<'_, PyDict>>,
         arrays: BTreeMap<PathBuf, Given1<'_>>,
         earlier: Vec<(String, Py<Answer>)>,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, Vec<Answer>, bool)> {
+        let (py, this) = (slf.py(), slf.get());
         let studies = studies.iter().map(|study| Ok(Value::Table(table(study)?))).collect::<PyResult<_>>()?;
-        let mut scene = self.scene.clone();
+        let mut scene = this.scene.clone();
         scene.insert("study".to_owned(), Value::Array(studies));
-        let file = parse(&text(&scene)?, &self.path).map_err(|error| raise(py, &error.into()))?;
+        let file = parse(&text(&scene)?, &this.path).map_err(|error| raise(py, &error.into()))?;
         let file = file.with_arrays(shared(arrays)?);
-        if earlier.iter().any(|(_, answer)| !has_same_coordinates(&answer.get().assembly, &self.assembly)) {
+        if earlier
+            .iter()
+            .any(|(_, answer)| !has_same_coordinates(&answer.get().assembly.get().assembly, &this.assembly))
+        {
             let help = "vertices, edges, cells and boundary conditions are the same; stiffnesses and rest angles may be others";
             return Err(refused(py, "the start is a state of another assembly".to_owned(), help));
         }
         let states = earlier.iter().filter_map(|(name, answer)| Some((name.clone(), answer.get().saved.clone()?)));
         let earlier = PreviousAnswers { states: states.collect(), ..PreviousAnswers::default() };
-        let assembly = self.assembly.clone();
+        let assembly = this.assembly.clone();
         let work = move |observer: run::Observer<'_>| run::compute(&file, &assembly, earlier, threads, observer);
         let computed: Result<_, RunError> = watched(py, progress, work)?;
-        answers(py, &self.assembly, computed)
+        answers(py, slf.as_unbound(), computed)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Kept<'py>)> {
+        let (py, Self { assembly, scene, path, arrays }) = (slf.py(), slf.get());
+        let arrays = arrays.iter().map(|(name, array)| (name.clone(), vector(py, array.clone()))).collect();
+        let sheet = Sheet { sheet: assembly.sheet().clone() };
+        Ok((slf.get_type().getattr("restore")?, (text(scene)?, std::path::absolute(path)?, sheet, arrays)))
+    }
+
+    /// Makes the assembly of what a pickle has kept.
+    #[staticmethod]
+    fn restore(
+        py: Python<'_>,
+        scene: &str,
+        path: PathBuf,
+        sheet: &Bound<'_, Sheet>,
+        arrays: BTreeMap<PathBuf, Given1<'_>>,
+    ) -> PyResult<Self> {
+        let file = parse(scene, &path).map_err(|error| raise(py, &error.into()))?;
+        Self::of(py, file, shared(arrays)?, Some(sheet))
     }
 
     /// Returns the energy as a function of the unknowns.

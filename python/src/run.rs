@@ -1,12 +1,14 @@
 //! Whole scenes, and files.
 
 use crate::answer::{Answer, answers};
+use crate::assembly::Assembly;
 use crate::errors::raise;
 use crate::values::{table, text};
 use crate::watch::watched;
 use foldwell::Pattern;
 use foldwell::run::{self, Ledger, Progress, RunError, RunOptions};
-use foldwell::scene::{SceneFile, Setting, build, parse_set};
+use foldwell::scene::{Arrays, SceneFile, Setting, parse_set};
+use foldwell::Pattern;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -67,13 +69,10 @@ pub(crate) fn run_scene(
         let report = ended?.map_err(|error| raise(py, &error))?;
         return Ok((serde_json::to_string(&report.summary).unwrap_or_default(), vec![], report.interrupted));
     }
-    let work = move |observer: run::Observer<'_>| {
-        let assembly = build::assembly(&file)?;
-        let computed = run::compute(&file, &assembly, Default::default(), threads, observer);
-        Ok((assembly, computed))
-    };
-    let (assembly, computed) = watched(py, progress, work)?.map_err(|error: RunError| raise(py, &error))?;
-    answers(py, &assembly, computed)
+    let assembly = Py::new(py, Assembly::of(py, file.clone(), Arrays::default(), None)?)?;
+    let built = assembly.get().assembly.clone();
+    let work = move |observer: run::Observer<'_>| run::compute(&file, &built, Default::default(), threads, observer);
+    answers(py, &assembly, watched(py, progress, work)?)
 }
 
 /// Converts a mesh; returns what the new file does not keep. After Ctrl-C no file is begun.

@@ -29,6 +29,9 @@ fn no_letter(py: Python<'_>, letter: &str) -> PyErr {
     refused(py, format!("`{letter}` is no letter of an edge"), help)
 }
 
+/// What a pickle keeps: the text of the FOLD file, its name, and no number of a frame.
+type Kept = (String, &'static str, Option<usize>);
+
 #[pymethods]
 impl Sheet {
     /// Reads a mesh file in the format of its ending.
@@ -97,6 +100,10 @@ impl Sheet {
     /// Returns the text of a FOLD file of the sheet.
     fn to_fold(&self, py: Python<'_>) -> String {
         py.detach(|| fold::write(&self.sheet))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Kept)> {
+        Ok((slf.get_type().getattr("parse")?, (slf.get().to_fold(slf.py()), "sheet", None)))
     }
 
     /// Returns counts and measures of the sheet as JSON.

@@ -1,12 +1,14 @@
 //! States of a sheet as arrays.
 
 use crate::arrays::{Array1, Array2, indices, rows, view, view_of_points};
-use crate::errors::raise;
+use crate::errors::{bug, raise};
 use crate::sheet::{kind_word, letter_word};
 use foldwell::Picture;
+use foldwell::output::vtk;
 use foldwell::run;
 use pyo3::prelude::*;
-use std::path::PathBuf;
+use pyo3::types::PyBytes;
+use std::path::{Path, PathBuf};
 
 /// A state of a sheet; see `foldwell.State`.
 #[pyclass(frozen, module = "foldwell._foldwell", subclass)]
@@ -95,6 +97,17 @@ impl State {
     /// Returns the addresses of the positions and the fold angles in the memory of the library.
     fn addresses(&self) -> [usize; 2] {
         [self.picture.points.as_ptr().addr(), self.picture.fold_angle.as_ptr().addr()]
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let bytes = vtk::vtu(Path::new("state"), &slf.get().picture).map_err(|error| raise(slf.py(), &error.into()))?;
+        Ok((slf.get_type().getattr("restore")?, (PyBytes::new(slf.py(), &bytes),)))
+    }
+
+    /// Makes the state of what a pickle has kept: the bytes of its VTU file.
+    #[staticmethod]
+    fn restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        vtk::parse_picture(bytes).map(|picture| Self { picture }).map_err(|fault| bug(py, fault.to_string()))
     }
 
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

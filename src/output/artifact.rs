@@ -67,16 +67,25 @@ impl Artifact {
     /// [`OutputError::Shape`] if the parts of the content are inconsistent, [`OutputError::Write`] if the file cannot
     /// be written.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        files::write(path, self.bytes(path)?)
+    }
+
+    /// Returns the bytes of the file; `path` is for messages.
+    ///
+    /// # Errors
+    /// [`OutputError::Shape`] if the parts of the content are inconsistent.
+    pub fn bytes(&self, path: &Path) -> Result<Vec<u8>, OutputError> {
+        let inconsistent = |fault| OutputError::Shape { path: path.into(), fault };
         match self {
-            Self::Table(table) => table.write(path),
-            Self::State(picture) => vtk::write_vtu(path, picture),
-            Self::Surface(surface) => vtk::write_vtp(path, surface),
-            Self::Net(net) => vtk::write_surface(path, &net.points, (&net.triangles, &net.curves), &net.arrays),
-            Self::Curves { curves, arrays } => vtk::write_curves(path, curves, arrays),
-            Self::Grid { size, origin, spacing, arrays } => vtk::write_vti(path, *size, [*origin, *spacing], arrays),
-            Self::Series(states) => vtk::write_pvd(path, states),
-            Self::Script(text) | Self::Page(text) | Self::Svg(Ok(text)) => files::write(path, text),
-            Self::Svg(Err(fault)) => Err(OutputError::Shape { path: path.into(), fault: fault.clone() }),
+            Self::Table(table) => table.to_csv().map(String::into_bytes).map_err(inconsistent),
+            Self::State(picture) => vtk::vtu(path, picture),
+            Self::Surface(surface) => vtk::vtp(path, surface),
+            Self::Net(net) => vtk::vtp_of_surface(path, &net.points, (&net.triangles, &net.curves), &net.arrays),
+            Self::Curves { curves, arrays } => vtk::vtp_of_curves(path, curves, arrays),
+            Self::Grid { size, origin, spacing, arrays } => vtk::vti(path, *size, [*origin, *spacing], arrays),
+            Self::Series(states) => Ok(vtk::pvd(states).into_bytes()),
+            Self::Script(text) | Self::Page(text) => Ok(text.clone().into_bytes()),
+            Self::Svg(svg) => svg.clone().map(String::into_bytes).map_err(inconsistent),
         }
     }
 }

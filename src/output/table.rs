@@ -8,7 +8,6 @@ use std::path::Path;
 
 use super::OutputError;
 use super::fault::ShapeError;
-use super::files;
 use crate::sheet::EdgeKey;
 
 /// Reads the named columns of a table that was written by this module. Returns one vector for each row, with NaN for
@@ -148,15 +147,6 @@ impl Table {
     /// Appends a row.
     pub(crate) fn push(&mut self, row: Vec<Value>) {
         self.rows.push(row);
-    }
-
-    /// Writes the table.
-    ///
-    /// # Errors
-    /// [`OutputError::Shape`] if the length of a row differs from the number of columns, [`OutputError::Write`].
-    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
-        let text = self.to_csv().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
-        files::write(path, text)
     }
 
     /// Returns the text of the table.

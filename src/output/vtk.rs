@@ -23,7 +23,7 @@ use super::{OutputError, files};
 use crate::math::Vec3;
 
 pub(crate) use read::read_picture;
-pub use read::{VtuMesh, read_vtu};
+pub use read::{VtuMesh, parse_picture, read_vtu};
 
 /// Writes a state as a VTU file; its cells are the triangles, followed by the lines.
 ///
@@ -35,13 +35,21 @@ pub use read::{VtuMesh, read_vtu};
 /// # Errors
 /// [`OutputError::Shape`] if the arrays of the picture are inconsistent, [`OutputError::Write`].
 pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
+    files::write(path, vtu(path, picture)?)
+}
+
+/// Returns the bytes of the file that [`write_vtu`] writes; `path` is for messages.
+///
+/// # Errors
+/// [`OutputError::Shape`].
+pub fn vtu(path: &Path, picture: &Picture) -> Result<Vec<u8>, OutputError> {
     picture.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let piece = UnstructuredGridPiece {
         points: coordinates(&picture.points),
         cells: cells(picture),
         data: attributes(picture),
     };
-    write(path, DataSet::inline(piece))
+    bytes(path, DataSet::inline(piece))
 }
 
 /// Numbers of vertices of polygons or lines.
@@ -54,14 +62,14 @@ fn numbers<'a>(lists: impl Iterator<Item = &'a [usize]>) -> VertexNumbers {
     VertexNumbers::XML { connectivity, offsets }
 }
 
-/// Writes a surface of states as a VTP file of triangles in the space of lattice strains, a curve as one of lines.
+/// Returns a VTP file of a surface of states, of triangles in the space of lattice strains, a curve as one of lines.
 ///
 /// Point arrays: `curvature`, `theta` (2 components), one for each edge of the cell named like its column in the table
 /// (`fold_i_j_n1_n2`), and, if they were computed, `energy` and `self_intersecting`.
 ///
 /// # Errors
 /// [`OutputError::Shape`] if the arrays are inconsistent, [`OutputError::Write`].
-pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError> {
+pub(crate) fn vtp(path: &Path, surface: &StrainSurface) -> Result<Vec<u8>, OutputError> {
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let lines = numbers(surface.segments.iter().map(|segment| segment.as_slice()));
     let pair = ElementType::Scalars { num_comp: 2, lookup_table: None };
@@ -79,19 +87,19 @@ pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), Outp
         data: Attributes { point, cell: vec![] },
         ..PolyDataPiece::default()
     };
-    write(path, DataSet::inline(piece))
+    bytes(path, DataSet::inline(piece))
 }
 
-/// Writes triangles and curves between common points as a VTP file, with arrays of numbers at the points.
+/// Returns a VTP file of triangles and curves between common points, with arrays of numbers at the points.
 ///
 /// # Errors
 /// [`OutputError::Shape`] if the length of an array is not the number of points, [`OutputError::Write`].
-pub(crate) fn write_surface(
+pub(crate) fn vtp_of_surface(
     path: &Path,
     points: &[Vec3],
     (triangles, curves): (&[[usize; 3]], &[Vec<usize>]),
     arrays: &[(&'static str, Vec<f64>)],
-) -> Result<(), OutputError> {
+) -> Result<Vec<u8>, OutputError> {
     check_lengths(path, arrays, points.len())?;
     let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
     let piece = PolyDataPiece {
@@ -101,18 +109,18 @@ pub(crate) fn write_surface(
         data: Attributes { point, cell: vec![] },
         ..PolyDataPiece::default()
     };
-    write(path, DataSet::inline(piece))
+    bytes(path, DataSet::inline(piece))
 }
 
-/// Writes curves in the plane z = 0 as a VTP file, with arrays of one number for each curve.
+/// Returns a VTP file of curves in the plane z = 0, with arrays of one number for each curve.
 ///
 /// # Errors
 /// [`OutputError::Shape`] if the length of an array is not the number of curves, [`OutputError::Write`].
-pub(crate) fn write_curves(
+pub(crate) fn vtp_of_curves(
     path: &Path,
     curves: &[Vec<[f64; 2]>],
     arrays: &[(&'static str, Vec<i32>)],
-) -> Result<(), OutputError> {
+) -> Result<Vec<u8>, OutputError> {
     check_lengths(path, arrays, curves.len())?;
     let ends = curves.iter().scan(0, |end, curve| {
         *end += curve.len() as u64;
@@ -127,20 +135,20 @@ pub(crate) fn write_curves(
         data: Attributes { point: vec![], cell },
         ..PolyDataPiece::default()
     };
-    write(path, DataSet::inline(piece))
+    bytes(path, DataSet::inline(piece))
 }
 
-/// Writes a map as a VTI file: values at the points `origin + (k1, k2) * spacing`, in the order in which `k1` runs
+/// Returns a VTI file of a map: values at the points `origin + (k1, k2) * spacing`, in the order in which `k1` runs
 /// faster.
 ///
 /// # Errors
 /// [`OutputError::Shape`] if the length of an array is not the number of points, [`OutputError::Write`].
-pub(crate) fn write_vti(
+pub(crate) fn vti(
     path: &Path,
     size: [usize; 2],
     [origin, spacing]: [[f64; 2]; 2],
     arrays: &[(&'static str, Vec<f64>)],
-) -> Result<(), OutputError> {
+) -> Result<Vec<u8>, OutputError> {
     check_lengths(path, arrays, size[0] * size[1])?;
     let [last1, last2] = size.map(|n| n as i32 - 1);
     let extent = Extent::Ranges([0..=last1, 0..=last2, 0..=0]);
@@ -149,7 +157,7 @@ pub(crate) fn write_vti(
     let place = |[x, y]: [f64; 2], z: f32| [x as f32, y as f32, z];
     let (origin, spacing) = (place(origin, 0.0), place(spacing, 1.0));
     let pieces = vec![Piece::Inline(Box::new(piece))];
-    write(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
+    bytes(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
 }
 
 /// Checks that every array has the expected length.
@@ -163,13 +171,14 @@ fn check_lengths<T>(path: &Path, arrays: &[(&'static str, Vec<T>)], expected: us
     }
 }
 
-fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
+/// Returns the bytes of the file of a data set; `path` is for messages.
+fn bytes(path: &Path, data: DataSet) -> Result<Vec<u8>, OutputError> {
     let (version, byte_order) = (Version::Auto, ByteOrder::LittleEndian);
     let vtk = Vtk { version, title: String::new(), byte_order, file_path: None, data };
     let mut text = Vec::new();
     vtk.write_xml(&mut text)
         .map_err(|error| OutputError::Write { path: path.into(), source: io::Error::other(error) })?;
-    files::write(path, with_signed_indices(text))
+    Ok(with_signed_indices(text))
 }
 
 /// Returns the file with the type of the arrays of connectivity and offsets changed to `Int64`, which VTK itself
@@ -250,16 +259,9 @@ fn array(name: &str, elem: ElementType, data: IOBuffer) -> Attribute {
     Attribute::DataArray(DataArray { name: name.into(), elem, data })
 }
 
-/// Writes a PVD collection. `states` holds pairs of a time (any increasing numbers) and the path of a file relative to
+/// Returns a PVD collection. `states` holds pairs of a time (any increasing numbers) and the path of a file relative to
 /// the collection.
-///
-/// # Errors
-/// [`OutputError::Write`].
-pub(crate) fn write_pvd(path: &Path, states: &[(f64, String)]) -> Result<(), OutputError> {
-    files::write(path, pvd(states))
-}
-
-fn pvd(states: &[(f64, String)]) -> String {
+pub(crate) fn pvd(states: &[(f64, String)]) -> String {
     let mut text = String::from("<?xml version=\"1.0\"?>\n");
     text.push_str("<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n");
     for (time, file) in states {
@@ -380,9 +382,15 @@ mod tests {
         let path = |name: &str| folder.path().join(name);
         let points = vec![Vec3::zeros(), Vec3::x(), Vec3::y()];
         write_vtu(&path("a.vtu"), &samples::hinge(0.3)).unwrap();
-        write_vtp(&path("b.vtp"), &super::super::strain_space::samples::cap(5)).unwrap();
-        write_surface(&path("c.vtp"), &points, (&[[0, 1, 2]], &[vec![0, 1, 2, 0]]), &[]).unwrap();
-        write_curves(&path("d.vtp"), &[vec![[0.0, 1.0], [2.0, 3.0]]], &[]).unwrap();
+        files::write(&path("b.vtp"), vtp(&path("b.vtp"), &super::super::strain_space::samples::cap(5)).unwrap())
+            .unwrap();
+        files::write(
+            &path("c.vtp"),
+            vtp_of_surface(&path("c.vtp"), &points, (&[[0, 1, 2]], &[vec![0, 1, 2, 0]]), &[]).unwrap(),
+        )
+        .unwrap();
+        files::write(&path("d.vtp"), vtp_of_curves(&path("d.vtp"), &[vec![[0.0, 1.0], [2.0, 3.0]]], &[]).unwrap())
+            .unwrap();
         for (name, arrays) in [("a.vtu", 2), ("b.vtp", 2), ("c.vtp", 4), ("d.vtp", 2)] {
             let types = index_types(&path(name));
             assert!(types.len() >= arrays && types.iter().all(|(_, kind)| kind == "Int64"), "{name}: {types:?}");
@@ -455,7 +463,7 @@ mod tests {
             };
             piece.data.point.iter().map(name).collect()
         };
-        write_vtp(&path, &surface).unwrap();
+        files::write(&path, vtp(&path, &surface).unwrap()).unwrap();
         let piece = read(&path);
         let (corners, ends) = piece.polys.clone().unwrap().into_xml();
         assert_eq!(corners, surface.triangles.iter().flatten().map(|&p| p as u64).collect::<Vec<_>>());
@@ -464,10 +472,10 @@ mod tests {
             [("curvature", 25), ("theta", 50), ("fold_0_1_0_0", 25), ("energy", 25), ("self_intersecting", 25)];
         assert_eq!(names(&piece), expected.map(|(name, length)| (name.to_owned(), length)));
         (surface.energy, surface.self_intersecting) = (None, None);
-        write_vtp(&path, &surface).unwrap();
+        files::write(&path, vtp(&path, &surface).unwrap()).unwrap();
         assert_eq!(names(&read(&path)).len(), 3);
         surface.folds[0].1.pop();
-        let error = write_vtp(&path, &surface).unwrap_err();
+        let error = vtp(&path, &surface).unwrap_err();
         let fault = ShapeError::Length { array: "fold", found: 24, expected: 25 };
         assert!(matches!(error, OutputError::Shape { fault: found, .. } if found == fault));
     }
@@ -479,19 +487,23 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.vtp");
         let curves = [vec![[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]], vec![[6.0, 7.0], [8.0, 9.0]]];
-        write_curves(&path, &curves, &[("winding1", vec![2, -1])]).unwrap();
+        files::write(&path, vtp_of_curves(&path, &curves, &[("winding1", vec![2, -1])]).unwrap()).unwrap();
         let read = |path: &Path| Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data;
         let piece = PolyDataPiece::try_from(read(&path)).unwrap();
         assert_eq!((piece.num_points(), piece.num_lines()), (5, 2));
         assert_eq!(piece.lines.unwrap().into_xml(), (vec![0, 1, 2, 3, 4], vec![3, 5]));
-        assert!(write_curves(&path, &curves, &[("winding1", vec![2])]).is_err());
+        assert!(vtp_of_curves(&path, &curves, &[("winding1", vec![2])]).is_err());
         let path = folder.path().join("a.vti");
         let values = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        write_vti(&path, [3, 2], [[-1.0, -2.0], [0.5, 0.25]], &[("determinant", values.clone())]).unwrap();
+        files::write(
+            &path,
+            vti(&path, [3, 2], [[-1.0, -2.0], [0.5, 0.25]], &[("determinant", values.clone())]).unwrap(),
+        )
+        .unwrap();
         let DataSet::ImageData { extent, origin, spacing, .. } = read(&path) else { panic!("a map is an image") };
         assert_eq!((extent, origin), (Extent::Ranges([0..=2, 0..=1, 0..=0]), [-1.0, -2.0, 0.0]));
         assert_eq!(spacing, [0.5, 0.25, 1.0]);
-        assert!(write_vti(&path, [3, 3], [[0.0; 2]; 2], &[("determinant", values)]).is_err());
+        assert!(vti(&path, [3, 3], [[0.0; 2]; 2], &[("determinant", values)]).is_err());
     }
 
     proptest! {

@@ -51,7 +51,11 @@ pub(crate) fn read_picture(path: &Path) -> Result<Picture, OutputError> {
     parse_picture(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })
 }
 
-pub(super) fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
+/// Reads the picture of a state from the bytes of a VTU file that [`vtu`](super::vtu) has made.
+///
+/// # Errors
+/// [`VtuFault`] if they are not valid.
+pub fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
     let pieces = <[UnstructuredGridPiece; 1]>::try_from(guarded_pieces(bytes)?);
     let [piece] = pieces.map_err(|all| VtuFault::Format(format!("it has {} pieces, expected one", all.len())))?;
     let mut mesh = VtuMesh { points: points(&piece)?, ..<_>::default() };
