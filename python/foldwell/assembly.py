@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,7 @@ from .state import State
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array, csr_array
+    from typing_extensions import Unpack
 
 __all__ = ["RIGID", "Assembly"]
 
@@ -30,9 +32,40 @@ Table = Mapping[str, Any]
 Stiffness = float | str | Table | NDArray[Any]
 Rest = float | str | Table | NDArray[Any]
 EdgeName = Sequence[int]
+F = TypeVar("F", bound=Callable[..., Any])
 
 #: Arguments that may be arrays with a number for each edge.
 PER_EDGE = ("bars", "rest_lengths", "creases", "rest", "facets", "facet_rest")
+
+
+class Terms(TypedDict, total=False):
+    """The terms of an assembly, which `Assembly.patch` describes."""
+
+    bars: Stiffness | None
+    rest_lengths: Rest | None
+    creases: Stiffness | None
+    rest: Rest | None
+    fraction: float | None
+    facets: Stiffness | None
+    facet_rest: Rest | None
+    locks: Mapping[EdgeName, float | str | None] | Iterable[EdgeName] | None
+    pins: Iterable[Table] | None
+    loads: Iterable[Table] | NDArray[Any] | None
+    parts: Iterable[Table] | None
+    springs: Iterable[Table] | None
+    drives: Iterable[Table] | None
+    laws: Mapping[str, Table] | None
+    mass: Table | None
+
+
+def with_terms(make: F) -> F:
+    """Gives a function of `**terms` the signature in which they are spelled out, for `help` and for notebooks."""
+    signature = inspect.signature(make)
+    others = [parameter for parameter in signature.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
+    kinds = {name: getattr(kind, "__forward_arg__", kind) for name, kind in Terms.__annotations__.items()}
+    terms = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=kind) for name, kind in kinds.items()]
+    setattr(make, "__signature__", signature.replace(parameters=others + terms))  # noqa: B010
+    return make
 
 
 class Assembly:
@@ -50,7 +83,8 @@ class Assembly:
         return (type(self), (self._inner,))
 
     @classmethod
-    def patch(cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), **terms: Any) -> Assembly:
+    @with_terms
+    def patch(cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), **terms: Unpack[Terms]) -> Assembly:
         """Makes a patch: `cells[0]` times `cells[1]` cells with free edges, or a finite sheet.
 
         Args:
@@ -84,8 +118,9 @@ class Assembly:
         return cls._build(sheet, {"domain": "patch", "cells": cells}, terms)
 
     @classmethod
+    @with_terms
     def torus(
-        cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), *, lattice: str = "free", **terms: Any
+        cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), *, lattice: str = "free", **terms: Unpack[Terms]
     ) -> Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
@@ -94,7 +129,8 @@ class Assembly:
         return cls._build(sheet, {"domain": "torus", "cells": cells, "lattice": lattice}, terms)
 
     @classmethod
-    def screw(cls, sheet: Sheet, cells: tuple[int, int] = (6, 6), **terms: Any) -> Assembly:
+    @with_terms
+    def screw(cls, sheet: Sheet, cells: tuple[int, int] = (6, 6), **terms: Unpack[Terms]) -> Assembly:
         """Makes a screw: one cell repeated by two commuting screw motions, so that the sheet can be a cylinder.
 
         Args:
@@ -105,6 +141,7 @@ class Assembly:
         return cls._build(sheet, {"domain": "screw", "cells": cells}, terms)
 
     @classmethod
+    @with_terms
     def tube(
         cls,
         sheet: Sheet,
@@ -113,7 +150,7 @@ class Assembly:
         *,
         closing: str = "both",
         inwards: bool | None = None,
-        **terms: Any,
+        **terms: Unpack[Terms],
     ) -> Assembly:
         """Makes a tube: the sheet rolled up, or drawn as a tube, and closed so that the cell `seam` lies on cell (0, 0).
 
@@ -151,10 +188,10 @@ class Assembly:
         return cls(_foldwell.Assembly(given, Path(base), settings(set), None, {}))
 
     @classmethod
-    def _build(cls, sheet: Sheet, place: Table, terms: dict[str, Any]) -> Assembly:
+    def _build(cls, sheet: Sheet, place: Table, terms: Terms) -> Assembly:
         if not isinstance(sheet, Sheet):
             raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
-        scene, arrays = _terms(terms)
+        scene, arrays = _terms(dict(terms))
         scene["sheet"] = {"mesh": sheet.title or "sheet", **place}
         return cls(_foldwell.Assembly(scene, Path(), [], sheet._inner, arrays))
 
@@ -289,12 +326,8 @@ class Assembly:
 
 def _terms(terms: dict[str, Any]) -> tuple[dict[str, Any], dict[str, NDArray[np.float64]]]:
     """Returns the tables of a scene for the keyword arguments of `Assembly.patch`, and the arrays that they name as files."""
-    known = {
-        *("bars", "rest_lengths", "creases", "rest", "fraction", "facets", "facet_rest"),
-        *("locks", "pins", "loads", "parts", "springs", "drives", "mass", "laws"),
-    }
-    if unknown := terms.keys() - known:
-        raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(known))}")
+    if unknown := terms.keys() - Terms.__annotations__.keys():
+        raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(Terms.__annotations__))}")
     given = {name: value for name, value in terms.items() if value is not None}
     arrays = {name: numbers(given[name], name, 1) for name in PER_EDGE if isinstance(given.get(name), np.ndarray) and given[name].ndim}
     given |= {name: {"file": name} for name in arrays}

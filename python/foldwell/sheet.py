@@ -7,13 +7,16 @@ import os
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
 from .arrays import matrix
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["Sheet", "generate", "pattern_help", "patterns"]
 
@@ -158,15 +161,15 @@ class Sheet:
         found: dict[str, Any] = json.loads(self._inner.to_fold())
         return found
 
-    def plot(self, ax: Any = None, **options: Any) -> Any:
+    def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4", numbers: bool = False) -> Axes:
         """Draws all faces of one cell as they are drawn, of the cell of a tube with its neighbours, with the options of `State.plot`. Needs
         Matplotlib."""
         from .assembly import Assembly
 
         if self.screws is not None:
-            return Assembly.patch(self, (8, 4)).drawn.plot(ax, **options)
+            return Assembly.patch(self, (8, 4)).drawn.plot(ax, paper=paper, numbers=numbers)
         make = Assembly.patch if self.lattice is None else Assembly.torus
-        return make(self).drawn.plot(ax, **options)
+        return make(self).drawn.plot(ax, paper=paper, numbers=numbers)
 
     def __repr__(self) -> str:
         tube = "finite sheet" if self.screws is None else "cell of a tube"

@@ -28,7 +28,8 @@ def relax(
     tolerance: float | None = None,
     method: str | None = None,
     keep_every: int | None = None,
-    **common: Any,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Finds an equilibrium of the energy by Newton's method.
 
@@ -39,32 +40,53 @@ def relax(
         tolerance: Bound on both scaled residuals.
         method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
         keep_every: Steps between the states on the way that are kept; left out: none are.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
     keys = {"tolerance": tolerance, "method": method, "keep_every": keep_every}
-    return compute(assembly, "relax", keys, start=start, **common)
+    return compute(
+        assembly, "relax", keys, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
-def modes(assembly: Assembly, *, start: Start = None, eigenvalues: int | None = None, **common: Any) -> Result:
+def modes(
+    assembly: Assembly,
+    *,
+    start: Start = None,
+    eigenvalues: int | None = None,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
+) -> Result:
     """Counts zero modes and self stresses, and finds the lowest eigenvalues of the energy's Hessian, with a mass also frequencies.
 
     Args:
         assembly: The sheet and its energy.
         start: The state whose modes are wanted, as in `relax`.
         eigenvalues: How many, and how many frequencies where the assembly has a mass; left out: none.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
-    return compute(assembly, "modes", {"eigenvalues": eigenvalues}, start=start, **common)
+    return compute(
+        assembly, "modes", {"eigenvalues": eigenvalues}, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
-def branches(assembly: Assembly, **common: Any) -> Result:
+def branches(
+    assembly: Assembly,
+    *,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
+) -> Result:
     """Finds the directions in which rigid folding leaves the drawn state.
 
     Args:
         assembly: The sheet.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
-    return compute(assembly, "branches", {}, **common)
+    return compute(
+        assembly, "branches", {},
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def trace(
@@ -76,7 +98,8 @@ def trace(
     tolerance: float | None = None,
     stop: Mapping[str, Any] | None = None,
     response: str | None = None,
-    **common: Any,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Follows the trajectories along which the sheet folds.
 
@@ -90,14 +113,22 @@ def trace(
             (`{"crease": (i, j, n1, n2), "angle": a}`), `self_intersection` (bool).
         response: Whether the table has Poisson's ratios of every state: "rigid" of the assembly's modes, "bending" of those with
             polygons that bend and without locks.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
     keys = {"engine": engine, "branch": branch, "max_step": max_step, "tolerance": tolerance, "stop": stop}
-    return compute(assembly, "trace", {**keys, "response": response}, **common)
+    return compute(
+        assembly, "trace", {**keys, "response": response},
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def response(
-    assembly: Assembly, *, start: Start = None, directions: int | None = None, **common: Any
+    assembly: Assembly,
+    *,
+    start: Start = None,
+    directions: int | None = None,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Describes a periodic sheet as a material: linear folding modes, Poisson's ratios, self stresses and effective moduli.
 
@@ -105,13 +136,21 @@ def response(
         assembly: The sheet as a screw or a torus of one cell.
         start: The state whose response is wanted, as in `relax`.
         directions: Number of directions over half a turn at which Poisson's ratios are given; left out: 72.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
-    return compute(assembly, "response", {"directions": directions}, start=start, **common)
+    return compute(
+        assembly, "response", {"directions": directions}, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def surface(
-    assembly: Assembly, *, resolution: int | None = None, max_curvature: float | None = None, **common: Any
+    assembly: Assembly,
+    *,
+    resolution: int | None = None,
+    max_curvature: float | None = None,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Finds the surface of folded states of one cell.
 
@@ -119,9 +158,12 @@ def surface(
         assembly: The sheet as a screw or a torus of one cell; locks do not apply.
         resolution: States along each direction over a whole turn of fold angles; left out: 32.
         max_curvature: Curvature at which the surface ends, 1/length; left out: one over the square root of the cell's area.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
-    return compute(assembly, "surface", {"resolution": resolution, "max_curvature": max_curvature}, **common)
+    return compute(
+        assembly, "surface", {"resolution": resolution, "max_curvature": max_curvature},
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def landscape(
@@ -130,7 +172,8 @@ def landscape(
     amplitudes: Sequence[float] | NDArray[Any],
     *,
     map: Mapping[str, Any] | None = None,
-    **common: Any,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Measures the energy along folding modes.
 
@@ -140,13 +183,16 @@ def landscape(
             each edge of the cell, or `{"wave": (m1, m2)}` on a torus.
         amplitudes: Amplitudes along each mode, positive.
         map: Energies in all directions: `{"amplitude": a, "rings": n}`.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
     given = {f"modes[{k}]": mode for k, mode in enumerate(modes)}
     rates = {name: numbers(mode, name, 1) for name, mode in given.items() if not isinstance(mode, Mapping) and len(mode) != 3}
     named = [{"rates": name} if name in rates else mode for name, mode in given.items()]
     keys = {"modes": named, "amplitudes": np.asarray(amplitudes, dtype=float), "map": map}
-    return compute(assembly, "landscape", keys, arrays=rates, **common)
+    return compute(
+        assembly, "landscape", keys, arrays=rates,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def bloch(
@@ -160,7 +206,8 @@ def bloch(
     density: Mapping[str, Any] | None = None,
     strip: Mapping[str, Any] | None = None,
     zero_modes_at: Sequence[tuple[float, float]] | NDArray[Any] | None = None,
-    **common: Any,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Finds the modes of nonzero wavenumber of a periodic sheet.
 
@@ -176,10 +223,13 @@ def bloch(
         strip: A strip with free edges whose zero modes are wanted at every `q1`: `{"cells": 60}`, with `"other"` the mesh of
             the upper half, with `"clamped": True` clamped edges.
         zero_modes_at: Wavenumbers `(q1, q2)` at which zero modes and self stresses are counted.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
     keys = {"grid": grid, "q1": q1, "modes": modes, "path": path, "density": density, "strip": strip}
-    return compute(assembly, "bloch", {**keys, "zero_modes_at": zero_modes_at}, start=start, **common)
+    return compute(
+        assembly, "bloch", {**keys, "zero_modes_at": zero_modes_at}, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def wells(
@@ -193,7 +243,8 @@ def wells(
     rigid: bool | None = None,
     resolution: int | None = None,
     max_curvature: float | None = None,
-    **common: Any,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Finds stable states and the barriers between them.
 
@@ -207,11 +258,14 @@ def wells(
         rigid: Whether wells and passes are also sought in fold angles alone.
         resolution: With `rigid`, states over a whole turn of fold angles; left out: 64.
         max_curvature: With `rigid`, curvature up to which the states of a screw are sought, 1/length.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
     keys = {"starts": starts, "seed": seed, "spread": spread, "barriers": barriers, "rigid": rigid}
     keys |= {"resolution": resolution, "max_curvature": max_curvature}
-    return compute(assembly, "wells", keys, start=start, **common)
+    return compute(
+        assembly, "wells", keys, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def path(
@@ -224,7 +278,8 @@ def path(
     switch: bool | None = None,
     stop: Mapping[str, Any] | None = None,
     response: str | None = None,
-    **common: Any,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
     """Follows equilibria along a driven quantity.
 
@@ -237,10 +292,13 @@ def path(
         switch: Whether branches that leave at branch points are followed too.
         stop: Conditions of which the first ends a branch, as in `trace`.
         response: Whether the table has Poisson's ratios of every state of a periodic sheet, as in `trace`.
-        **common: As for every study, see `compute`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
     """
     keys = {"drive": drive, "tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
-    return compute(assembly, "path", {**keys, "response": response}, start=start, **common)
+    return compute(
+        assembly, "path", {**keys, "response": response}, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
 
 
 def compute(

@@ -297,6 +297,15 @@ def test_frequencies_follow_from_a_mass(miura):
     assert "frequencies" not in fw.modes(fw.Assembly.patch(miura, (2, 2), **terms), eigenvalues=12).summary
 
 
+def test_terms_are_spelled_out():
+    """`help` and notebooks show every term as an argument, and each is described."""
+    for make in (fw.Assembly.patch, fw.Assembly.torus, fw.Assembly.screw, fw.Assembly.tube):
+        parameters = inspect.signature(make).parameters
+        assert {"sheet", "cells", "bars", "creases", "rest", "laws", "mass"} <= set(parameters) and "terms" not in parameters
+    terms = list(inspect.signature(fw.Assembly.patch).parameters)[2:]
+    assert all(f"            {name}: " in fw.Assembly.patch.__doc__ for name in terms)
+
+
 def test_every_key_of_every_kind_is_an_argument():
     """The functions of the package have the keys of the schema, no more and no less."""
     schema = fw.schema()
@@ -305,8 +314,12 @@ def test_every_key_of_every_kind_is_an_argument():
         variants[variant["properties"]["kind"]["const"]] = set(variant["properties"])
     assert set(variants) == set(KINDS)
     for kind in KINDS:
-        arguments = set(inspect.signature(getattr(fw, kind)).parameters) - {"assembly", "common"}
+        signature = inspect.signature(getattr(fw, kind))
+        arguments = set(signature.parameters) - {"assembly", "name", "draw", "check", "threads", "progress", "must_converge"}
         assert arguments == variants[kind] - {"name", "kind", "draw", "check"}, kind
+        of_all = inspect.signature(fw.compute).parameters
+        for name in ("name", "draw", "check", "threads", "progress", "must_converge"):
+            assert signature.parameters[name] == of_all[name], (kind, name)
 
 
 def test_arrays_are_views_of_the_memory_of_the_program(soft):
