@@ -44,8 +44,8 @@ pub use report::{RunOptions, RunReport};
 pub use single::run;
 pub use summary::{SheetSummary, Summary};
 pub use sweep::{
-    PointStatus, Shard, ShardError, SweepReport, SweepSummary, UnansweredPoint, assemble, assemble_at, points,
-    run_point, sweep,
+    PointStatus, Row, Shard, ShardError, SweepReport, SweepSummary, UnansweredPoint, assemble, assemble_at,
+    check_scenes, points, rows, run_point, sweep, table_of,
 };
 pub use view::view;
 

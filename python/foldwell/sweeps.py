@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +26,9 @@ __all__ = ["open_sweep", "sweep"]
 
 #: Pieces of work for an executor: enough that its workers end at about the same time, and that little is lost with one of them.
 PIECES = 128
+
+#: How points are computed: the folder of the sweep or None, the number of threads, and whether points that are there already are kept.
+How = tuple[Path | None, int, bool]
 
 
 def sweep(
@@ -53,7 +56,7 @@ def sweep(
         out: Folder for the files of `foldwell run`, a folder for each point beside the table; left out: they are not kept.
         resume: With `out`, whether points that are there already are kept.
         executor: Where the points are computed: any executor of `concurrent.futures`, or of Dask: `Client(...).get_executor()`. Its
-            workers must see the folder `out`, or the temporary folder if that is left out. A piece of work that is lost with its worker
+            workers must see the folder `out`, if there is one. A piece of work that is lost with its worker
             is handed out once more; if the sweep fails all the same, call the function again with the same `out`: only missing points
             are computed. Left out: the threads of this process.
         threads: Number of threads of this process; with an executor, of each point there, 1 if left out.
@@ -72,16 +75,23 @@ def sweep(
     if zip:
         wanted["sweep.zip"] = True
     points = _foldwell.Sweep(given, Path(base).absolute(), settings(set) + settings(wanted))
-    # after a failure a worker of Dask may still write there while the folder is removed
-    with TemporaryDirectory(ignore_cleanup_errors=True) as temporary, listener(progress) as callback:
-        folder = Path(temporary if out is None else out).absolute()
-        if executor is None:
-            summary = points.run(folder, threads, resume and out is not None, callback)
+    folder = None if out is None else Path(out).absolute()
+    with listener(progress) as callback:
+        if executor is not None:
+            points.check(folder or Path())
+            found = _submit(points, executor, (folder, threads or 1, resume), callback)
+            rows = [found.get(index) for index in range(len(points))]
+        elif folder is None:
+            points.check_scenes()
+            rows = points.rows(range(len(points)), threads, callback)
         else:
-            points.check(folder)
-            _submit(points, executor, (folder, threads or 1, resume), callback)
-            summary = points.assemble(folder)
-        return _dataset(folder, points.shape, json.loads(summary))
+            points.run(folder, threads, resume, callback)
+    if folder is None:
+        table, summary = points.table(rows)
+        return _dataset(io.StringIO(table, newline=""), points.shape, json.loads(summary))
+    if executor is not None:
+        points.assemble(folder)
+    return _of_folder(folder, points.shape)
 
 
 def open_sweep(folder: str | os.PathLike[str]) -> Dataset:
@@ -90,7 +100,7 @@ def open_sweep(folder: str | os.PathLike[str]) -> Dataset:
     Raises:
         FileNotFoundError: the folder has no `sweep.csv`.
     """
-    return _dataset(Path(folder), [], json.loads((Path(folder) / "sweep.json").read_text()))
+    return _of_folder(Path(folder), [])
 
 
 def _values(values: Any) -> Any:
@@ -101,23 +111,23 @@ def _values(values: Any) -> Any:
 
 
 def _submit(
-    points: _foldwell.Sweep, executor: Executor, how: tuple[Path, int, bool], callback: Callback | None
-) -> None:
-    """Computes the points on the workers of an executor, in pieces. When it ends early, pieces that have not begun are
+    points: _foldwell.Sweep, executor: Executor, how: How, callback: Callback | None
+) -> dict[int, str | None]:
+    """Computes the points on the workers of an executor, in pieces, and returns the row of each. When it ends early, pieces that have not begun are
     cancelled, and those that have begun are waited for, because they write files.
 
     A piece that the executor lost is handed out once more, since Dask may report an error for a piece whose worker ended while its
     result was on the way, though another worker computes it.
     """
 
-    def submit(piece: range) -> Future[int]:
-        return executor.submit(_compute, (points.text, points.path), piece, how)
+    def submit(piece: range) -> Future[dict[int, str | None]]:
+        return executor.submit(_compute, points, piece, how)
 
     count = len(points)
     pieces = [range(first, count, PIECES) for first in range(min(PIECES, count))]
     work = {submit(piece): piece for piece in pieces}
     handed_out_again: set[range] = set()
-    done = 0
+    found: dict[int, str | None] = {}
     try:
         while work:
             for future in wait(work, return_when=FIRST_COMPLETED).done:
@@ -126,36 +136,39 @@ def _submit(
                     handed_out_again.add(piece)
                     work[submit(piece)] = piece
                     continue
-                done += future.result()
-                if callback is not None and callback("points", done, count, None) is False:
-                    return
+                found |= future.result()
+                if callback is not None and callback("points", len(found), count, None) is False:
+                    return found
     finally:
         wait([future for future in work if not future.cancel()])
+    return found
 
 
-def _is_lost(future: Future[int]) -> bool:
+def _is_lost(future: Future[Any]) -> bool:
     """Returns whether an ended piece failed by its executor and not by an error of foldwell, which would only be repeated."""
     return future.cancelled() or not isinstance(future.exception(), FoldwellError | None)
 
 
-def _compute(scene: tuple[str, Path], piece: Iterable[int], how: tuple[Path, int, bool]) -> int:
-    """Computes some points in this process, which may be a worker; returns how many.
-
-    Args:
-        scene: Text and path of the scene.
-        piece: Numbers of the points.
-        how: Folder of the sweep, number of threads, and whether points that are there already are kept.
-    """
-    points = _foldwell.Sweep.parse(*scene)
-    return sum(points.run_point(index, *how) is not None for index in piece)
+def _compute(points: _foldwell.Sweep, piece: Sequence[int], how: How) -> dict[int, str | None]:
+    """Computes some points in this process, which may be a worker; returns the row of each, None where it is in its folder."""
+    folder, threads, resume = how
+    if folder is None:
+        return dict(zip(piece, points.rows(piece, threads, None), strict=True))
+    return {index: None for index in piece if points.run_point(index, folder, threads, resume) is not None}
 
 
-def _dataset(folder: Path, shape: list[int], summary: dict[str, Any]) -> Dataset:
+def _of_folder(folder: Path, shape: list[int]) -> Dataset:
+    """Returns the table in the folder of a sweep as a data set."""
+    summary = json.loads((folder / "sweep.json").read_text())
+    with open(folder / "sweep.csv", newline="") as file:
+        return _dataset(file, shape, summary)
+
+
+def _dataset(table: Iterable[str], shape: list[int], summary: dict[str, Any]) -> Dataset:
     """Returns the table of a sweep as a data set."""
     import xarray
 
-    with open(folder / "sweep.csv", newline="") as file:
-        header, *rows = csv.reader(file)
+    header, *rows = csv.reader(table)
     columns = {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(header) if name != "point"}
     keys: list[str] = summary["keys"]
     about = {key: summary[key] for key in ("title", "scene", "version", "digest")}

@@ -8,7 +8,6 @@ use crate::watch::watched;
 use foldwell::Pattern;
 use foldwell::run::{self, Ledger, Progress, RunError, RunOptions};
 use foldwell::scene::{Arrays, SceneFile, Setting, parse_set};
-use foldwell::Pattern;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

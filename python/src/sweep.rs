@@ -3,9 +3,9 @@
 use crate::errors::raise;
 use crate::run::Given;
 use crate::watch::watched;
-use foldwell::run::{self, Observer, RunOptions};
+use foldwell::run::{self, Observer, Row, RunError, RunOptions};
 use pyo3::prelude::*;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The points of a scene.
@@ -27,16 +27,9 @@ impl Sweep {
         self.sweep.len()
     }
 
-    /// The text of the scene, from which another process reads the same points.
-    #[getter]
-    fn text(&self) -> &str {
-        self.sweep.file().text()
-    }
-
-    /// The path of the scene, to which paths in it are relative.
-    #[getter]
-    fn path(&self) -> &Path {
-        self.sweep.file().path()
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
+        let file = slf.get().sweep.file();
+        Ok((slf.get_type().getattr("parse")?, (file.text().to_owned(), file.path().to_owned())))
     }
 
     /// Reads the points from the text of a scene.
@@ -64,6 +57,33 @@ impl Sweep {
         let options = RunOptions { out: Some(out), ..RunOptions::default() };
         let sweep = self.sweep.clone();
         watched(py, None, move |_| run::check(sweep.file(), &options))?.map_err(|error| raise(py, &error))
+    }
+
+    /// Checks the scene and those of all points as `run` would.
+    fn check_scenes(&self, py: Python<'_>) -> PyResult<()> {
+        let sweep = self.sweep.clone();
+        watched(py, None, move |_| run::check_scenes(&sweep))?.map_err(|error| raise(py, &error))
+    }
+
+    /// Computes some points and writes nothing; returns the row of each as JSON, `None` where the callback stopped it.
+    fn rows(
+        &self,
+        py: Python<'_>,
+        points: Vec<usize>,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<Option<String>>> {
+        let sweep = self.sweep.clone();
+        let work = move |observer: Observer<'_>| run::rows(&sweep, &points, threads, observer);
+        let rows = watched(py, progress, work)?.map_err(|error: RunError| raise(py, &error))?;
+        Ok(rows.iter().map(|row| serde_json::to_string(row.as_ref()?).ok()).collect())
+    }
+
+    /// Returns the table of these rows as CSV, and the summary as JSON.
+    fn table(&self, py: Python<'_>, rows: Vec<Option<String>>) -> PyResult<(String, String)> {
+        let rows = rows.iter().map(|row| serde_json::from_str::<Row>(row.as_ref()?).ok()).collect();
+        let (table, summary) = run::table_of(&self.sweep, rows).map_err(|error| raise(py, &error))?;
+        Ok((table, serde_json::to_string(&summary).unwrap_or_default()))
     }
 
     /// Computes a point in its folder, unless it is kept; returns the word for what became of it.

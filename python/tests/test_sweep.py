@@ -8,6 +8,7 @@ import sys
 import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import nullcontext
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -41,6 +42,26 @@ def test_a_point_is_the_study_that_it_would_be_alone(expected):
         run = fw.run(SCENE, set={"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
         point = data.sel({"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
         assert float(point["bent.energy.total"]) == run["bent"].summary["energy"]["total"]
+
+
+@pytest.mark.parametrize("executor", [None, ThreadPoolExecutor, ProcessPoolExecutor])
+def test_a_sweep_in_memory_has_the_same_table(executor, expected, monkeypatch):
+    """Without a folder nothing is written, and where points are computed makes no difference."""
+    monkeypatch.setattr("tempfile.tempdir", "/no/such/folder")
+    heard = []
+    spawned = {"mp_context": get_context("spawn")} if executor is ProcessPoolExecutor else {}
+    with nullcontext() if executor is None else executor(2, **spawned) as pool:
+        found = fw.sweep(SCENE, AXES, executor=pool, progress=lambda *step: heard.append(step))
+    assert found.identical(expected[0])
+    assert heard[-1][:3] == ("points", 18, 18)
+
+
+def test_a_sweep_in_memory_stops():
+    """Points that were not computed are missing; a scene that is wrong is refused before."""
+    found = fw.sweep(SCENE, AXES, threads=1, progress=lambda study, step, of, residual: step < 3)
+    assert found.status.values.ravel().tolist().count("missing") == 15
+    with pytest.raises(fw.SceneError, match="point 1"):
+        fw.sweep(SCENE, {"energy.bars.stiffness": [1.0, -2.0]})
 
 
 @pytest.mark.parametrize("executor", [ThreadPoolExecutor, ProcessPoolExecutor])

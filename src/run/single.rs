@@ -53,7 +53,7 @@ pub(super) fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunErr
 }
 
 /// Builds the model of a scene that has something to compute.
-fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
+pub(super) fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
     has_studies(file)?;
     crate::scene::mass::is_read(file)?;
     Ok(crate::scene::build::assembly(file)?)

@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use serde::{Deserialize, Serialize};
+
 use super::place::{SUMMARY, TABLE, folder, point_folder, points};
 use super::record::Record;
 use super::scalars;
@@ -14,14 +16,15 @@ use crate::run::{RunError, RunOptions, claim};
 use crate::scene::{SceneFile, Sweep, digest};
 
 /// A row of the table: what became of a point, why, and its scalar results.
-struct Row {
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Row {
     status: PointStatus,
     reason: String,
     scalars: BTreeMap<String, String>,
 }
 
 impl Row {
-    fn new(found: Option<&Record>) -> Self {
+    pub(super) fn new(found: Option<&Record>) -> Self {
         let scalars = match found {
             Some(Record::Computed(studies)) => studies.iter().flat_map(scalars::of_study).collect(),
             _ => BTreeMap::new(),
@@ -131,6 +134,15 @@ pub fn assemble_at(file: &SceneFile, options: &RunOptions) -> Result<Option<Swee
     summary.missing.iter().for_each(|&index| files::remove_own_drafts(&point_folder(&out, index)));
     files::remove_own_drafts(&out);
     Ok(Some(summary))
+}
+
+/// Returns the table of a sweep with these rows as text, and its summary; a point without a row is missing.
+///
+/// # Errors
+/// [`RunError`] if a file that the scene names cannot be read.
+pub fn table_of(sweep: &Sweep, rows: Vec<Option<Row>>) -> Result<(String, SweepSummary), RunError> {
+    let rows: Vec<Row> = rows.into_iter().map(|row| row.unwrap_or_else(|| Row::new(None))).collect();
+    Ok((table(sweep, &rows), summary(sweep, &rows)?))
 }
 
 /// Returns the text of the table. The columns of results are those that a point has, studies in the order of the scene.

@@ -16,14 +16,16 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::belongings::Belongings;
-use super::{Ledger, Observer, Progress, RunError, RunOptions, claim, inputs, single};
+use super::{Ledger, Observer, Progress, RunError, RunOptions, claim, compute, inputs, single};
 use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Sweep};
+use crate::study::PreviousAnswers;
 use assemble::Board;
-pub use assemble::{assemble, assemble_at};
+pub use assemble::{Row, assemble, assemble_at, table_of};
 pub use place::points;
 use place::{CHECKS, POINTS, folder, point_folder};
 use pool::Pool;
@@ -129,6 +131,52 @@ fn survey(board: &Board<'_>, own: &[usize], resume: bool, observer: Observer) ->
 /// Returns the progress of work over points.
 fn progress(work: &str, step: usize, of: usize) -> Progress {
     Progress { study: work.to_owned(), step, of: Some(of), residual: f64::NAN }
+}
+
+/// Checks the scenes of all points as [`sweep`] does before it computes anything; of a sweep that writes nothing.
+///
+/// # Errors
+/// [`RunError`] if the scene, or that of a point, is wrong.
+pub fn check_scenes(sweep: &Sweep) -> Result<(), RunError> {
+    check_base(sweep, Path::new(""))?;
+    Ok((0..sweep.len()).try_for_each(|index| sweep.scene(index).map(|_| ()))?)
+}
+
+/// Computes points of a sweep on the threads of this process and writes nothing. Returns the row of each, none for those that the
+/// observer stopped.
+///
+/// # Errors
+/// [`RunError`] if the scene of a point cannot be read.
+pub fn rows(
+    sweep: &Sweep,
+    own: &[usize],
+    threads: Option<usize>,
+    observer: Observer,
+) -> Result<Vec<Option<Row>>, RunError> {
+    let (done, pool) = (AtomicUsize::new(0), Pool::new(threads, own.len()));
+    let found: Vec<OnceLock<Row>> = own.iter().map(|_| OnceLock::new()).collect();
+    let report = || observer(&progress(POINTS, done.load(Ordering::Relaxed), own.len()));
+    let all: Vec<usize> = (0..own.len()).collect();
+    let _ended = pool.over(&all, |k| {
+        let Some(record) = in_memory(&sweep.scene(own[k])?, pool.threads_of_point(), &|_| report())? else {
+            return Ok(ControlFlow::Break(()));
+        };
+        found[k].get_or_init(|| Row::new(Some(&record)));
+        done.fetch_add(1, Ordering::Relaxed);
+        Ok(report())
+    })?;
+    Ok(found.into_iter().map(OnceLock::into_inner).collect())
+}
+
+/// Computes the scene of a point in memory; `None` if the observer stopped it.
+fn in_memory(scene: &SceneFile, threads: usize, observer: Observer) -> Result<Option<Record>, RunError> {
+    let assembly = single::assembly(scene);
+    match assembly.and_then(|assembly| compute(scene, &assembly, PreviousAnswers::default(), Some(threads), observer)) {
+        Ok(computed) if computed.interrupted => Ok(None),
+        Ok(computed) => Ok(Some(Record::of(&computed.summary))),
+        Err(error) if error.exit_status() == WRONG_INPUT => Ok(Some(Record::Failed(error.to_string()))),
+        Err(error) => Err(error),
+    }
 }
 
 /// Computes a point of a sweep in its folder below that of the sweep, `options.out`, as [`super::run`] does with its scene.

@@ -15,6 +15,7 @@ use super::summary::PointStatus;
 use crate::output::json::to_json;
 use crate::output::{OutputError, files};
 use crate::run::RunError;
+use crate::run::Summary;
 use crate::run::belongings::Belongings;
 use crate::run::ledger::INTERRUPTED;
 use crate::scene::{Fingerprint, SceneFile, digest};
@@ -52,6 +53,12 @@ struct Failure {
 }
 
 impl Record {
+    /// Makes the result of a point of the summary of its run.
+    pub(super) fn of(summary: &Summary) -> Self {
+        let studies = serde_json::to_value(&summary.studies).and_then(serde_json::from_value);
+        Self::Computed(studies.unwrap_or_default())
+    }
+
     /// Reads the result of a point with this scene; `None` if there is none.
     pub(super) fn read(scene: &SceneFile, folder: &Path) -> Option<Self> {
         if !folder.is_dir() {
