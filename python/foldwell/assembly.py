@@ -18,6 +18,7 @@ from . import _foldwell
 from .arrays import matrix, numbers, vector
 from .sheet import Sheet
 from .state import State
+from .terms import Called, Energy
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array, csr_array
@@ -194,6 +195,24 @@ class Assembly:
         scene, arrays = _terms(dict(terms))
         scene["sheet"] = {"mesh": sheet.title or "sheet", **place}
         return cls(_foldwell.Assembly(scene, Path(), [], sheet._inner, arrays))
+
+    def with_term(self, name: str, vertices: ArrayLike, energy: Energy) -> Assembly:
+        """Returns the same patch with a term of your own, whose energy is listed as `energy_NAME`; see the book.
+
+        Args:
+            name: Name of the term.
+            vertices: Vertices of each element, shape (elements, n), n from 1 to 6, numbered cell by cell as `state.positions`.
+            energy: Function of the positions of the vertices of an element, shape (n, 3), that returns its energy, gradient (3 n numbers)
+                and Hessian (3 n times 3 n), vertex by vertex. It is called for one element at a time, on any thread. An exception in it
+                ends the study and is raised.
+
+        Raises:
+            SceneError: the assembly is no patch, has a term of this name, or lacks a vertex.
+        """
+        given = np.asarray(vertices)
+        if given.ndim != 2 or given.dtype.kind not in "iu" or given.size == 0 or given.min() < 0:
+            raise ValueError(f"vertices has shape {given.shape}, expected rows of vertex numbers")
+        return Assembly(self._inner.with_term(name, given.tolist(), Called(name, energy)))
 
     @property
     def sheet(self) -> Sheet:

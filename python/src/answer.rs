@@ -136,9 +136,13 @@ impl Answer {
     }
 
     /// Returns the final state; `None` if the study has none.
-    fn state(&self) -> Option<State> {
-        let state = restored::state(self.saved.as_ref()?, &self.assembly.get().assembly)?;
-        Some(State { picture: Picture::new(&self.assembly.get().assembly, &state) })
+    fn state(&self, py: Python<'_>) -> PyResult<Option<State>> {
+        let (this, saved) = (self.assembly.get(), self.saved.as_ref());
+        let found = py.detach(|| {
+            let state = restored::state(saved?, &this.assembly)?;
+            Some(State { picture: Picture::new(&this.assembly, &state) })
+        });
+        this.raise_failures().map(|()| found)
     }
 
     /// The coordinates of the final state.

@@ -6,6 +6,7 @@ use crate::errors::{raise, refused};
 use crate::forms::Forms;
 use crate::run::Given;
 use crate::sheet::Sheet;
+use crate::term::CalledTerm;
 use crate::values::{table, text};
 use crate::watch::watched;
 use foldwell::model::Boundary;
@@ -28,10 +29,14 @@ pub(crate) struct Assembly {
     path: PathBuf,
     /// The arrays that the scene names.
     arrays: Arrays,
+    /// The terms whose energy is a function in Python.
+    called: Vec<CalledTerm>,
 }
 
-/// What a pickle keeps: scene, path, sheet and arrays.
-type Kept<'py> = (String, PathBuf, Sheet, BTreeMap<PathBuf, Array1<'py, f64>>);
+/// What a pickle keeps: scene, path, sheet, arrays and terms.
+type Kept<'py> = (String, PathBuf, Sheet, BTreeMap<PathBuf, Array1<'py, f64>>, Vec<KeptTerm>);
+/// A kept term: name, vertices of each element and function.
+type KeptTerm = (String, Vec<Vec<usize>>, Py<PyAny>);
 
 impl Assembly {
     /// Builds the assembly of a scene, of which `sheet`, if there is one, replaces the mesh.
@@ -49,7 +54,21 @@ impl Assembly {
             Some(sheet) => build::assembly_of(&file, sheet),
             None => build::assembly(&file),
         })?;
-        Ok(Self { assembly: built.map_err(|error| raise(py, &error.into()))?, scene, path, arrays })
+        let assembly = built.map_err(|error| raise(py, &error.into()))?;
+        Ok(Self { assembly, scene, path, arrays, called: Vec::new() })
+    }
+
+    /// Returns the same assembly with one more term.
+    fn with_called(&self, py: Python<'_>, term: CalledTerm) -> PyResult<Self> {
+        let assembly = term.added_to(py, &self.assembly)?;
+        let called = self.called.iter().map(|term| term.clone_ref(py)).chain([term]).collect();
+        let Self { scene, path, arrays, .. } = self;
+        Ok(Self { assembly, scene: scene.clone(), path: path.clone(), arrays: arrays.clone(), called })
+    }
+
+    /// Raises the exception that has ended a function of the terms.
+    pub(crate) fn raise_failures(&self) -> PyResult<()> {
+        self.called.iter().try_for_each(CalledTerm::raise)
     }
 }
 
@@ -109,14 +128,17 @@ impl Assembly {
         let assembly = this.assembly.clone();
         let work = move |observer: run::Observer<'_>| run::compute(&file, &assembly, earlier, threads, observer);
         let computed: Result<_, RunError> = watched(py, progress, work)?;
+        this.raise_failures()?;
         answers(py, slf.as_unbound(), computed)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Kept<'py>)> {
-        let (py, Self { assembly, scene, path, arrays }) = (slf.py(), slf.get());
+        let (py, Self { assembly, scene, path, arrays, called }) = (slf.py(), slf.get());
         let arrays = arrays.iter().map(|(name, array)| (name.clone(), vector(py, array.clone()))).collect();
         let sheet = Sheet { sheet: assembly.sheet().clone() };
-        Ok((slf.get_type().getattr("restore")?, (text(scene)?, std::path::absolute(path)?, sheet, arrays)))
+        let kept = |term: &CalledTerm| (term.name.clone(), term.elements.clone(), term.function.clone_ref(py));
+        let called = called.iter().map(kept).collect();
+        Ok((slf.get_type().getattr("restore")?, (text(scene)?, std::path::absolute(path)?, sheet, arrays, called)))
     }
 
     /// Makes the assembly of what a pickle has kept.
@@ -127,14 +149,29 @@ impl Assembly {
         path: PathBuf,
         sheet: &Bound<'_, Sheet>,
         arrays: BTreeMap<PathBuf, Given1<'_>>,
+        called: Vec<KeptTerm>,
     ) -> PyResult<Self> {
         let file = parse(scene, &path).map_err(|error| raise(py, &error.into()))?;
-        Self::of(py, file, shared(arrays)?, Some(sheet))
+        let bare = Self::of(py, file, shared(arrays)?, Some(sheet))?;
+        let mut terms = called.into_iter().map(|(name, elements, function)| CalledTerm::new(name, elements, function));
+        terms.try_fold(bare, |assembly, term| assembly.with_called(py, term))
+    }
+
+    /// Returns the same assembly with a term whose energy is a function of the positions of the vertices of each element.
+    fn with_term(
+        &self,
+        py: Python<'_>,
+        name: String,
+        elements: Vec<Vec<usize>>,
+        function: Py<PyAny>,
+    ) -> PyResult<Self> {
+        self.with_called(py, CalledTerm::new(name, elements, function))
     }
 
     /// Returns the energy as a function of the unknowns.
     fn forms(&self, py: Python<'_>) -> Forms {
-        py.detach(|| Forms::new(&self.assembly))
+        let called = self.called.iter().map(|term| term.clone_ref(py)).collect();
+        py.detach(|| Forms::new(&self.assembly, called))
     }
 
     /// The sheet.

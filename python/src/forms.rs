@@ -3,6 +3,7 @@
 use crate::arrays::{Array1, Array2, rows, vector};
 use crate::errors::bug;
 use crate::state::State;
+use crate::term::CalledTerm;
 use foldwell::kinematics::Closure;
 use foldwell::model::{Bars, Gauge, Hinges, Model, RestLengths, Terms};
 use foldwell::numerics::sparse::FIXED;
@@ -27,10 +28,12 @@ pub(crate) struct Forms {
     edges: Vec<usize>,
     /// Number of the measures that are lengths.
     lengths: usize,
+    /// The terms whose energy is a function in Python.
+    called: Vec<CalledTerm>,
 }
 
 impl Forms {
-    pub(crate) fn new(assembly: &foldwell::Assembly) -> Self {
+    pub(crate) fn new(assembly: &foldwell::Assembly, called: Vec<CalledTerm>) -> Self {
         let angles = assembly.drawn_angles_or_zero();
         let hinges = || Some(Hinges { stiffness: RIGID.into(), rest: angles.clone() });
         let bars = Some(Bars { stiffness: RIGID.into(), rest: RestLengths::Drawn });
@@ -46,7 +49,8 @@ impl Forms {
         let (lengths, hinges) = (of(false), of(true));
         let count = lengths.len();
         let edges = [lengths, hinges].concat();
-        Self { assembly: assembly.clone(), model: assembly.model(Gauge::Free), edges, lengths: count, measures }
+        let model = assembly.model(Gauge::Free);
+        Self { assembly: assembly.clone(), model, edges, lengths: count, measures, called }
     }
 }
 
@@ -60,8 +64,18 @@ impl Forms {
         Err(PyValueError::new_err(format!("x has {} numbers, and the assembly {expected} unknowns", x.len())))
     }
 
+    /// Evaluates something that may call functions in Python, perhaps on other threads; raises what they have raised.
+    fn evaluated<R: Send>(&self, py: Python<'_>, work: impl FnOnce() -> R + Send) -> PyResult<R> {
+        let found = py.detach(work);
+        self.called.iter().try_for_each(CalledTerm::raise).map(|()| found)
+    }
+
     /// Returns the linearization at `x` and the tensions of the stiff measures, which are zero in rigid ones.
-    fn linearized(&self, x: &[f64]) -> (Linearization, Vec<f64>) {
+    fn linearized(&self, py: Python<'_>, x: &[f64]) -> PyResult<(Linearization, Vec<f64>)> {
+        self.evaluated(py, || self.linearization(x))
+    }
+
+    fn linearization(&self, x: &[f64]) -> (Linearization, Vec<f64>) {
         let tension = |(gap, c): (f64, &f64)| if *c > 0.0 { gap / c } else { 0.0 };
         let tension: Vec<f64> = self.model.gaps(x).into_iter().zip(self.model.compliance()).map(tension).collect();
         let mut out = Linearization::new(self.model.layout());
@@ -123,29 +137,29 @@ impl Forms {
     }
 
     /// Returns the state with these unknowns: positions and fold angles.
-    fn state_at(&self, x: PyReadonlyArray1<'_, f64>) -> PyResult<State> {
+    fn state_at(&self, py: Python<'_>, x: PyReadonlyArray1<'_, f64>) -> PyResult<State> {
         let x = self.unknowns(&x)?;
-        let tension = self.linearized(x).1;
-        let state = foldwell::analysis::state::State::new(&self.model, x, &tension);
+        let tension = self.linearized(py, x)?.1;
+        let state = self.evaluated(py, || foldwell::analysis::state::State::new(&self.model, x, &tension))?;
         let state = state.with_angles(self.assembly.fold_angles_at(&self.model.coordinates(x)));
         Ok(State { picture: Picture::new(&self.assembly, &state) })
     }
 
-    fn energy(&self, x: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
+    fn energy(&self, py: Python<'_>, x: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
         let x = self.unknowns(&x)?;
         let stiff = self.model.gaps(x).into_iter().zip(self.model.compliance());
         let stiff: f64 = stiff.filter(|(_, c)| **c > 0.0).map(|(gap, c)| 0.5 * gap * gap / c).sum();
-        Ok(self.model.energy(x) + stiff)
+        Ok(self.evaluated(py, || self.model.energy(x))? + stiff)
     }
 
     fn gradient<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Array1<'py, f64>> {
-        let (at, tension) = self.linearized(self.unknowns(&x)?);
+        let (at, tension) = self.linearized(py, self.unknowns(&x)?)?;
         Ok(vector(py, at.force(&tension).into_iter().map(|force| -force).collect()))
     }
 
     /// Returns the lower triangle of the Hessian in compressed columns.
     fn hessian<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Sparse<'py>> {
-        let (at, _) = self.linearized(self.unknowns(&x)?);
+        let (at, _) = self.linearized(py, self.unknowns(&x)?)?;
         let mut values = at.hessian.clone();
         for (row, compliance) in self.model.compliance().iter().enumerate().filter(|(_, c)| **c > 0.0) {
             at.add_outer(row, 1.0 / compliance, &mut values);
@@ -168,7 +182,7 @@ impl Forms {
 
     /// Returns the derivative of the constraints in compressed rows.
     fn constraint_jacobian<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Sparse<'py>> {
-        let (at, _) = self.linearized(self.unknowns(&x)?);
+        let (at, _) = self.linearized(py, self.unknowns(&x)?)?;
         let places: Vec<(usize, usize)> = self.rigid().into_iter().enumerate().map(|(to, from)| (from, to)).collect();
         Ok(jacobian(py, &at, &places, places.len()))
     }

@@ -10,6 +10,7 @@ mod run;
 mod sheet;
 mod state;
 mod sweep;
+mod term;
 mod values;
 mod watch;
 

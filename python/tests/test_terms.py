@@ -1,0 +1,86 @@
+"""Terms whose energy is a function in Python."""
+
+import pickle
+
+import foldwell as fw
+import numpy as np
+import pytest
+
+STRENGTH = 0.05
+
+
+def poles(points):
+    """Two like poles: STRENGTH over their distance, with gradient and Hessian."""
+    along = points[1] - points[0]
+    near = 1.0 / np.linalg.norm(along)
+    block = STRENGTH * (3.0 * near**5 * np.outer(along, along) - near**3 * np.eye(3))
+    force = STRENGTH * near**3 * along
+    return STRENGTH * near, [force, -force], np.block([[block, -block], [-block, block]])
+
+
+@pytest.fixture
+def magnets(soft):
+    """Poles on two pairs of vertices of nine cells."""
+    return soft.with_term("magnets", [[0, 12], [5, 30]], poles)
+
+
+def test_its_energy_and_derivatives_are_those_of_the_function(soft, magnets):
+    x = soft.start + 1e-2 * np.random.default_rng(3).standard_normal(len(soft.start))
+    points = x.reshape(-1, 3)
+    own = sum(poles(points[pair])[0] for pair in ([0, 12], [5, 30]))
+    assert magnets.energy(x) - soft.energy(x) == pytest.approx(own, rel=1e-9)
+    step = 1e-5
+    for function, derivative in [(magnets.energy, magnets.gradient(x)), (magnets.gradient, magnets.hessian(x).toarray())]:
+        differences = np.array([(function(x + step * e) - function(x - step * e)) / (2.0 * step) for e in np.eye(len(x))])
+        assert np.abs(differences - derivative).max() < 1e-6 * np.abs(derivative).max()
+
+
+def test_studies_know_it(soft, magnets):
+    """Relaxations push the poles apart, list the energy by name, and are equilibria; wells and paths go on as before."""
+    without, found = fw.relax(soft), fw.relax(magnets)
+    distance = [np.linalg.norm(result.state.positions[12] - result.state.positions[0]) for result in (without, found)]
+    assert distance[1] > distance[0] + 1e-4
+    points = found.state.positions
+    assert found.summary["energy"]["magnets"] == pytest.approx(sum(poles(points[p])[0] for p in ([0, 12], [5, 30])), rel=1e-12)
+    assert found.table["energy_magnets"][-1] == found.summary["energy"]["magnets"]
+    assert np.abs(magnets.gradient(magnets.unknowns(found))).max() < 1e-8
+    assert fw.relax(magnets, start=found).summary["iterations"] == 0
+    assert np.array_equal(fw.relax(magnets, threads=1).state.positions, points)
+    assert fw.wells(magnets, starts=2, threads=2).summary["wells"]
+    miura = fw.generate("miura")
+    driven = fw.Assembly.patch(miura, (2, 2), bars=1e2, creases=1.0, rest=0.5, drives=[{"name": "fold", "rest": True, "to": 1.0}])
+    followed = fw.path(driven.with_term("magnets", [[0, 12]], poles))
+    assert np.isfinite(followed.table["energy_magnets"]).all() and (followed.table["energy_magnets"] > 0.0).all()
+
+
+def test_it_is_pickled_if_its_function_is(magnets):
+    x = magnets.start + 1e-2
+    assert pickle.loads(pickle.dumps(magnets)).energy(x) == magnets.energy(x)
+    with pytest.raises((AttributeError, pickle.PicklingError)):
+        pickle.dumps(magnets.with_term("other", [[0]], lambda points: (0.0, np.zeros(3), np.zeros((3, 3)))))
+
+
+def test_what_is_wrong_with_it_is_said(soft, magnets, miura):
+    def fails(points):
+        raise ZeroDivisionError("in the function")
+
+    for work in (fw.relax, lambda assembly: assembly.energy(assembly.start), lambda assembly: assembly.drawn):
+        with pytest.raises(ZeroDivisionError, match="in the function"):
+            work(soft.with_term("wrong", [[0, 1]], fails))
+    for wrong, words in [((1.0, np.zeros(5), np.zeros(36)), r"gradient of wrong has shape \(5,\)"), ((1.0, np.zeros(6), [["a"]]), "real numbers")]:
+        with pytest.raises((ValueError, TypeError), match=words):
+            fw.relax(soft.with_term("wrong", [[0, 1]], lambda points, wrong=wrong: wrong))
+    for name, vertices, words in [
+        ("magnets", [[0, 1]], "already"),
+        ("creases", [[0, 1]], "already"),
+        ("far", [[0, 99]], "names vertex 99"),
+        ("many", [list(range(7))], "1 to 6"),
+        ("flat", [0, 1], "rows of vertex numbers"),
+        ("before", [[0, -1]], "rows of vertex numbers"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            magnets.with_term(name, vertices, poles)
+    with pytest.raises(fw.SceneError, match="patches"):
+        fw.Assembly.torus(miura, bars=1.0).with_term("magnets", [[0, 1]], poles)
+    with pytest.raises(fw.SceneError, match="do not know"):
+        fw.landscape(magnets, [(1.0, 0.0, 0.0)], [0.1])
