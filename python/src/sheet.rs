@@ -7,8 +7,8 @@ use crate::watch::watched;
 use foldwell::kinematics::drawn_fold_angles;
 use foldwell::math::Vec3;
 use foldwell::run::{self, RunError};
-use foldwell::sheet::build::{self, Drawing};
-use foldwell::sheet::{Assignment, EdgeKey, EdgeKind, Info, fold, obj};
+use foldwell::sheet::build::Drawing;
+use foldwell::sheet::{Assignment, EdgeKey, EdgeKind, Info, fold, listed, obj};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -78,7 +78,7 @@ impl Sheet {
             fold_angles: edges.iter().copied().zip(angles).collect(),
             ..Drawing::default()
         };
-        let built = watched(py, None, move |_| build::build_arrays(&drawn, &edges))?;
+        let built = watched(py, None, move |_| listed::build_arrays(&drawn, &edges))?;
         let refused = |defect| raise(py, &RunError::NoSheet { path: "arrays".into(), defect });
         built.map(|sheet| Self { sheet }).map_err(refused)
     }

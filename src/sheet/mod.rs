@@ -27,6 +27,7 @@ pub(crate) mod fold_angle_fault;
 pub(crate) mod frame_fault;
 pub mod generate;
 pub(crate) mod info;
+pub mod listed;
 pub mod obj;
 pub mod pattern;
 pub(crate) mod pattern_fault;

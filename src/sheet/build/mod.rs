@@ -11,7 +11,6 @@ mod drawing;
 mod edges;
 mod faces;
 mod identify;
-mod listed;
 pub(crate) mod planar;
 mod rebuild;
 mod split;
@@ -25,8 +24,6 @@ pub use draw::draw;
 pub use drawing::Drawing;
 pub(crate) use faces::{listed_order, sides as drawn_sides};
 pub(crate) use identify::{Identified, check_places, coincident};
-pub use listed::build_arrays;
-pub(crate) use listed::{build_listed, check_ends};
 pub(crate) use rebuild::rebuild_faces;
 
 /// Builds the sheet that `drawn` draws.

@@ -5,8 +5,8 @@ use serde_json::value::RawValue;
 use super::keys::Keys;
 use super::locate::Source;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::check_ends;
 use crate::sheet::error::{Problem, SheetError};
+use crate::sheet::listed::check_ends;
 
 /// The edges of a file; the lists are empty if the file does not have the keys.
 #[derive(Default)]

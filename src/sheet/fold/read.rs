@@ -12,9 +12,10 @@ use super::locate::Source;
 use super::{frames, record, stiffness};
 use crate::math::Vec3;
 use crate::sheet::ScrewLattice;
-use crate::sheet::build::{Drawing, build_listed, rebuild_faces};
+use crate::sheet::build::{Drawing, rebuild_faces};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
+use crate::sheet::listed::build_listed;
 use crate::sheet::record::FileRecord;
 use crate::sheet::text;
 

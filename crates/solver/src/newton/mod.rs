@@ -16,6 +16,8 @@ mod options;
 mod outcome;
 mod retraction;
 mod shift;
+#[cfg(test)]
+mod tests;
 
 use super::problem::Problem;
 use iteration::Newton;

@@ -2,17 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Drawing, Identified, build_identified, edges_by_drawn_name, listed_order};
-use crate::sheet::assigned::is_same_angle;
-use crate::sheet::assignment::Assignment;
-use crate::sheet::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
-use crate::sheet::error::{Defect, DrawnEdge, MeshPart, Problem};
+use super::assigned::is_same_angle;
+use super::assignment::Assignment;
+use super::build::{Drawing, Identified, build, build_identified, edges_by_drawn_name, listed_order};
+use super::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
+use super::error::{Defect, DrawnEdge, MeshPart, Problem};
 
 /// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces are turned over if
 /// the letters are those of the other side. Also returns the corner of the cell that each drawn vertex represents.
 ///
 /// # Errors
-/// As [`build`](super::build); also if an edge of the list is no side of a face.
+/// As [`build`]; also if an edge of the list is no side of a face.
 pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sheet, Identified), Defect> {
     let turned = turned_over(drawn);
     let drawn = turned.as_ref().unwrap_or(drawn);
@@ -35,7 +35,7 @@ pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sh
 /// Does the same with arrays: their numbers of vertices may be wrong.
 ///
 /// # Errors
-/// As [`build`](super::build); also for a wrong list of edges.
+/// As [`build`]; also for a wrong list of edges.
 pub fn build_arrays(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<Sheet, Defect> {
     let edge = |(edge, problem)| Defect::new(MeshPart::Edge(edge), problem);
     check_ends(listed, drawn.coords.len()).map_err(edge)?;
@@ -77,7 +77,7 @@ fn turned_over(drawn: &Drawing) -> Option<Drawing> {
         return None;
     }
     let bare = Drawing { assignments: vec![], ..drawn.clone() };
-    let sheet = super::build(&bare).ok()?;
+    let sheet = build(&bare).ok()?;
     let known = edges_by_drawn_name(&sheet);
     let shown = letters.iter().filter_map(|(ends, letter)| {
         let [a, b] = ends.map(Corner::home);
