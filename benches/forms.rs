@@ -14,7 +14,8 @@
 //! - `weight`: number of corrections and accuracy against `gamma`, and against `d` of the block form; also with closed
 //!   gaps, as in the steps near a solution.
 //!
-//! Whole relaxations with the penalty energy are compared with the program's by the measurement `stiffness` of `validation/`.
+//! Whole relaxations with the penalty energy are compared with the program's by the measurement `stiffness` of
+//! `validation/`.
 #![allow(clippy::unwrap_used)]
 
 mod common;

@@ -1,11 +1,12 @@
-//! Times of small sheets: one iteration of a relaxation, one Newton step of a path, and random starts on one thread and on two.
+//! Times of small sheets: one iteration of a relaxation, one Newton step of a path, and random starts on one thread and
+//! on two.
 //!
 //! ```text
 //! cargo bench --bench small
 //! ```
 //!
-//! The sheet is a patch of 2 x 2 reference cells with bars of several stiffnesses. Relaxations have
-//! random rest angles within 0.3 rad; paths turn a lock by 0.2 rad; starts are random ones around the drawn state. Times are medians of
+//! The sheet is a patch of 2 x 2 reference cells with bars of several stiffnesses. Relaxations have random rest angles
+//! within 0.3 rad; paths turn a lock by 0.2 rad; starts are random ones around the drawn state. Times are medians of
 //! rounds, taken by turns. The states that two threads find are those of one, to the last bit.
 #![allow(clippy::unwrap_used)]
 

@@ -1,5 +1,5 @@
-//! The spatially varying modes of a periodic sheet: where in the zone of wavenumbers bars keep their lengths, and how fast such
-//! modes decay.
+//! The spatially varying modes of a periodic sheet: where in the zone of wavenumbers bars keep their lengths, and how
+//! fast such modes decay.
 //!
 //! ```text
 //! cargo run --release --example bloch_map

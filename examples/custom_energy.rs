@@ -1,8 +1,9 @@
-//! A custom energy on the solver alone: a hanging chain whose bars have logarithmic strains, from soft to exactly rigid.
+//! A custom energy on the solver alone: a hanging chain whose bars have logarithmic strains, from soft to exactly
+//! rigid.
 //!
-//! The solver minimises `E(x) + sum_r m_r(x)^2 / (2 c_r)` for any [`Problem`]: here `E` is the weight of the joints, and the
-//! stiff measure of a bar of rest length `L` and length `l` is `m = L ln(l / L)`, with the compliance `c = L / EA`. A compliance
-//! of zero is a rigid bar; nothing else changes.
+//! The solver minimises `E(x) + sum_r m_r(x)^2 / (2 c_r)` for any [`Problem`]: here `E` is the weight of the joints,
+//! and the stiff measure of a bar of rest length `L` and length `l` is `m = L ln(l / L)`, with the compliance
+//! `c = L / EA`. A compliance of zero is a rigid bar; nothing else changes.
 //!
 //! ```text
 //! cargo run --release --example custom_energy
@@ -18,7 +19,8 @@ const REST_LENGTH: f64 = 1.0;
 const WEIGHT: f64 = 1.0;
 const SPAN: f64 = 6.0;
 
-/// Bars from the support at the origin over `BARS - 1` joints to the support at `(SPAN, 0)`. Unknowns: `x, y` of each joint.
+/// Bars from the support at the origin over `BARS - 1` joints to the support at `(SPAN, 0)`. Unknowns: `x, y` of each
+/// joint.
 struct Chain {
     layout: Arc<Layout>,
     compliance: Vec<f64>,

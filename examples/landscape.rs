@@ -1,5 +1,5 @@
-//! The energy of a patch that is bent along one of its folding modes: fourth order where it is bent both ways, next to none
-//! where it is bent to a cylinder.
+//! The energy of a patch that is bent along one of its folding modes: fourth order where it is bent both ways, next to
+//! none where it is bent to a cylinder.
 //!
 //! ```text
 //! cargo run --release --example landscape

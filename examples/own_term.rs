@@ -1,8 +1,8 @@
 //! A law and a term of one's own: creases that harden, and magnets on two vertices of a sheet.
 //!
-//! A law says how the energy of an element grows with its measure: two lines. A term is a measure of some points with its
-//! derivatives, on chosen vertices: here `1 / d` of two points, so that two like poles of strength `q` have the energy `q / d`.
-//! Everything else, relaxations, paths, wells, goes on as before.
+//! A law says how the energy of an element grows with its measure: two lines. A term is a measure of some points with
+//! its derivatives, on chosen vertices: here `1 / d` of two points, so that two like poles of strength `q` have the
+//! energy `q / d`. Everything else, relaxations, paths, wells, goes on as before.
 //!
 //! ```text
 //! cargo run --release --example own_term

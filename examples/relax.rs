@@ -1,4 +1,5 @@
-//! Relaxes a patch of Miura-ori at several stiffnesses of its bars, up to exactly rigid ones, and writes what ParaView opens.
+//! Relaxes a patch of Miura-ori at several stiffnesses of its bars, up to exactly rigid ones, and writes what ParaView
+//! opens.
 //!
 //! ```text
 //! cargo run --release --example relax

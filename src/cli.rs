@@ -69,7 +69,8 @@ enum Command {
     },
     /// Counts and measures of the sheet of a mesh or a scene, and of the energy of a scene
     Info {
-        /// A mesh (.fold, .obj, .vtu, .svg, .cp, .opx) or a scene (.toml): one cell of its mesh, and the energy of all cells
+        /// A mesh (.fold, .obj, .vtu, .svg, .cp, .opx) or a scene (.toml): one cell of its mesh, and the energy of all
+        /// cells
         mesh_or_scene: PathBuf,
         /// Set a key of the scene, as in energy.bars.stiffness=1e4; may be repeated
         #[arg(long, value_name = "KEY=VALUE")]
@@ -96,7 +97,8 @@ enum Command {
         /// The name of the pattern; without one, all names are listed
         #[arg(allow_hyphen_values = true, default_value = "--help", hide_default_value = true)]
         pattern: String,
-        /// Parameters of the pattern, --key value (1.2 or "60 deg"; a list has commas; --closed alone), and -o FILE.fold
+        /// Parameters of the pattern, --key value (1.2 or "60 deg"; a list has commas; --closed alone), and -o
+        /// FILE.fold
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },

@@ -1,5 +1,5 @@
-//! The standard output of `foldwell run`: a sentence or a few for every study, and for a sweep how many points converged, which did not,
-//! and why.
+//! The standard output of `foldwell run`: a sentence or a few for every study, and for a sweep how many points
+//! converged, which did not, and why.
 
 use std::fmt::Write as _;
 

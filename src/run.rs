@@ -79,8 +79,8 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
     single::check(file, options)
 }
 
-/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it into a file of the format of its ending.
-/// Returns a sentence for each part of the pattern that the file does not keep.
+/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it into a file of the format of its
+/// ending. Returns a sentence for each part of the pattern that the file does not keep.
 ///
 /// # Errors
 /// [`RunError`] if a parameter is wrong, the ending is unknown or the file cannot be written.
@@ -170,8 +170,8 @@ pub fn read_sheet(path: &Path, frame: Option<usize>) -> Result<Sheet, RunError> 
 /// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.obj`, `.fold` or `.glb`.
 ///
 /// # Errors
-/// [`RunError`] if the ending is another one, if the file cannot be written, and if the state is no sheet for STL, OBJ and FOLD: a face has
-/// no area, for instance.
+/// [`RunError`] if the ending is another one, if the file cannot be written, and if the state is no sheet for STL, OBJ
+/// and FOLD: a face has no area, for instance.
 pub fn write_state(picture: &Picture, path: &Path) -> Result<(), RunError> {
     meshes::write_state(picture, path)
 }
@@ -186,8 +186,8 @@ pub fn write_sheet(sheet: &Sheet, path: &Path) -> Result<Vec<String>, RunError> 
     meshes::write(sheet, path)
 }
 
-/// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given frame,
-/// or the first with a mesh. Returns a sentence for each part of the mesh that the new file does not keep.
+/// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given
+/// frame, or the first with a mesh. Returns a sentence for each part of the mesh that the new file does not keep.
 ///
 /// # Errors
 /// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, if there is no such
@@ -200,8 +200,8 @@ pub fn convert(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<Strin
 /// they cross and touch.
 ///
 /// # Errors
-/// As [`convert`]; also if the mesh is no flat finite crease pattern, if edges that lie on each other differ, and if the
-/// merging distance is not positive or too large.
+/// As [`convert`]; also if the mesh is no flat finite crease pattern, if edges that lie on each other differ, and if
+/// the merging distance is not positive or too large.
 pub fn convert_cleaned(
     from: &Path,
     to: &Path,
@@ -211,8 +211,8 @@ pub fn convert_cleaned(
     meshes::write(&meshes::read_cleaned(from, frame, cleanup)?, to)
 }
 
-/// Does the same as [`convert`] with the crease pattern of a folded sheet: the sheet unfolded into the plane, with its fold
-/// angles as target angles.
+/// Does the same as [`convert`] with the crease pattern of a folded sheet: the sheet unfolded into the plane, with its
+/// fold angles as target angles.
 ///
 /// # Errors
 /// As [`convert`]; also if the sheet cannot be unfolded.

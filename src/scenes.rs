@@ -68,7 +68,8 @@ pub(crate) fn read(
     Ok(scenes)
 }
 
-/// Returns the folder for the files of a scene: named like the scene, or as `--out` says; of several scenes, below that.
+/// Returns the folder for the files of a scene: named like the scene, or as `--out` says; of several scenes, below
+/// that.
 fn folder(scene: &Path, out: Option<&Path>, several: bool) -> PathBuf {
     let name = if scene == Path::new(STANDARD_INPUT) { Path::new(ITS_NAME) } else { scene };
     let stem = PathBuf::from(name.file_stem().unwrap_or_default());

@@ -23,11 +23,12 @@ pub(crate) fn shared(arrays: BTreeMap<PathBuf, Given1<'_>>) -> PyResult<Arrays> 
     arrays.into_iter().map(copied).collect::<PyResult<BTreeMap<_, _>>>().map(Into::into)
 }
 
-/// Returns numbers that `owner` contains as an array that cannot be written, without copying them. The array keeps the owner
-/// alive.
+/// Returns numbers that `owner` contains as an array that cannot be written, without copying them. The array keeps the
+/// owner alive.
 pub(crate) fn view<'py, T: PyClass, E: Element>(owner: &Bound<'py, T>, values: &[E]) -> Array1<'py, E> {
     let values = ArrayView1::from(values);
-    // SAFETY: the values are in the memory of a frozen object, which neither moves nor changes while the array keeps it alive.
+    // SAFETY: the values are in the memory of a frozen object, which neither moves nor changes while the array keeps it
+    // alive.
     let array = unsafe { PyArray1::borrow_from_array(&values, owner.clone().into_any()) };
     array.readwrite().make_nonwriteable();
     array

@@ -99,9 +99,9 @@ impl Assembly {
         Self::of(py, scene.read(py, &base, &settings)?, shared(arrays)?, sheet)
     }
 
-    /// Computes studies, given as the tables of a scene, with arrays in the place of files that they name. `earlier` are answers from
-    /// which they start, by the names of their studies, which are among `studies` too. Returns the summary as JSON, the answers, and
-    /// whether the run was interrupted.
+    /// Computes studies, given as the tables of a scene, with arrays in the place of files that they name. `earlier`
+    /// are answers from which they start, by the names of their studies, which are among `studies` too. Returns the
+    /// summary as JSON, the answers, and whether the run was interrupted.
     fn compute(
         slf: &Bound<'_, Self>,
         studies: Vec<Bound<'_, PyDict>>,
@@ -157,7 +157,8 @@ impl Assembly {
         terms.try_fold(bare, |assembly, term| assembly.with_called(py, term))
     }
 
-    /// Returns the same assembly with a term whose energy is a function of the positions of the vertices of each element.
+    /// Returns the same assembly with a term whose energy is a function of the positions of the vertices of each
+    /// element.
     fn with_term(
         &self,
         py: Python<'_>,

@@ -12,8 +12,8 @@ fn exception(py: Python<'_>, class: &str, arguments: (String, Option<String>, Op
     make().map_or_else(|error| error, PyErr::from_value)
 }
 
-/// Returns the exception for an error of the library: `SceneError` if something that was given is wrong, `SheetError` if that is
-/// a mesh, `OutputError` if a file cannot be read or written.
+/// Returns the exception for an error of the library: `SceneError` if something that was given is wrong, `SheetError`
+/// if that is a mesh, `OutputError` if a file cannot be read or written.
 pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
     let class = match error {
         RunError::Mesh(_) | RunError::NoSheet { .. } | RunError::Scene(SceneError::Mesh(_)) => "SheetError",

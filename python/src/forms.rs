@@ -98,7 +98,8 @@ impl Forms {
     }
 }
 
-/// Returns rows of the Jacobian of stiff measures, each put at a new place, in compressed rows of which there are `count`.
+/// Returns rows of the Jacobian of stiff measures, each put at a new place, in compressed rows of which there are
+/// `count`.
 fn jacobian<'py>(py: Python<'py>, at: &Linearization, places: &[(usize, usize)], count: usize) -> Sparse<'py> {
     let (mut values, mut columns, mut begins) = (Vec::new(), Vec::new(), vec![0i64; count + 1]);
     let rows = at.rows();
@@ -215,7 +216,8 @@ impl Forms {
     }
 }
 
-/// Returns the closure of the cell of a sheet with these fold angles: the residual, and its derivative by the angle of each edge.
+/// Returns the closure of the cell of a sheet with these fold angles: the residual, and its derivative by the angle of
+/// each edge.
 #[pyfunction]
 pub(crate) fn closure<'py>(
     py: Python<'py>,

@@ -40,8 +40,8 @@ fn scene_in(base: &Path) -> PathBuf {
     if base == Path::new(".") { "scene".into() } else { base.join("scene") }
 }
 
-/// Computes the studies of a scene: in memory, or, with `out`, into a folder. Returns the summary as JSON, the answers (none for a
-/// folder) and whether the run was interrupted.
+/// Computes the studies of a scene: in memory, or, with `out`, into a folder. Returns the summary as JSON, the answers
+/// (none for a folder) and whether the run was interrupted.
 #[pyfunction]
 pub(crate) fn run_scene(
     py: Python<'_>,

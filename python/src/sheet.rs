@@ -51,8 +51,8 @@ impl Sheet {
         parsed.map(|sheet| Self { sheet }).map_err(|error| raise_sheet(py, error))
     }
 
-    /// Makes a sheet from arrays: vertices in two or three columns, faces, lattice vectors, and edges with letters and fold angles, NaN
-    /// where there is none.
+    /// Makes a sheet from arrays: vertices in two or three columns, faces, lattice vectors, and edges with letters and
+    /// fold angles, NaN where there is none.
     #[staticmethod]
     fn of_arrays(
         py: Python<'_>,

@@ -90,8 +90,8 @@ struct Called {
 type Expansion<'py> = (f64, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>);
 
 impl Called {
-    /// Calls the function with `[x, y, z]` of each point, and reads what it returns. `None` after an exception, which is kept to be
-    /// raised, and when the interpreter ends.
+    /// Calls the function with `[x, y, z]` of each point, and reads what it returns. `None` after an exception, which
+    /// is kept to be raised, and when the interpreter ends.
     fn call<R>(&self, points: &[Vec3], read: impl FnOnce(Expansion<'_>) -> PyResult<R>) -> Option<R> {
         Python::try_attach(|py| {
             if self.failure.lock().unwrap_or_else(PoisonError::into_inner).is_some() {

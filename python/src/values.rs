@@ -12,8 +12,8 @@ const MOST_LEVELS: usize = 100;
 /// Most values of a scene: an iterator without end has more, and so have lists that contain each other many times.
 const MOST_VALUES: usize = 10_000_000;
 
-/// Returns a dict as a table of TOML. Keys with the value `None` are left out; tuples, arrays and other sequences become
-/// lists, paths texts.
+/// Returns a dict as a table of TOML. Keys with the value `None` are left out; tuples, arrays and other sequences
+/// become lists, paths texts.
 pub(crate) fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
     Reader { left: MOST_VALUES }.table(dict, "", 0)
 }

@@ -1,5 +1,5 @@
-//! Long work beside Python: other threads go on, Ctrl-C and the end of the interpreter stop it, and a callback hears of its
-//! progress.
+//! Long work beside Python: other threads go on, Ctrl-C and the end of the interpreter stop it, and a callback hears of
+//! its progress.
 
 use crate::errors::bug;
 use foldwell::run::{Observer, Progress};
@@ -34,9 +34,9 @@ enum News<R> {
 }
 
 /// Does some work on a thread of its own while the calling thread, which lets other Python threads run, calls
-/// `progress(study, step, of, residual)` after every step. If the callback returns `False`, the work stops after its step
-/// and its result is returned. At Ctrl-C, at an exception in the callback and when the interpreter ends, the exception is
-/// raised at once; the thread, which never touches Python, ends after its step by itself.
+/// `progress(study, step, of, residual)` after every step. If the callback returns `False`, the work stops after its
+/// step and its result is returned. At Ctrl-C, at an exception in the callback and when the interpreter ends, the
+/// exception is raised at once; the thread, which never touches Python, ends after its step by itself.
 pub(crate) fn watched<R: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

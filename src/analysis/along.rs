@@ -1,12 +1,12 @@
 //! The energy as an engine of trajectories: relaxations with a crease locked along a rigid trajectory.
 //!
-//! At every state of the trajectory the crease that moves fastest there is locked at its angle, and the sheet relaxes at its own
-//! stiffness from where the last relaxation ended, moved on by the same amount again. Steps that suit the fold angles may be too
-//! long for that: a relaxation that fails, or ends at angles to which the rigid step does not lead, is made anew in two
-//! steps of half the length, and these likewise. Only the first step starts from
-//! the rigid state, since all rays leave from the same place; and where a trajectory comes back, that place itself, the drawn
-//! state, is not relaxed again: there a locked crease does not say about which axis the sheet folds. Rigid bars must meet every rigid state to rounding; softer ones
-//! stay off it by what the creases pull them.
+//! At every state of the trajectory the crease that moves fastest there is locked at its angle, and the sheet relaxes
+//! at its own stiffness from where the last relaxation ended, moved on by the same amount again. Steps that suit the
+//! fold angles may be too long for that: a relaxation that fails, or ends at angles to which the rigid step does not
+//! lead, is made anew in two steps of half the length, and these likewise. Only the first step starts from the rigid
+//! state, since all rays leave from the same place; and where a trajectory comes back, that place itself, the drawn
+//! state, is not relaxed again: there a locked crease does not say about which axis the sheet folds. Rigid bars must
+//! meet every rigid state to rounding; softer ones stay off it by what the creases pull them.
 
 use super::chart;
 use super::relax::{Relaxed, relax_model};
@@ -24,13 +24,14 @@ const FAST_ENOUGH: f64 = 0.5;
 
 /// Most times that a step is halved.
 const HALVINGS: usize = 6;
-/// With soft measures, a fold angle whose step differs from the rigid one's by more than this part of the arc length has gone
-/// elsewhere.
+/// With soft measures, a fold angle whose step differs from the rigid one's by more than this part of the arc length
+/// has gone elsewhere.
 const ELSEWHERE: f64 = 0.5;
 /// Steps count as no shorter than this there.
 const SHORT: f64 = 0.01;
-/// Where all measures are rigid there is one state beside the rigid one: a fold angle that differs by more than this, in
-/// radians, is another state's. What relaxations leave open is 1e-9 and less, times a thousand where angles move fast.
+/// Where all measures are rigid there is one state beside the rigid one: a fold angle that differs by more than this,
+/// in radians, is another state's. What relaxations leave open is 1e-9 and less, times a thousand where angles move
+/// fast.
 const SAME_STATE: f64 = 1e-6;
 /// Beside a rigid state that is interpolated it may differ by this part of the arc length.
 const INTERPOLATED: f64 = 0.05;
@@ -90,7 +91,8 @@ pub struct CylinderErrors {
     pub theta: f64,
 }
 
-/// Compares the cylinders of relaxations with those of its trajectory; `None` for a finite sheet, and where there is no state to compare.
+/// Compares the cylinders of relaxations with those of its trajectory; `None` for a finite sheet, and where there is no
+/// state to compare.
 pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, relaxed: &RelaxedTrajectory) -> Option<CylinderErrors> {
     let mut most = CylinderErrors::default();
     for (rigid, state) in traced.states.iter().skip(1).zip(&relaxed.states) {
@@ -107,8 +109,9 @@ pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, relaxed: &RelaxedTrajecto
     (!relaxed.states.is_empty()).then_some(most)
 }
 
-/// Returns the cylinder of a relaxed state beside a rigid one; `None` for a finite sheet. The coordinates of a tube do not tell
-/// the sign of its curvature where lattice rotations have passed a half turn: there it is that of the rigid state.
+/// Returns the cylinder of a relaxed state beside a rigid one; `None` for a finite sheet. The coordinates of a tube do
+/// not tell the sign of its curvature where lattice rotations have passed a half turn: there it is that of the rigid
+/// state.
 pub(crate) fn relaxed_cylinder(drawn: &Drawn, rigid: &Folded, relaxed: &StateAlong) -> Option<Cylinder> {
     let found = cylinder(drawn, &relaxed.relaxed.state.coordinates)?;
     match (&drawn.domain, &rigid.shape) {
@@ -255,8 +258,8 @@ impl Track<'_> {
         Some(x1.iter().zip(x0).map(|(now, before)| now + part * (now - before)).collect())
     }
 
-    /// Keeps a state, and the one before where it has the same gauge: the height of vertex 0 moves with a screw's axis, what
-    /// keeps it from turning in the plane may change, and rotations jump by whole turns.
+    /// Keeps a state, and the one before where it has the same gauge: the height of vertex 0 moves with a screw's axis,
+    /// what keeps it from turning in the plane may change, and rotations jump by whole turns.
     fn keep(&mut self, domain: &Domain, held: &[bool], arc_length: f64, coordinates: Vec<f64>) {
         let near = |a: [f64; 2], b: [f64; 2]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0);
         let same = |at: &[f64]| {

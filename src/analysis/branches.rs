@@ -1,6 +1,7 @@
 //! The branches along which exact folding leaves the drawn state, with a count that shows that none is missing.
 //!
-//! The sheet is one cell, repeated by screw motions, or a finite patch; locked edges and rigid diagonals keep their angle.
+//! The sheet is one cell, repeated by screw motions, or a finite patch; locked edges and rigid diagonals keep their
+//! angle.
 
 use crate::kinematics::{Closure, FoldingModes, KinematicsError, Ray, Rays, SecondOrder, folding_modes, signature};
 use crate::model::{Assembly, Boundary};
@@ -10,8 +11,8 @@ use nalgebra::DVector;
 /// Folding edges beyond which the dense decompositions take too long.
 const MOST_EDGES: usize = 1200;
 
-/// A trace of the curvature tensor below this, in radians per length for a direction of norm 1 and a lattice of length 1, is
-/// none.
+/// A trace of the curvature tensor below this, in radians per length for a direction of norm 1 and a lattice of length
+/// 1, is none.
 const NO_CURVATURE: f64 = 1e-7;
 
 /// Why there is no answer.
@@ -46,12 +47,13 @@ pub struct Branches {
     pub rays: Rays,
     /// Whether the one real direction is that of planar folding, along which the states stay spatially periodic.
     pub planar: bool,
-    /// Of every ray the sign of the curvature that it gives the sheet, positive towards the face normals: -1, 0 or 1; `None`
-    /// for a finite sheet.
+    /// Of every ray the sign of the curvature that it gives the sheet, positive towards the face normals: -1, 0 or 1;
+    /// `None` for a finite sheet.
     pub curvature_signs: Vec<Option<i8>>,
 }
 
-/// Finds the branches that leave the drawn state; locks and rigid diagonals of its terms are kept. No real ray is an answer.
+/// Finds the branches that leave the drawn state; locks and rigid diagonals of its terms are kept. No real ray is an
+/// answer.
 ///
 /// # Errors
 /// [`BranchesError`] for a torus, for periodic sheets with openings, for too many edges, and where ranks are not clear

@@ -1,9 +1,9 @@
 //! The equilibrium of hinges on exactly rigid faces, in fold angles alone: what a relaxation is compared with.
 //!
-//! Minimises `E = sum (K/2)(rho - rest)^2` among fold angles that close, from angles near such a state. One step: onto the closed
-//! states (Newton's method across their tangents `Z`), then along them with the Hessian of the Lagrangian,
-//! `Z^T (K + sum_r lambda_r B_r) Z`, `J^T lambda = -K (rho - rest)`, `B_r` the second derivative of closure
-//! (J. Nocedal and S. J. Wright, "Numerical Optimization", 2006, section 18.3). No bar enters.
+//! Minimises `E = sum (K/2)(rho - rest)^2` among fold angles that close, from angles near such a state. One step: onto
+//! the closed states (Newton's method across their tangents `Z`), then along them with the Hessian of the Lagrangian,
+//! `Z^T (K + sum_r lambda_r B_r) Z`, `J^T lambda = -K (rho - rest)`, `B_r` the second derivative of closure (J. Nocedal
+//! and S. J. Wright, "Numerical Optimization", 2006, section 18.3). No bar enters.
 
 use crate::kinematics::closure::DIRECTION;
 use crate::kinematics::{Closing, Closure};
@@ -24,8 +24,8 @@ const CLOSURE_RESIDUAL: f64 = 1e-13;
 const LAST_ANGLE_CHANGE_RAD: f64 = 1e-11;
 /// Largest error of the exact state itself, in radians, with which it is worth a comparison.
 const KNOWN: f64 = 1e-10;
-/// Largest difference of a rest length from the drawn length, relative to the positions of its ends, at which the bar is
-/// at rest as drawn.
+/// Largest difference of a rest length from the drawn length, relative to the positions of its ends, at which the bar
+/// is at rest as drawn.
 const SAME_LENGTH: f64 = 1e-12;
 /// Largest change of an angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
@@ -50,8 +50,9 @@ pub struct Stationary {
     pub negative_eigenvalues: usize,
     /// Largest component of the closure residual.
     pub residual: f64,
-    /// How far from closed the angles may be, in radians: the residual over the smallest singular value of closure that is none of
-    /// its zeros. Next to a state with more motions, as that of a screw without curvature, it is the larger the nearer it is.
+    /// How far from closed the angles may be, in radians: the residual over the smallest singular value of closure that
+    /// is none of its zeros. Next to a state with more motions, as that of a screw without curvature, it is the larger
+    /// the nearer it is.
     pub error: f64,
     /// Whether every step was shorter than the one before, as they are on the way to a state near by.
     pub(crate) is_near: bool,
@@ -68,12 +69,12 @@ struct Along {
     least: f64,
 }
 
-/// Largest difference of a fold angle to the exact equilibrium near a relaxed state with these fold angles, of all edges of the
-/// tiling, in radians.
+/// Largest difference of a fold angle to the exact equilibrium near a relaxed state with these fold angles, of all
+/// edges of the tiling, in radians.
 ///
-/// `None` where there is none to compare with: loads pull, vertices are pinned, bars have other rest lengths than the drawn
-/// ones, the sheet is periodic without screws, or with openings, or a tube of one cell, it is too
-/// large, no exact state is found nearby, or what is found is not known well enough itself.
+/// `None` where there is none to compare with: loads pull, vertices are pinned, bars have other rest lengths than the
+/// drawn ones, the sheet is periodic without screws, or with openings, or a tube of one cell, it is too large, no exact
+/// state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
     let exact = springs.stationary(&springs.start).filter(|exact| exact.is_near && exact.error <= KNOWN)?.angles;
@@ -93,8 +94,8 @@ fn rests_at_drawn_lengths(sheet: &Sheet, tiling: &Tiling, model: &Model) -> bool
 }
 
 impl Springs {
-    /// The hinges of a model, rigid ones at rest and the others from these angles of all edges; `None` where nothing can be said, as
-    /// [`error_to_kinematic`].
+    /// The hinges of a model, rigid ones at rest and the others from these angles of all edges; `None` where nothing
+    /// can be said, as [`error_to_kinematic`].
     pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
         let closes = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus | Domain::Tube { .. });
@@ -135,7 +136,8 @@ impl Springs {
         0.5 * off.sum::<f64>()
     }
 
-    /// The stationary state near these fold angles of all edges, of whatever index; `None` where Newton's method finds none.
+    /// The stationary state near these fold angles of all edges, of whatever index; `None` where Newton's method finds
+    /// none.
     pub(crate) fn stationary(&self, start: &[f64]) -> Option<Stationary> {
         let mut closing = Closing::new(&self.closure, self.start.clone());
         let mut x = closing.folding(start);

@@ -1,4 +1,5 @@
-//! Modes of a state, the drawn one or another: motions and stresses of its bars, linear foldings, and the spectrum of its energy.
+//! Modes of a state, the drawn one or another: motions and stresses of its bars, linear foldings, and the spectrum of
+//! its energy.
 //!
 //! The rank of the rigidity matrix is found by singular values (dense, small sheets) or by counting them against
 //! thresholds (sparse, large sheets), and is believed only when a second way agrees: the count of eigenvalues of one
@@ -37,8 +38,8 @@ pub struct Modes {
     pub folding_modes: Option<usize>,
     /// Columns less rows of the rigidity matrix.
     pub maxwell_count: i64,
-    /// Smallest kept over largest dropped singular value; a lower bound by a factor of ten for large sheets. `None` where none is kept:
-    /// the rank is 0.
+    /// Smallest kept over largest dropped singular value; a lower bound by a factor of ten for large sheets. `None`
+    /// where none is kept: the rank is 0.
     pub gap: Option<f64>,
     /// Lowest eigenvalues of the energy's Hessian on what rigid terms leave free, ascending.
     pub eigenvalues: Vec<f64>,
@@ -68,8 +69,8 @@ pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>
 /// nothing stops the work.
 ///
 /// # Errors
-/// [`ModesError`] where a factorization fails, ranks by two ways disagree, a coordinate has no mass although the sheet has, or
-/// `observe` returned false.
+/// [`ModesError`] where a factorization fails, ranks by two ways disagree, a coordinate has no mass although the sheet
+/// has, or `observe` returned false.
 pub fn modes_at(
     assembly: &Assembly,
     state: &Configuration,

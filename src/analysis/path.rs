@@ -72,8 +72,8 @@ pub struct PathPoint {
     pub residual_force: f64,
     /// Largest gap of a stiff measure over its natural size.
     pub residual_length: f64,
-    /// Negative eigenvalues of the Hessian while the driven value is held: 0 where the state is stable; `None` where their number
-    /// cannot be established.
+    /// Negative eigenvalues of the Hessian while the driven value is held: 0 where the state is stable; `None` where
+    /// their number cannot be established.
     pub negative_eigenvalues: Option<usize>,
     /// Newton steps made for this state.
     pub iterations: usize,
@@ -88,8 +88,8 @@ pub struct PathPoint {
 pub struct BranchPoint {
     /// Number of eigenvalues that change their sign there.
     pub multiplicity: usize,
-    /// The half branches that leave there; `None` where they were not sought, or sought at a state of another branch that is
-    /// the same.
+    /// The half branches that leave there; `None` where they were not sought, or sought at a state of another branch
+    /// that is the same.
     pub half_branches: Option<HalfBranches>,
 }
 
@@ -173,7 +173,8 @@ pub fn follow_path(
     resume_path(assembly, drive, start, options, PathRecord::default(), PathCallbacks { observe, keep: &mut |_| true })
 }
 
-/// Functions that are called while a path is followed: with each new state, and with each entry of the record of the path.
+/// Functions that are called while a path is followed: with each new state, and with each entry of the record of the
+/// path.
 pub struct PathCallbacks<'a> {
     /// Sees the number of the branch and every new state, and returns false to stop; not those of a record.
     pub observe: &'a mut dyn FnMut(usize, &PathPoint) -> bool,

@@ -1,7 +1,8 @@
 //! Forces and angles of an earlier state, so that an equilibrium is one again when a relaxation starts from it.
 //!
-//! Where a state was kept with its tensions they are taken as they are. Where they are missing, or belong to another stiffness, those
-//! of finite stiffness follow from the geometry, and those of rigid measures from the balance of forces.
+//! Where a state was kept with its tensions they are taken as they are. Where they are missing, or belong to another
+//! stiffness, those of finite stiffness follow from the geometry, and those of rigid measures from the balance of
+//! forces.
 
 use super::state::State;
 use crate::model::{Assembly, Configuration, Gauge, Model, TermKind};
@@ -33,7 +34,8 @@ pub(crate) enum Forces {
     },
 }
 
-/// The tensions of all stiff measures at `x`: those that are known, where they agree with the geometry; else what follows from it.
+/// The tensions of all stiff measures at `x`: those that are known, where they agree with the geometry; else what
+/// follows from it.
 pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
     let gaps = model.gaps(x);
     let by_law = by_law(model, &gaps);
@@ -55,8 +57,8 @@ pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in (-pi, pi]. `None` if
-/// the configuration is not one of this assembly.
+/// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in
+/// (-pi, pi]. `None` if the configuration is not one of this assembly.
 pub fn state(configuration: &Configuration, assembly: &Assembly) -> Option<State> {
     let mut model = assembly.model(Gauge::Held);
     let fits = configuration.coordinates.len() == assembly.drawn().coordinates.len();
@@ -77,8 +79,8 @@ pub(crate) fn state_at(model: &Model, start: &Start) -> State {
     State::new(model, &start.x, &start.tension.clone().unwrap_or_else(by_law))
 }
 
-/// Where a relaxation starts that knows these forces, completed by those of rigid measures: with them near an equilibrium, without them
-/// elsewhere.
+/// Where a relaxation starts that knows these forces, completed by those of rigid measures: with them near an
+/// equilibrium, without them elsewhere.
 pub(crate) fn start(model: &Model, x: Vec<f64>, known: &Forces) -> Start {
     let mut tensions = tensions(model, &x, known);
     let mut force = unbalanced(model, &x, &tensions);
@@ -113,7 +115,8 @@ fn completed(model: &Model, x: &[f64], tensions: &[f64]) -> Option<Vec<f64>> {
     Some(tensions.iter().zip(&more).zip(model.compliance()).map(rigid).collect())
 }
 
-/// Tensions of finite stiffness from the gaps; zero where all gaps of a term are rounding error, and for rigid measures.
+/// Tensions of finite stiffness from the gaps; zero where all gaps of a term are rounding error, and for rigid
+/// measures.
 fn by_law(model: &Model, gaps: &[f64]) -> Vec<f64> {
     let (compliance, scale) = (model.compliance(), model.gap_scale());
     let mut tension = vec![0.0; gaps.len()];
@@ -128,7 +131,8 @@ fn by_law(model: &Model, gaps: &[f64]) -> Vec<f64> {
     tension
 }
 
-/// Tensions of the stiff measures from forces on edges. Of several hinges over one edge the last one has what the others leave.
+/// Tensions of the stiff measures from forces on edges. Of several hinges over one edge the last one has what the
+/// others leave.
 fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_law: &[f64]) -> Vec<f64> {
     let coordinates = model.coordinates(x);
     let (mut left, mut along) = (torque.to_vec(), tension.to_vec());

@@ -11,8 +11,8 @@ use strip::strip;
 
 /// The cells on which a state is shown: a patch, one period of a torus, some cells of a screw, some rows of a tube.
 ///
-/// Every edge and every triangle of the cells is there once. Those of a torus or a screw that reach beyond the last cell end at
-/// images, which are points like others and stand after the vertices of the cells; a patch has none.
+/// Every edge and every triangle of the cells is there once. Those of a torus or a screw that reach beyond the last
+/// cell end at images, which are points like others and stand after the vertices of the cells; a patch has none.
 pub struct ShownCells {
     /// The cells shown, with their elements.
     pub patch: Tiling,
@@ -79,8 +79,8 @@ impl ShownCells {
         Self::of_patch(sheet, tiling, tile(sheet, cells, tiling.periodic), (first, [[1, 0], [0, 1]]))
     }
 
-    /// The view of the cells of a patch, which begins at the cell `first` of a tiling and whose cells `(a, b)` are the cells
-    /// `first + a p + b m` of the sheet, with the basis `p`, `m`.
+    /// The view of the cells of a patch, which begins at the cell `first` of a tiling and whose cells `(a, b)` are the
+    /// cells `first + a p + b m` of the sheet, with the basis `p`, `m`.
     fn of_patch(sheet: &Sheet, tiling: &Tiling, patch: Tiling, (first, basis): ([i32; 2], [[i32; 2]; 2])) -> Self {
         let sides = sides(&patch);
         let beside = |ends: [Site; 2]| sides.get(&up_to_translation(ends).0).map_or(&[][..], Vec::as_slice);
@@ -126,7 +126,8 @@ impl ShownCells {
         self.sites.iter().map(|&site| back * (drawn.domain.point(coordinates, site) - centre) + drawn.origin).collect()
     }
 
-    /// Velocities of all points when the coordinates, which have these values, have these rates; by central differences.
+    /// Velocities of all points when the coordinates, which have these values, have these rates; by central
+    /// differences.
     pub(crate) fn velocities(&self, drawn: &Drawn, coordinates: &[f64], rates: &[f64]) -> Vec<Vec3> {
         let step = 1e-5;
         let moved = |sign: f64| {
@@ -136,7 +137,8 @@ impl ShownCells {
         moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / (2.0 * step)).collect()
     }
 
-    /// Values of the edges of the model from values of lines between the points of the patch; NaN where no line is a copy of the edge.
+    /// Values of the edges of the model from values of lines between the points of the patch; NaN where no line is a
+    /// copy of the edge.
     pub(crate) fn on_edges(&self, edges: usize, lines: &[[usize; 2]], values: &[f64]) -> Vec<f64> {
         let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
         let given: HashMap<[usize; 2], f64> =

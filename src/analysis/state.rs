@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 
 /// What an equilibrium, or any other state, looks like.
 ///
-/// Lists of numbers of edges are in the order of the edges of the [tiling](crate::model::Assembly::tiling), each of which
-/// names its cell and its edge of the [sheet](crate::model::Assembly::sheet); coordinates are x, y, z of the points of the
-/// tiling one after the other.
+/// Lists of numbers of edges are in the order of the edges of the [tiling](crate::model::Assembly::tiling), each of
+/// which names its cell and its edge of the [sheet](crate::model::Assembly::sheet); coordinates are x, y, z of the
+/// points of the tiling one after the other.
 ///
 /// ```
 /// use foldwell::sheet::EdgeKind;
@@ -72,15 +72,16 @@ impl State {
         }
     }
 
-    /// The state of a model with these unknowns and tensions of the stiff measures. Stiff measures have the energy of their tensions, without cancellation.
+    /// The state of a model with these unknowns and tensions of the stiff measures. Stiff measures have the energy of
+    /// their tensions, without cancellation.
     pub fn new(model: &Model, x: &[f64], tension: &[f64]) -> Self {
         let coordinates = model.coordinates(x);
         let measured = Self::of_measures(model, |element| element.value(&coordinates), |row, _| tension[row]);
         Self { coordinates, ..measured }
     }
 
-    /// The state of a model whose elements have these values, and whose stiff measures, counted through, have these tensions
-    /// at these values. It has no coordinates.
+    /// The state of a model whose elements have these values, and whose stiff measures, counted through, have these
+    /// tensions at these values. It has no coordinates.
     pub(super) fn of_measures(
         model: &Model,
         value: impl Fn(&Element<'_>) -> f64,
@@ -135,7 +136,8 @@ impl State {
         }
     }
 
-    /// Energy of a term by its name: bars, creases, facets, or that of a term of one's own; 0 where there is none of this name.
+    /// Energy of a term by its name: bars, creases, facets, or that of a term of one's own; 0 where there is none of
+    /// this name.
     pub fn energy_of_term(&self, name: &str) -> f64 {
         let kind = TermKind::ALL.into_iter().find(|kind| kind.name() == name);
         let own = self.energy_own.iter().find(|(known, _)| known == name).map(|(_, energy)| *energy);
@@ -167,11 +169,11 @@ fn add_known(sum: &mut f64, part: f64) {
 /// A sheet periodic up to screw motions, as seen from vertex 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cylinder {
-    /// Signed curvature, 1/(distance of vertex 0 from the axis), with the sign of the chart's: it changes only where the
-    /// curvature passes zero, as that of a [shape](crate::kinematics::Shape) along a trajectory does.
+    /// Signed curvature, 1/(distance of vertex 0 from the axis), with the sign of the chart's: it changes only where
+    /// the curvature passes zero, as that of a [shape](crate::kinematics::Shape) along a trajectory does.
     pub curvature: f64,
-    /// Rotation angles of the two lattice rotations about their common axis, in radians, between -pi and pi. The axis is directed so that
-    /// the larger of the two in magnitude is positive.
+    /// Rotation angles of the two lattice rotations about their common axis, in radians, between -pi and pi. The axis
+    /// is directed so that the larger of the two in magnitude is positive.
     pub theta: [f64; 2],
     /// Strain `a^-T g a^-1 - I` of the chords from vertex 0 to its copies: components 11, 22, 12.
     pub strain: [f64; 3],
@@ -189,7 +191,8 @@ pub(crate) fn cylinder(drawn: &Drawn, x: &[f64]) -> Option<Cylinder> {
     Some(Cylinder { curvature, theta: theta.map(|t| t * sign), strain: strain(reference, chords) })
 }
 
-/// The signed curvature, and the turns of the two lattice vectors about one direction of the axis; zero where nothing turns.
+/// The signed curvature, and the turns of the two lattice vectors about one direction of the axis; zero where nothing
+/// turns.
 fn curvature_and_turns(domain: &Domain, x: &[f64]) -> (f64, [f64; 2]) {
     if let Some(Turns { kappa, theta, .. }) = domain.turns(x) {
         return (kappa / (1.0 - kappa * x[2]), theta);

@@ -64,11 +64,11 @@ pub struct Traced {
     pub corrections: usize,
 }
 
-/// Follows every ray that the options ask for; none where it is established that no direction is real, or that a tube is
-/// rigid. `observe` sees branch, sign and every state's arc length, and returns false to stop.
+/// Follows every ray that the options ask for; none where it is established that no direction is real, or that a tube
+/// is rigid. `observe` sees branch, sign and every state's arc length, and returns false to stop.
 ///
-/// The rays of a tube are those of branch 0: with sign 1 the quantity grows whose closing condition is not kept, the rise of
-/// the seam or its turn.
+/// The rays of a tube are those of branch 0: with sign 1 the quantity grows whose closing condition is not kept, the
+/// rise of the seam or its turn.
 ///
 /// # Errors
 /// [`TraceError`] where the rays cannot be found, or the branch that the options ask for is not there.

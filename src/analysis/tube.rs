@@ -7,8 +7,8 @@ use crate::sheet::{ScrewLattice, Seam, SeamKept, Sheet};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 
-/// Rolls a periodic sheet up to a tube in which cell `seam` coincides with cell (0, 0), towards its face normals (`inwards`) or
-/// away from them. Every edge folds, diagonals of polygons included.
+/// Rolls a periodic sheet up to a tube in which cell `seam` coincides with cell (0, 0), towards its face normals
+/// (`inwards`) or away from them. Every edge folds, diagonals of polygons included.
 ///
 /// The drawn sheet must be spatially periodic and not flat. The tube may intersect itself.
 ///
@@ -44,7 +44,8 @@ pub struct SeamPlace {
     pub turn: f64,
     /// Translation along the axis from the beginning of the seam to its end, `n1 h1 + n2 h2`.
     pub rise: f64,
-    /// Direction of the axis in the frame of the embedding; the seam of the first state turns by a positive angle about it.
+    /// Direction of the axis in the frame of the embedding; the seam of the first state turns by a positive angle about
+    /// it.
     pub axis: Vec3,
     /// Rotation angles about it of the two lattice motions in radians, continued through pi.
     theta: [f64; 2],
@@ -59,7 +60,8 @@ impl SeamPlace {
         Self { turn, rise, axis: sign * Vec3::z(), theta: screws.turn.map(|angle| sign * angle) }
     }
 
-    /// Returns the seam of a shape, continued from that of a shape near by; `None` for one without rotation as the first.
+    /// Returns the seam of a shape, continued from that of a shape near by; `None` for one without rotation as the
+    /// first.
     pub(super) fn new(shape: &Shape, seam: &Seam, last: Option<&Self>) -> Option<Self> {
         let (screw, cell) = (&shape.screw, seam.lattice_vector());
         let positive = sum(cell, screw.theta) >= 0.0;
@@ -82,8 +84,8 @@ fn sum([n1, n2]: [i32; 2], each: [f64; 2]) -> f64 {
     f64::from(n1) * each[0] + f64::from(n2) * each[1]
 }
 
-/// Returns the coordinates of a shape about its axis, which is z and has the direction of `axis`, about which the seam turns by
-/// a positive angle up to whole turns; vertex 0 is at height 0 in the half-plane `y = 0`, `x > 0`.
+/// Returns the coordinates of a shape about its axis, which is z and has the direction of `axis`, about which the seam
+/// turns by a positive angle up to whole turns; vertex 0 is at height 0 in the half-plane `y = 0`, `x > 0`.
 pub(super) fn coordinates(shape: &Shape, axis: &Vec3, seam: &Seam, kept: SeamKept) -> Vec<f64> {
     let screw = &shape.screw;
     let sign = if screw.axis.is_some_and(|own| own.dot(axis) < 0.0) { -1.0 } else { 1.0 };

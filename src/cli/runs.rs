@@ -35,8 +35,8 @@ enum AnySummary {
     Sweep(SweepSummary),
 }
 
-/// Computes the studies of some scenes, or a shard of their points, one scene after the other; the status is that of the first
-/// that has another than 0. Ctrl-C ends the scene at work and leaves out those after it.
+/// Computes the studies of some scenes, or a shard of their points, one scene after the other; the status is that of
+/// the first that has another than 0. Ctrl-C ends the scene at work and leaves out those after it.
 pub(super) fn run_scenes(
     scenes: Vec<(SceneFile, RunOptions)>,
     shard: Option<Shard>,

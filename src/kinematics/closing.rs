@@ -10,13 +10,14 @@ use crate::solver::continuation::Curve;
 pub trait AngleConditions {
     /// Number of the equations.
     fn count(&self) -> usize;
-    /// Writes the values that vanish where the conditions hold, at the fold angles of all edges in radians, and their derivatives with
-    /// respect to all of them: a row for each condition.
+    /// Writes the values that vanish where the conditions hold, at the fold angles of all edges in radians, and their
+    /// derivatives with respect to all of them: a row for each condition.
     fn linearize(&self, angles: &[f64], values: &mut [f64], rates: &mut DenseMatrix);
 }
 
-/// The conditions that the rotations of both lattice motions vanish: what closes is then spatially periodic. Where these states are a
-/// curve, closure alone has three null vectors on it, and these conditions leave the one along the curve.
+/// The conditions that the rotations of both lattice motions vanish: what closes is then spatially periodic. Where
+/// these states are a curve, closure alone has three null vectors on it, and these conditions leave the one along the
+/// curve.
 pub(crate) struct SpatiallyPeriodic<'a>(pub &'a Embedding);
 
 impl AngleConditions for SpatiallyPeriodic<'_> {

@@ -23,8 +23,8 @@ mod second_derivative;
 pub(crate) use edge::HingedEdge;
 use opening::Opening;
 
-/// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two copies of one
-/// vertex has two terms, which cancel where it passes straight through.
+/// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two
+/// copies of one vertex has two terms, which cancel where it passes straight through.
 pub(crate) const DIRECTION: f64 = 1.0;
 
 /// The closure conditions of a sheet: three for each interior vertex, and six for each opening of a finite sheet.

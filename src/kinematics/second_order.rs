@@ -65,8 +65,9 @@ impl SecondOrder {
         Ok(Self { modes, forms, quadrics, gaps: [right.gap, gap] })
     }
 
-    /// Whether the one quadric is definite across one null direction, which is then the only real one: that of a motion without
-    /// curvature, along which the states stay spatially periodic, as in the planar folding of a triangulated Miura-ori.
+    /// Whether the one quadric is definite across one null direction, which is then the only real one: that of a motion
+    /// without curvature, along which the states stay spatially periodic, as in the planar folding of a triangulated
+    /// Miura-ori.
     ///
     /// # Errors
     /// [`KinematicsError`] if an entry is not finite.

@@ -142,7 +142,8 @@ impl Shape {
         Some(LatticeFrame::new(embedding.lattice.as_ref()?).strain_rate(&self.screw.chords, &chords))
     }
 
-    /// Returns the rate of the signed curvature, from the lattice motions with their rates; `None` if there is no rotation.
+    /// Returns the rate of the signed curvature, from the lattice motions with their rates; `None` if there is no
+    /// rotation.
     pub(crate) fn curvature_rate(&self, lattice: &[Moving; 2]) -> Option<f64> {
         let towards = self.screw.rate(lattice)?.towards_axis;
         Some(self.screw.towards_axis().dot(&towards) / self.curvature)

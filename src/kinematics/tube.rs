@@ -15,9 +15,10 @@
 //! `W . l / (2 pi L) = 0`. The second condition is smooth where there is no rotation. A tube is therefore found by
 //! rolling up the periodic sheet with the second condition satisfied until the first one is met.
 //!
-//! Where a lattice rotation passes `pi`, its rotation vector reverses and `W` changes by a multiple of `2 pi`. As equations
-//! that are [kept](Tube::keeping) the conditions are therefore stated with the longer of the two rotation vectors `w`, which
-//! has the direction of the axis: `W . w / |w| = 0` up to multiples of `2 pi`, and `w . l / (2 pi L) = 0`.
+//! Where a lattice rotation passes `pi`, its rotation vector reverses and `W` changes by a multiple of `2 pi`. As
+//! equations that are [kept](Tube::keeping) the conditions are therefore stated with the longer of the two rotation
+//! vectors `w`, which has the direction of the axis: `W . w / |w| = 0` up to multiples of `2 pi`, and
+//! `w . l / (2 pi L) = 0`.
 
 mod cut;
 
@@ -70,7 +71,8 @@ pub struct Tube<'a> {
     seam: Seam,
     /// Length of the drawn seam.
     length: f64,
-    /// Axis of the drawing, about which the drawn seam turns by a positive angle; `None` for a sheet with lattice vectors.
+    /// Axis of the drawing, about which the drawn seam turns by a positive angle; `None` for a sheet with lattice
+    /// vectors.
     axis: Option<Vec3>,
 }
 
@@ -82,8 +84,8 @@ struct SeamMotion {
 }
 
 impl<'a> Tube<'a> {
-    /// Plans a tube in which cell `seam` coincides with cell (0, 0), of a periodic sheet or of one that is drawn rolled up. The
-    /// drawn seam of the latter is measured along the chords from cell to cell.
+    /// Plans a tube in which cell `seam` coincides with cell (0, 0), of a periodic sheet or of one that is drawn rolled
+    /// up. The drawn seam of the latter is measured along the chords from cell to cell.
     ///
     /// # Errors
     /// [`KinematicsError`] for a finite sheet, for one whose faces are not connected, and for the seam `[0, 0]`.
@@ -169,8 +171,8 @@ impl<'a> Tube<'a> {
         self.closed(&rolled.ok_or_else(missed)?.x, &BOTH, &[])
     }
 
-    /// Returns the motions of a tube with these fold angles that satisfy the conditions in `kept` and do not move the edges in
-    /// `locked`: an orthonormal column for each, with the rates of the fold angles of all edges.
+    /// Returns the motions of a tube with these fold angles that satisfy the conditions in `kept` and do not move the
+    /// edges in `locked`: an orthonormal column for each, with the rates of the fold angles of all edges.
     ///
     /// # Errors
     /// [`KinematicsError::Decomposition`] if their number is not clear.
@@ -187,8 +189,8 @@ impl<'a> Tube<'a> {
         Ok(motions)
     }
 
-    /// Returns a motion that keeps a condition in the direction in which the quantity of the other one grows: the rise of the
-    /// seam, or its turn. Both are those along the axis about which the seam turns by a positive angle.
+    /// Returns a motion that keeps a condition in the direction in which the quantity of the other one grows: the rise
+    /// of the seam, or its turn. Both are those along the axis about which the seam turns by a positive angle.
     pub(crate) fn growing(&self, angles: &[f64], kept: Condition, motion: &[f64]) -> Vec<f64> {
         let mut rates = DenseMatrix::zeros(1, angles.len());
         self.keeping(kept.other()).linearize(angles, &mut [0.0], &mut rates);
@@ -230,7 +232,8 @@ impl<'a> Tube<'a> {
         Ok([sign * x * x, sign * y * y, sign * x * y])
     }
 
-    /// Solves closure and the conditions in `kept` by Newton's method, with the edges in `locked` at the angles of `start`.
+    /// Solves closure and the conditions in `kept` by Newton's method, with the edges in `locked` at the angles of
+    /// `start`.
     ///
     /// # Errors
     /// [`KinematicsError::NotClosed`] if there is no solution near `start`.
@@ -269,8 +272,8 @@ impl<'a> Tube<'a> {
 
 /// One of the conditions on a tube as an equation on its fold angles.
 ///
-/// Both are stated with the longer of the two rotation vectors, and hold where its direction or the whole turns of the seam
-/// change.
+/// Both are stated with the longer of the two rotation vectors, and hold where its direction or the whole turns of the
+/// seam change.
 #[derive(Clone, Copy, Debug)]
 pub struct TubeCondition<'t, 'a> {
     tube: &'t Tube<'a>,
@@ -317,8 +320,8 @@ fn longer_turn(lattice: &Option<[Moving; 2]>) -> (Vec3, Vec3) {
 }
 
 impl TubeCondition<'_, '_> {
-    /// The curve of screw-periodic sheets through these angles that satisfy the condition; its indicator is the defect of the
-    /// other one.
+    /// The curve of screw-periodic sheets through these angles that satisfy the condition; its indicator is the defect
+    /// of the other one.
     fn curve(&self, angles: &[f64]) -> impl Curve {
         Watched {
             equations: Closing::new(&self.tube.closure, angles.to_vec()).keeping(self),
@@ -333,9 +336,9 @@ mod tests {
     use super::*;
     use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
 
-    /// Claim: the Jacobian of closure and both conditions is their derivative, edge by edge, on cylinders, on tubes, on a tube
-    /// that is drawn rolled up, and off the closed states, where the rotations do not commute; on tubes all equations hold to
-    /// rounding.
+    /// Claim: the Jacobian of closure and both conditions is their derivative, edge by edge, on cylinders, on tubes, on
+    /// a tube that is drawn rolled up, and off the closed states, where the rotations do not commute; on tubes all
+    /// equations hold to rounding.
     #[test]
     fn conditions_are_equations() {
         let (sheet, drawn_tube) = (open_star(), kresling_cell());

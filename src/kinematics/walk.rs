@@ -5,9 +5,10 @@
 //! `M_next = M * turn(edge, rho - rho0)` (valley positive; counter-clockwise about the edge from its first to its
 //! second end if the step is from the right to the left face). A tree of such steps reaches every face of the cell
 //! once. Each remaining edge leads from a face `f` to the copy of a face `g` in the cell `n`, and closes a loop: the
-//! motion from the sheet to its copy there is `A = M_f * turn * D_n * M_g^-1`, with the motion `D_n` of the drawing from
-//! cell (0, 0) to the cell `n`: a translation, or a screw motion where the sheet is drawn rolled up. Products of a few
-//! loops give the two lattice motions; all other loops must agree with them, which is the compatibility of the angles.
+//! motion from the sheet to its copy there is `A = M_f * turn * D_n * M_g^-1`, with the motion `D_n` of the drawing
+//! from cell (0, 0) to the cell `n`: a translation, or a screw motion where the sheet is drawn rolled up. Products of a
+//! few loops give the two lattice motions; all other loops must agree with them, which is the compatibility of the
+//! angles.
 
 use super::KinematicsError;
 use super::motion::{Line, Motion, Rigid};

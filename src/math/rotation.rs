@@ -66,8 +66,8 @@ pub(crate) struct Turned {
 
 /// Derivatives of the vector `arm` turned by the rotation vector `v`, which may have any length.
 ///
-/// With `s = |v|^2`, `p = v x arm` and `q = v x p` the turned vector is `arm + a(s) p + b(s) q` (Rodrigues), and its derivatives follow
-/// from those of `a`, `b`, `p` and `q`.
+/// With `s = |v|^2`, `p = v x arm` and `q = v x p` the turned vector is `arm + a(s) p + b(s) q` (Rodrigues), and its
+/// derivatives follow from those of `a`, `b`, `p` and `q`.
 pub(crate) fn turned(v: &Vec3, arm: &Vec3) -> Turned {
     let [[a, a1, a2], [b, b1, b2]] = rodrigues(v.norm_squared());
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -90,7 +90,8 @@ pub(crate) fn turned(v: &Vec3, arm: &Vec3) -> Turned {
 const LARGEST_SERIES_SQUARE: f64 = 2.25;
 const SERIES_TERMS: i32 = 12;
 
-/// The functions `a(s) = sin(t)/t` and `b(s) = (1 - cos t)/t^2` of `s = t^2`, each with its first two derivatives by `s`.
+/// The functions `a(s) = sin(t)/t` and `b(s) = (1 - cos t)/t^2` of `s = t^2`, each with its first two derivatives by
+/// `s`.
 fn rodrigues(s: f64) -> [[f64; 3]; 2] {
     if s <= LARGEST_SERIES_SQUARE { [1.0, 2.0].map(|first| rodrigues_series(s, first)) } else { rodrigues_closed(s) }
 }

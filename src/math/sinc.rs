@@ -3,8 +3,8 @@
 //! `phi(t)` is the integral of `e^{itu}` over `u` from 0 to 1, so that its real part is `sin(t)/t`, its imaginary part
 //! `(1 - cos t)/t`, and its derivatives are `i^d m_d` with the moments `m_d(t)`, the integral of `u^d e^{itu}`:
 //!
-//! - `|t|` at most 1.5: the power series `m_2 = sum over k of (it)^k / (k! (k + 3))`, and integration by parts downwards,
-//!   `m_{d-1} = (e^{it} - it m_d) / d`;
+//! - `|t|` at most 1.5: the power series `m_2 = sum over k of (it)^k / (k! (k + 3))`, and integration by parts
+//!   downwards, `m_{d-1} = (e^{it} - it m_d) / d`;
 //! - beyond: integration by parts upwards, `m_d = (e^{it} - d m_{d-1}) / (it)`.
 //!
 //! Both are good to some units in the last place at the switch, so that nothing jumps there.

@@ -1,9 +1,9 @@
 //! Builds the model of a sheet from its terms; no other place decides what a model contains.
 //!
 //! A term that is absent is not built. Bars always have tensions as unknowns. A hinge has a tension too if it is rigid,
-//! or so much stiffer than the softest element that the rounding errors of `k (angle - rest)` would hide its torque; the
-//! hinges of one kind may be of both sorts. An element that has a law and a tension is two: a spring with that tension, and what the law
-//! stores beyond it.
+//! or so much stiffer than the softest element that the rounding errors of `k (angle - rest)` would hide its torque;
+//! the hinges of one kind may be of both sorts. An element that has a law and a tension is two: a spring with that
+//! tension, and what the law stores beyond it.
 
 use super::boundary::Drawn;
 use super::element::{Elements, Term, TermKind};

@@ -84,11 +84,12 @@ impl Assembly {
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
-    /// Makes an assembly of a tube that was [rolled up](Roll) or is drawn as one, without terms. `cells` counts the strands and the rows of
-    /// cells that pictures show.
+    /// Makes an assembly of a tube that was [rolled up](Roll) or is drawn as one, without terms. `cells` counts the
+    /// strands and the rows of cells that pictures show.
     ///
     /// # Errors
-    /// [`AssemblyError::NoLattice`] for a sheet without lattice, and [`AssemblyError::NoCells`] if a number of cells is zero.
+    /// [`AssemblyError::NoLattice`] for a sheet without lattice, and [`AssemblyError::NoCells`] if a number of cells is
+    /// zero.
     pub fn tube_without_terms(sheet: Sheet, roll: &Roll, cells: [usize; 2]) -> Result<Self, AssemblyError> {
         if !sheet.is_repeated() {
             return Err(AssemblyError::NoLattice);
@@ -108,8 +109,9 @@ impl Assembly {
     /// are equal on all elements of their term become one number.
     ///
     /// # Panics
-    /// If stiffnesses, rest lengths or rest angles that are given for each edge are not one for each edge of the tiling.
-    /// A lock, pin or load whose edge or vertex number is outside the tiling panics later, when the model is built.
+    /// If stiffnesses, rest lengths or rest angles that are given for each edge are not one for each edge of the
+    /// tiling. A lock, pin or load whose edge or vertex number is outside the tiling panics later, when the model is
+    /// built.
     pub fn with_terms(&self, mut terms: Terms) -> Self {
         let (edges, tiling) = (self.edges(), self.tiling());
         let at_elements = |stiffness: &Stiffness, kind: Option<EdgeKind>| {
@@ -132,16 +134,16 @@ impl Assembly {
         Self { terms: Arc::new(terms), ..self.clone() }
     }
 
-    /// Returns the same assembly with no bar stiffer than this `EA` (a force): softer ones keep their stiffness, and all
-    /// their rest lengths.
+    /// Returns the same assembly with no bar stiffer than this `EA` (a force): softer ones keep their stiffness, and
+    /// all their rest lengths.
     pub fn with_bars_at_most(&self, stiffness: f64) -> Self {
         let Some(bars) = &self.terms().bars else { return self.clone() };
         let bars = Bars { stiffness: bars.stiffness.at_most(stiffness), rest: bars.rest.clone() };
         self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
     }
 
-    /// Returns the same assembly with all bars of one stiffness `EA` (a force); [`RIGID`] keeps their lengths. Their rest
-    /// lengths stay what they are.
+    /// Returns the same assembly with all bars of one stiffness `EA` (a force); [`RIGID`] keeps their lengths. Their
+    /// rest lengths stay what they are.
     pub fn with_bars(&self, stiffness: f64) -> Self {
         let rest = self.terms().bars.as_ref().map(|bars| bars.rest.clone()).unwrap_or_default();
         let bars = Bars { stiffness: stiffness.into(), rest };
@@ -204,7 +206,8 @@ impl Assembly {
         &self.terms
     }
 
-    /// Returns the stiffness `EA` of the bars, of the stiffest one if they differ; infinite if the assembly has no bars.
+    /// Returns the stiffness `EA` of the bars, of the stiffest one if they differ; infinite if the assembly has no
+    /// bars.
     pub fn bar_stiffness(&self) -> f64 {
         self.terms.bar_stiffness().map_or(RIGID, Stiffness::stiffest)
     }
@@ -264,8 +267,8 @@ impl Assembly {
         &self.geometry.angles
     }
 
-    /// Returns the fold angles of the sheet folded flat by its letters, one for each edge of the tiling, in radians: -pi for
-    /// mountains, pi for valleys and 0 for all others.
+    /// Returns the fold angles of the sheet folded flat by its letters, one for each edge of the tiling, in radians:
+    /// -pi for mountains, pi for valleys and 0 for all others.
     pub fn assigned_angles(&self) -> Vec<f64> {
         let sheet = self.sheet();
         let letters: Vec<_> = sheet.edges.iter().map(|edge| sheet.assignment(edge)).collect();
@@ -273,16 +276,16 @@ impl Assembly {
         edges.map(|tiled| letters[tiled.edge].flat_folded_angle().unwrap_or(0.0)).collect()
     }
 
-    /// Returns this part of the target angles of the file, one for each edge of the tiling, in radians; the drawn angle of
-    /// an edge for which it gives none.
+    /// Returns this part of the target angles of the file, one for each edge of the tiling, in radians; the drawn angle
+    /// of an edge for which it gives none.
     pub fn target_angles(&self, part: f64) -> Vec<f64> {
         let target = |edge: usize| self.sheet().targets.get(&self.sheet().edges[edge].key);
         let edges = self.tiling().edges.iter().zip(self.drawn_angles());
         edges.map(|(tiled, drawn)| target(tiled.edge).map_or(*drawn, |angle| part * angle)).collect()
     }
 
-    /// Returns the fold angles of the state from which studies start, in the same way: the drawn ones, or those of the sheet
-    /// rolled up to a tube.
+    /// Returns the fold angles of the state from which studies start, in the same way: the drawn ones, or those of the
+    /// sheet rolled up to a tube.
     pub fn start_angles(&self) -> &[f64] {
         &self.geometry.start_angles
     }

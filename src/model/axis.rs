@@ -57,8 +57,8 @@ impl Assembly {
     }
 }
 
-/// Returns the direction of an axis with the largest gain, of the peaks next to all directions that are tried; `None` where there is no
-/// peak.
+/// Returns the direction of an axis with the largest gain, of the peaks next to all directions that are tried; `None`
+/// where there is no peak.
 pub(super) fn direction_of_highest_peak(gain: impl Fn(f64) -> f64) -> Option<f64> {
     let step = PI / DIRECTIONS as f64;
     let samples: Vec<f64> = (0..DIRECTIONS).map(|k| gain(step * k as f64)).collect();
@@ -91,9 +91,10 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
     0.5 * (low + high)
 }
 
-/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be factorized. A step
-/// closes measures that are off their rest values, as a lock is that has to turn: where no motion closes a rigid one, it resists by its
-/// weight in the factorization, and the energy rises a million times more than about other axes.
+/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be
+/// factorized. A step closes measures that are off their rest values, as a lock is that has to turn: where no motion
+/// closes a rigid one, it resists by its weight in the factorization, and the energy rises a million times more than
+/// about other axes.
 fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     let model = assembly.model(Gauge::Held);
     let tension = vec![0.0; model.layout().stiff.len()];
@@ -106,8 +107,8 @@ fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     Some(decrease_along_step(&mut tangent, [&force, &stretch], tolerance))
 }
 
-/// Returns the decrease of the energy, to second order, with which the state of a factored tangent problem gives way to a force and a
-/// stretch; negative where the stretch costs more than the force gains.
+/// Returns the decrease of the energy, to second order, with which the state of a factored tangent problem gives way to
+/// a force and a stretch; negative where the stretch costs more than the force gains.
 pub(super) fn decrease_along_step(tangent: &mut Tangent, [force, stretch]: [&[f64]; 2], tolerance: f64) -> f64 {
     let step = tangent.solve(force, stretch, tolerance);
     0.5 * (dot(force, &step.dx) + dot(stretch, &step.dt))

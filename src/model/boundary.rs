@@ -57,8 +57,8 @@ pub struct Drawn {
     /// Point of the file that is the origin of the domain's frame: vertex 0 for a screw, otherwise the file's origin,
     /// or the sheet's first vertex if the sheet is far from the file's origin.
     pub origin: Vec3,
-    /// Chords from vertex 0 to its two copies in the file, if the drawn state here is another one: that of a tube. Strains
-    /// are relative to them.
+    /// Chords from vertex 0 to its two copies in the file, if the drawn state here is another one: that of a tube.
+    /// Strains are relative to them.
     pub chords: Option<[Vec3; 2]>,
 }
 

@@ -24,7 +24,8 @@ pub enum Rest {
     Flat,
     /// The same angle for every hinge.
     Angle(f64),
-    /// This part of the angles of the sheet folded flat by its letters: -pi for mountains, pi for valleys, 0 for others.
+    /// This part of the angles of the sheet folded flat by its letters: -pi for mountains, pi for valleys, 0 for
+    /// others.
     Assigned(f64),
     /// This part of the target angles of the file; the drawn angle where it gives none.
     Target(f64),
@@ -54,8 +55,8 @@ impl Assembly {
         Builder::new(sheet, cells, Boundary::Screw)
     }
 
-    /// Begins a tube from the state to which a sheet was [rolled up](crate::rolled_up); pictures show `cells[0]` of its strands
-    /// and `cells[1]` rows of cells.
+    /// Begins a tube from the state to which a sheet was [rolled up](crate::rolled_up); pictures show `cells[0]` of its
+    /// strands and `cells[1]` rows of cells.
     pub fn tube(sheet: Sheet, roll: Roll, cells: [usize; 2]) -> Builder {
         Builder { roll: Some(roll.clone()), ..Builder::new(sheet, cells, roll.boundary()) }
     }
@@ -158,8 +159,8 @@ impl Builder {
         self
     }
 
-    /// Lets a vertex of a cell move only across a direction: its coordinate along it keeps its drawn value, as that of a
-    /// roller on an inclined plane, or of a vertex in a plane of symmetry.
+    /// Lets a vertex of a cell move only across a direction: its coordinate along it keeps its drawn value, as that of
+    /// a roller on an inclined plane, or of a vertex in a plane of symmetry.
     #[must_use]
     pub fn guide(mut self, vertex: usize, cell: [usize; 2], normal: [f64; 3]) -> Self {
         self.given.guides.push(((vertex, cell), Vec3::from(normal).normalize()));
@@ -213,8 +214,8 @@ impl Builder {
     ///
     /// # Errors
     /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness, a rest length or the mass is
-    /// not a positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
-    /// crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
+    /// not a positive number, rest values are given without a stiffness, the length of a list does not match the
+    /// tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, boundary, roll, given } = self;
         let bare = match roll {

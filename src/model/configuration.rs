@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 /// A state of a sheet, independent of how a model numbers its unknowns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Configuration {
-    /// All coordinates: x, y and z of every vertex in the unit of length of the sheet, then those that all points share; see
-    /// [`Domain`](super::Domain).
+    /// All coordinates: x, y and z of every vertex in the unit of length of the sheet, then those that all points
+    /// share; see [`Domain`](super::Domain).
     pub coordinates: Vec<f64>,
     /// Angles of all hinges of the model in radians, from which later angles continue without jumps of `2 pi`; see
     /// [`Model::angles`].
@@ -37,8 +37,9 @@ impl Model {
         Configuration { coordinates: self.coordinates(x), angles: self.angles(), tension }
     }
 
-    /// Makes a state the reference state: coordinates held against drift keep the values that they have in it, and angles continue from
-    /// its own. Returns its unknowns, and its tensions where the state has as many as the model has stiff measures.
+    /// Makes a state the reference state: coordinates held against drift keep the values that they have in it, and
+    /// angles continue from its own. Returns its unknowns, and its tensions where the state has as many as the model
+    /// has stiff measures.
     pub fn enter(&mut self, state: &Configuration) -> Start {
         self.set_angles(&state.angles);
         let x = self.start_from(state.coordinates.clone());

@@ -56,8 +56,8 @@ pub enum Domain {
     },
 }
 
-/// Curvature times the unit length up to which a screw is straight: the direction of its axis has next to no effect there, and its unit
-/// would grow without bound.
+/// Curvature times the unit length up to which a screw is straight: the direction of its axis has next to no effect
+/// there, and its unit would grow without bound.
 pub(super) const STRAIGHT: f64 = 1e-8;
 
 /// A point of an element with the derivatives of its position.
@@ -221,8 +221,8 @@ impl Domain {
         matches!(self, Self::Screw).then(|| Turns::new(self.shared_of(x)))
     }
 
-    /// Returns the turns about the z axis and the translations along it of the two lattice vectors of a tube; `None` for
-    /// other domains.
+    /// Returns the turns about the z axis and the translations along it of the two lattice vectors of a tube; `None`
+    /// for other domains.
     pub(crate) fn tube_motions(&self, x: &[f64]) -> Option<[[f64; 2]; 2]> {
         let Self::Tube { seam, kept, .. } = self else { return None };
         Some(tube::lattice_motions(seam, *kept, self.shared_of(x)))

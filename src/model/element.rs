@@ -84,8 +84,8 @@ impl Local {
     }
 }
 
-/// The measures of a term, independent of the number of their points. They never change: springs and the angles from which values
-/// continue belong to a [`Model`](super::Model).
+/// The measures of a term, independent of the number of their points. They never change: springs and the angles from
+/// which values continue belong to a [`Model`](super::Model).
 pub(super) trait Elements: Send + Sync {
     /// Returns the kind of the elements.
     fn kind(&self) -> TermKind;
@@ -234,7 +234,8 @@ impl<'a> Element<'a> {
         self.term.edge(self.index)
     }
 
-    /// Returns its value at the coordinates `x`, a length or an angle in radians, which continues from the last accepted state.
+    /// Returns its value at the coordinates `x`, a length or an angle in radians, which continues from the last
+    /// accepted state.
     pub fn value(&self, x: &[f64]) -> f64 {
         continued(self.last, self.term.value(self.index, self.domain, x))
     }
@@ -270,8 +271,8 @@ impl<'a> Element<'a> {
         out.value = continued(self.last, out.value);
     }
 
-    /// Returns the Taylor series of its value along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not valid for screws,
-    /// and `None` for measures without series.
+    /// Returns the Taylor series of its value along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not valid
+    /// for screws, and `None` for measures without series.
     pub(crate) fn along(&self, x: &[&[f64]; 3]) -> Option<Taylor> {
         self.term.along(self.index, self.domain, x)
     }

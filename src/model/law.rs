@@ -3,8 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](Law) near rest; infinite stiffness means
-/// `value = rest` exactly.
+/// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](Law) near rest; infinite
+/// stiffness means `value = rest` exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// Spring constant: force per length for a bar, torque per radian for a hinge; may be infinite.
@@ -13,12 +13,13 @@ pub struct Spring {
     pub rest: f64,
 }
 
-/// A law `phi` of an element: its energy is `k phi(m, rest)`, `k` the spring constant, `m` the value of its measure, a length or an
-/// angle in radians.
+/// A law `phi` of an element: its energy is `k phi(m, rest)`, `k` the spring constant, `m` the value of its measure, a
+/// length or an angle in radians.
 ///
-/// Every law is a spring of constant `k` near rest: `phi = phi' = 0` and `phi'' = 1` at `m = rest`, unless rest is beyond a limit.
-/// Derivatives are by `m`. Where a value cannot be reached, as a fold angle beyond pi, the energy is infinite. A law is one file of a user's
-/// own: a type with this trait, given to [`Builder::bar_law`](super::Builder::bar_law).
+/// Every law is a spring of constant `k` near rest: `phi = phi' = 0` and `phi'' = 1` at `m = rest`, unless rest is
+/// beyond a limit. Derivatives are by `m`. Where a value cannot be reached, as a fold angle beyond pi, the energy is
+/// infinite. A law is one file of a user's own: a type with this trait, given to
+/// [`Builder::bar_law`](super::Builder::bar_law).
 ///
 /// ```
 /// use foldwell::model::Law;
@@ -45,8 +46,8 @@ pub trait Law: fmt::Debug + Send + Sync {
     /// Returns `phi`, `phi'` and `phi''` at a value.
     fn at(&self, value: f64, rest: f64) -> [f64; 3];
 
-    /// Returns derivatives by the rest value while `m` is fixed: the first of `phi`, the first of `phi'`, and the second of `phi`. The
-    /// default is right for functions of `m - rest`.
+    /// Returns derivatives by the rest value while `m` is fixed: the first of `phi`, the first of `phi'`, and the
+    /// second of `phi`. The default is right for functions of `m - rest`.
     fn by_rest(&self, value: f64, rest: f64) -> [f64; 3] {
         let [_, force, stiffness] = self.at(value, rest);
         [-force, -stiffness, stiffness]
@@ -86,8 +87,8 @@ pub(super) enum Stored {
     Spring,
     /// The energy of a law.
     Law(Arc<dyn Law>),
-    /// The energy of a law less that of a spring. The spring is an element of its own, with a tension as unknown, so that the sum loses no
-    /// digits however stiff it is.
+    /// The energy of a law less that of a spring. The spring is an element of its own, with a tension as unknown, so
+    /// that the sum loses no digits however stiff it is.
     BeyondSpring(Arc<dyn Law>),
 }
 

@@ -5,7 +5,8 @@ use crate::math::taylor::{Path, Taylor, difference, dot};
 use crate::math::{Vec3, fold_angle};
 use nalgebra::SVector;
 
-/// A scalar function of `N` points, which have `D = 3 N` coordinates: x, y and z of the first point, then those of the next ones.
+/// A scalar function of `N` points, which have `D = 3 N` coordinates: x, y and z of the first point, then those of the
+/// next ones.
 ///
 /// A [term of one's own](super::OwnTerm) has a measure of one's own.
 pub trait Measure<const N: usize, const D: usize>: Send + Sync {
@@ -19,7 +20,8 @@ pub trait Measure<const N: usize, const D: usize>: Send + Sync {
     fn gradient(&self, points: &[Vec3; N]) -> (f64, SVector<f64, D>);
     /// Returns the scalar and its gradient, and replaces `lower` by the lower triangle of its Hessian, row by row.
     fn hessian(&self, points: &[Vec3; N], lower: &mut Vec<f64>) -> (f64, SVector<f64, D>);
-    /// Returns the Taylor series of the scalar while its points move along these paths; `None` for measures that landscapes do not know.
+    /// Returns the Taylor series of the scalar while its points move along these paths; `None` for measures that
+    /// landscapes do not know.
     fn along(&self, _paths: &[[Taylor; 3]; N]) -> Option<Taylor> {
         None
     }

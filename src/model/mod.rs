@@ -3,10 +3,11 @@
 //!
 //! An [`Assembly`] is the starting point: a sheet with its boundary conditions, stiffnesses, rest angles, locks, pins
 //! and loads. Below it, the energy of an element is a [`Law`] applied to a [`Measure`], a scalar function of a few
-//! points (the length of a bar, the fold angle of a hinge); the usual law is that of a spring. A term is a list of elements with the same
-//! measure and law; [`OwnTerm`] is one of a user's own. A [`Domain`] computes the points of an element from the coordinates of a state and
-//! applies the chain rule through that map. What never changes, measures and topology, is shared by the clones of a [`Model`]; springs,
-//! loads and the angles from which others continue are its own. It is the [`crate::solver::Problem`] that the solver minimises.
+//! points (the length of a bar, the fold angle of a hinge); the usual law is that of a spring. A term is a list of
+//! elements with the same measure and law; [`OwnTerm`] is one of a user's own. A [`Domain`] computes the points of an
+//! element from the coordinates of a state and applies the chain rule through that map. What never changes, measures
+//! and topology, is shared by the clones of a [`Model`]; springs, loads and the angles from which others continue are
+//! its own. It is the [`crate::solver::Problem`] that the solver minimises.
 //!
 //! ```
 //! use foldwell::{Assembly, Pattern, RIGID, generate};

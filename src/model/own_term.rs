@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 /// A term of one's own: elements with a measure and a law of one's own, and a name under which their energy is listed.
 ///
-/// Its energy must not change where the whole sheet moves as a rigid body, unless pins prevent that: coordinates are held against such
-/// motions, and forces on them are not looked at.
+/// Its energy must not change where the whole sheet moves as a rigid body, unless pins prevent that: coordinates are
+/// held against such motions, and forces on them are not looked at.
 ///
 /// ```
 /// use foldwell::model::{Length, OwnTerm, RIGID, Site, Spring};
@@ -32,8 +32,8 @@ pub struct OwnTerm {
 }
 
 impl OwnTerm {
-    /// Makes a term of elements with this measure and springs of finite or infinite stiffness. The points are vertices of the tiling, in
-    /// the order of the measure's arguments; `shift` is not zero for copies of a periodic sheet.
+    /// Makes a term of elements with this measure and springs of finite or infinite stiffness. The points are vertices
+    /// of the tiling, in the order of the measure's arguments; `shift` is not zero for copies of a periodic sheet.
     pub fn new<M: Measure<N, D> + 'static, const N: usize, const D: usize>(
         name: &str,
         measure: M,

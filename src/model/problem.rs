@@ -65,7 +65,8 @@ pub(super) struct Conditions {
     pub loads: Vec<f64>,
 }
 
-/// The mechanical model of a sheet: its terms on a domain, with springs, held coordinates and loads. Clones share what never changes.
+/// The mechanical model of a sheet: its terms on a domain, with springs, held coordinates and loads. Clones share what
+/// never changes.
 #[derive(Clone)]
 pub struct Model {
     equations: Arc<Equations>,

@@ -3,12 +3,13 @@
 use super::law::Law;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A hinge that is a spring between two fold angles and becomes ever stiffer beyond them, so that faces never pass through each other: its
-/// torque diverges where it is folded flat. Beyond a limit `m1`, with `s = pi - |m1|`,
+/// A hinge that is a spring between two fold angles and becomes ever stiffer beyond them, so that faces never pass
+/// through each other: its torque diverges where it is folded flat. Beyond a limit `m1`, with `s = pi - |m1|`,
 ///
 /// `phi' = m1 - rest + (2 s / pi) tan(pi (|m| - |m1|) / (2 s))`, with the sign of `m1` before the tangent
 ///
-/// (K. Liu and G. H. Paulino, "Nonlinear mechanics of non-rigid origami", Proc. R. Soc. A 473, 20170348 (2017), equation 28).
+/// (K. Liu and G. H. Paulino, "Nonlinear mechanics of non-rigid origami", Proc. R. Soc. A 473, 20170348 (2017),
+/// equation 28).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffening {
     /// The lower limit, between -pi and 0, and the upper one, between 0 and pi, in radians.
@@ -37,8 +38,8 @@ impl Law for Stiffening {
     }
 }
 
-/// A bar of the force `EA (l^(a - 1) - l^(b - 1)) / (a - b)` at the stretch `l`, its length over its rest length (R. W. Ogden; `a = 5`,
-/// `b = 1` in MERLIN, Liu and Paulino 2017).
+/// A bar of the force `EA (l^(a - 1) - l^(b - 1)) / (a - b)` at the stretch `l`, its length over its rest length (R. W.
+/// Ogden; `a = 5`, `b = 1` in MERLIN, Liu and Paulino 2017).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ogden {
     /// The exponents `a` and `b`, which differ.
@@ -112,8 +113,9 @@ mod tests {
         (4.0 * step(5e-4) - step(1e-3)) / 3.0
     }
 
-    /// Claim: a law is a spring at rest, and its derivatives by value and by rest value are those of its energy. Source: extrapolated
-    /// central differences. Tolerance: their rounding errors and truncation, 1e-10 of values up to 10, 1e-8 at a wall.
+    /// Claim: a law is a spring at rest, and its derivatives by value and by rest value are those of its energy.
+    /// Source: extrapolated central differences. Tolerance: their rounding errors and truncation, 1e-10 of values up to
+    /// 10, 1e-8 at a wall.
     #[test]
     fn derivatives_are_right() {
         for (law, values, rest) in LAWS {

@@ -35,15 +35,16 @@ fn rounded(number: f64) -> f64 {
     (number * 1e6).round() / 1e6
 }
 
-/// A tube about the z axis, as coordinates of the [domain](Domain) that belongs to it, with the fold angles of its edges.
+/// A tube about the z axis, as coordinates of the [domain](Domain) that belongs to it, with the fold angles of its
+/// edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Roll {
     /// The seam along which it closes.
     pub seam: Seam,
     /// The closing conditions that it keeps when it moves.
     pub kept: SeamKept,
-    /// Coordinates `x, y, z` of the vertices of cell (0, 0), then turn (radians) and translation from one row of cells to the
-    /// next, then those from one strand to the next that are not kept: translation, turn.
+    /// Coordinates `x, y, z` of the vertices of cell (0, 0), then turn (radians) and translation from one row of cells
+    /// to the next, then those from one strand to the next that are not kept: translation, turn.
     pub coordinates: Vec<f64>,
     /// Fold angle of every edge of the sheet in radians, continued through pi; NaN for a boundary edge.
     pub angles: Vec<f64>,
@@ -54,7 +55,8 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// Returns a tube as its file draws it: the cell repeated by the sheet's [screw motions](crate::sheet::ScrewLattice).
+    /// Returns a tube as its file draws it: the cell repeated by the sheet's [screw
+    /// motions](crate::sheet::ScrewLattice).
     ///
     /// ```
     /// use foldwell::sheet::SeamKept;
@@ -70,8 +72,8 @@ impl Roll {
     /// ```
     ///
     /// # Errors
-    /// [`RollError`] if no screw motions repeat the cell, for a seam that is none, and if a condition that is kept misses by more
-    /// than 1e-6 (radians; relative to the shorter chord).
+    /// [`RollError`] if no screw motions repeat the cell, for a seam that is none, and if a condition that is kept
+    /// misses by more than 1e-6 (radians; relative to the shorter chord).
     pub fn as_drawn(sheet: &Sheet, seam: [i32; 2], kept: SeamKept) -> Result<Self, RollError> {
         let (Some(screws), Some(chords)) = (&sheet.screws, sheet.chords()) else { return Err(RollError::NoScrews) };
         let seam = Seam::new(seam).ok_or(RollError::NoSeam)?;

@@ -63,7 +63,8 @@ pub struct Hinges {
     pub rest: Vec<f64>,
 }
 
-/// The terms of the energy of a sheet, the locks, pins and loads on it, and its mass. `None` means that the term is not built.
+/// The terms of the energy of a sheet, the locks, pins and loads on it, and its mass. `None` means that the term is not
+/// built.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Terms {
     /// The bars, one along every edge.
@@ -134,8 +135,8 @@ impl Terms {
         self.own.iter().map(OwnTerm::name).collect()
     }
 
-    /// Returns the name of the first term that is not made of linear springs along edges: one with a law, or one of one's own; `None` if
-    /// there is none.
+    /// Returns the name of the first term that is not made of linear springs along edges: one with a law, or one of
+    /// one's own; `None` if there is none.
     pub fn first_not_linear(&self) -> Option<&str> {
         self.laws.first().or_else(|| self.own.first().map(OwnTerm::name))
     }

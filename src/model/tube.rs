@@ -7,8 +7,8 @@ use crate::sheet::SeamKept;
 use std::f64::consts::TAU;
 
 impl Assembly {
-    /// Returns the same tube in the state with these coordinates, with other closing conditions, and its coordinates there;
-    /// `None` for other boundary conditions.
+    /// Returns the same tube in the state with these coordinates, with other closing conditions, and its coordinates
+    /// there; `None` for other boundary conditions.
     pub(crate) fn tube_keeping(&self, kept: SeamKept, coordinates: &[f64]) -> Option<(Self, Vec<f64>)> {
         let drawn = self.drawn();
         let (Domain::Tube { seam, kept: before, counterclockwise }, true) =

@@ -194,8 +194,8 @@ mod tests {
         (size.0, size.1, frames)
     }
 
-    /// Claim: a GIF has a frame for each state, of the width and the pace that were asked for, with the sheet on it, and
-    /// no two different states have the same frame; equal states give equal bytes.
+    /// Claim: a GIF has a frame for each state, of the width and the pace that were asked for, with the sheet on it,
+    /// and no two different states have the same frame; equal states give equal bytes.
     #[test]
     fn a_frame_for_each_state() {
         let mut bytes = Vec::new();

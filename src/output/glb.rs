@@ -1,7 +1,8 @@
 //! GLB files, binary glTF 2.0: a state of a sheet for viewers, presentations and web pages.
 //!
-//! One mesh has the triangles, which have two sides, and the edges that are no diagonals, mountains red and valleys blue. Positions are
-//! those of the state in single precision; a node turns z, which is up in the sheet, to y, which is up in glTF.
+//! One mesh has the triangles, which have two sides, and the edges that are no diagonals, mountains red and valleys
+//! blue. Positions are those of the state in single precision; a node turns z, which is up in the sheet, to y, which is
+//! up in glTF.
 
 use super::picture::Picture;
 use crate::sheet::EdgeKind;
@@ -9,7 +10,8 @@ use serde_json::{Value, json};
 
 /// Fold angle in radians from which an edge is drawn as a mountain or a valley.
 const FOLDED_RAD: f64 = 1e-6;
-/// Colours of the faces, and of edges that are mountains, valleys or neither, as red, green, blue and opacity in linear light.
+/// Colours of the faces, and of edges that are mountains, valleys or neither, as red, green, blue and opacity in linear
+/// light.
 const COLOURS: [[f64; 4]; 4] =
     [[0.81, 0.76, 0.66, 1.0], [0.53, 0.04, 0.02, 1.0], [0.02, 0.13, 0.41, 1.0], [0.26, 0.23, 0.18, 1.0]];
 /// Codes of glTF: the numbers of an array, what it is for, and what indices draw.

@@ -94,9 +94,10 @@ impl Table {
         Self { header, rows: Vec::new() }
     }
 
-    /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by `state`, the number of the row
-    /// from 0, and the fold angles of the edges of the cell. The column `error_to_kinematic` is present if at least one
-    /// state has this value, the columns [`RATIOS`] if the states have ratios, and [`SEAM`] if they have seams.
+    /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by `state`, the number of
+    /// the row from 0, and the fold angles of the edges of the cell. The column `error_to_kinematic` is present if at
+    /// least one state has this value, the columns [`RATIOS`] if the states have ratios, and [`SEAM`] if they have
+    /// seams.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let others = states.first().map(|state| state.solution.energy.others.as_slice()).unwrap_or_default();
@@ -266,8 +267,8 @@ pub(crate) struct StateRow {
     pub self_intersecting: Option<bool>,
     /// Largest difference between a fold angle and that of the exact kinematics, in radians.
     pub error_to_kinematic: Option<f64>,
-    /// Poisson's ratios in the plane and of bending along the first lattice vector, where they exist; `None` if the study
-    /// does not ask for them, and then for all rows.
+    /// Poisson's ratios in the plane and of bending along the first lattice vector, where they exist; `None` if the
+    /// study does not ask for them, and then for all rows.
     pub ratios: Option<[Option<f64>; 2]>,
     /// Turn in radians and rise of the seam of a tube, which may not be known; `None` for all rows of other sheets.
     pub seam: Option<[Option<f64>; 2]>,

@@ -27,9 +27,9 @@ pub use read::{VtuMesh, parse_picture, read_vtu};
 
 /// Writes a state as a VTU file; its cells are the triangles, followed by the lines.
 ///
-/// Point arrays: `displacement`, and `vertex`, `cell1`, `cell2`, the vertex of the sheet's cell and the cell of which each
-/// point is the copy. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN
-/// on triangles), `self_intersecting` (0 on lines), `edge`, the index of the edge of the cell of which the line is a copy,
+/// Point arrays: `displacement`, and `vertex`, `cell1`, `cell2`, the vertex of the sheet's cell and the cell of which
+/// each point is the copy. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN on
+/// triangles), `self_intersecting` (0 on lines), `edge`, the index of the edge of the cell of which the line is a copy,
 /// and `assignment`, 0 to 6 for the letters B, M, V, F, U, C, J (both -1 on triangles).
 ///
 /// # Errors
@@ -301,8 +301,8 @@ mod tests {
         assert_eq!(bits(&mesh.torque.unwrap()), bits(&picture.torque));
     }
 
-    /// Claim: the picture of a state is read back with all its arrays, bit for bit; one of a file that has no arrays, as
-    /// other programs write it, has no fold angles and no marks.
+    /// Claim: the picture of a state is read back with all its arrays, bit for bit; one of a file that has no arrays,
+    /// as other programs write it, has no fold angles and no marks.
     #[test]
     fn a_picture_reads_back() {
         let picture = samples::hinge(0.3);

@@ -23,10 +23,11 @@ const SWING_FRAMES: usize = 16;
 const SWING: f64 = 0.1;
 
 /// Writes films: of one study if `from` is its series `NAME.pvd`, and of each study with at least two states if it is
-/// the folder of a run. Returns their paths: `NAME.gif` beside the series, unless `to` is another one, which may be an MP4.
+/// the folder of a run. Returns their paths: `NAME.gif` beside the series, unless `to` is another one, which may be an
+/// MP4.
 ///
-/// The states of a trajectory are in their order along one branch, from the end of the negative direction to that of the
-/// positive one; this is the first branch, or that of the number `branch`. Each mode swings to and fro once.
+/// The states of a trajectory are in their order along one branch, from the end of the negative direction to that of
+/// the positive one; this is the first branch, or that of the number `branch`. Each mode swings to and fro once.
 ///
 /// # Errors
 /// [`RunError`] if there are no such states, if a file cannot be read, or if the film cannot be written.

@@ -27,8 +27,8 @@ pub struct Computed {
 /// Computes the studies of a scene on an assembly of its sheet and writes nothing.
 ///
 /// The assembly is that of the scene ([`scene::build::assembly`](crate::scene::build::assembly)), or one of the same
-/// sheet, boundary conditions, locks, parts and drives with other stiffnesses and rest values. Studies whose final state
-/// is in `earlier` are not computed: others start from these states.
+/// sheet, boundary conditions, locks, parts and drives with other stiffnesses and rest values. Studies whose final
+/// state is in `earlier` are not computed: others start from these states.
 ///
 /// ```
 /// use foldwell::{run, scene};

@@ -13,8 +13,8 @@ pub(super) fn vertices(sheet: &Sheet) -> Table {
     table
 }
 
-/// Returns a table of the edges of a cell: number, name `[i, j, n1, n2]`, kind, assignment as a letter of FOLD, length, and
-/// drawn fold angle in radians, which is empty for edges of one face.
+/// Returns a table of the edges of a cell: number, name `[i, j, n1, n2]`, kind, assignment as a letter of FOLD, length,
+/// and drawn fold angle in radians, which is empty for edges of one face.
 pub(super) fn edges(sheet: &Sheet) -> Table {
     let header = ["edge", "i", "j", "n1", "n2", "kind", "assignment", "length", "angle"];
     let mut table = Table::new(header.map(str::to_owned).to_vec());

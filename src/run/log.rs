@@ -1,5 +1,5 @@
-//! Logs: files that grow by a line for each finished step of a long study, so that a run that is ended at any moment can go
-//! on from the last one.
+//! Logs: files that grow by a line for each finished step of a long study, so that a run that is ended at any moment
+//! can go on from the last one.
 //!
 //! The first line is the digest of the run's input. Every other line begins with a check sum of the digest and of all
 //! lines up to this one: a log is good up to the first line that was changed, lost, moved or written by another run. A

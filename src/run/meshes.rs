@@ -76,7 +76,8 @@ pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup)
     }
 }
 
-/// Writes a sheet into a file of the format of its ending. Returns a sentence for each part that the file does not keep.
+/// Writes a sheet into a file of the format of its ending. Returns a sentence for each part that the file does not
+/// keep.
 pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
     let refused = |reason| RunError::NotFlat { path: to.into(), reason };
     let mut changed = 0;
@@ -100,7 +101,8 @@ pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
     Ok(notes)
 }
 
-/// Writes a state into a file of the format of its ending; STL, OBJ and FOLD files have the sheet as it is drawn in this state.
+/// Writes a state into a file of the format of its ending; STL, OBJ and FOLD files have the sheet as it is drawn in
+/// this state.
 pub(super) fn write_state(picture: &Picture, to: &Path) -> Result<(), RunError> {
     match ending(to).as_str() {
         "vtu" => Ok(vtk::write_vtu(to, picture)?),

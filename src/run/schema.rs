@@ -1,5 +1,5 @@
-//! The JSON schema of `summary.json`. It is generated from the types that are written ([`Summary`], [`SweepSummary`]), so that
-//! both always agree.
+//! The JSON schema of `summary.json`. It is generated from the types that are written ([`Summary`], [`SweepSummary`]),
+//! so that both always agree.
 //!
 //! The schema allows no keys other than those described. A study that gave a result has all keys of its kind; the other
 //! studies have none of them.

@@ -10,7 +10,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::Path;
 
-/// What a run of `foldwell` found: `summary.json`. Angles are radians; lengths and energies have the units of the scene.
+/// What a run of `foldwell` found: `summary.json`. Angles are radians; lengths and energies have the units of the
+/// scene.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "foldwell summary")]
 pub struct Summary {

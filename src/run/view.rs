@@ -17,9 +17,9 @@ const PAGE: &str = "view.html";
 /// Writes the page of a run and returns its path: `view.html` in the folder of the run, unless `to` is another one.
 ///
 /// # Errors
-/// [`RunError::Ending`] if `to` does not end in `.html`, [`RunError::NoRun`] if the folder has no `summary.json` of a run,
-/// [`RunError::PageOfStudy`] if the page would replace
-/// that of a study, [`RunError::Output`] if a file cannot be read or the page cannot be written.
+/// [`RunError::Ending`] if `to` does not end in `.html`, [`RunError::NoRun`] if the folder has no `summary.json` of a
+/// run, [`RunError::PageOfStudy`] if the page would replace that of a study, [`RunError::Output`] if a file cannot be
+/// read or the page cannot be written.
 pub fn view(folder: &Path, to: Option<&Path>) -> Result<PathBuf, RunError> {
     if let Some(to) = to.filter(|to| ending(to) != "html") {
         return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: ".html" });

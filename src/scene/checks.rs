@@ -54,7 +54,8 @@ fn sheet(file: &SceneFile) -> Checked {
     }
 }
 
-/// Checks that a tube has a seam and shows no more strands than it has, and that the keys of tubes are given for tubes only.
+/// Checks that a tube has a seam and shows no more strands than it has, and that the keys of tubes are given for tubes
+/// only.
 fn of_tube(file: &SceneFile) -> Checked {
     let sheet = &file.scene.sheet;
     if sheet.domain() != DomainSpec::Tube {

@@ -130,8 +130,8 @@ impl<'a> ElementValues<'a> {
         self.table(&path, &rows::read(&path, column)?, of, name.span())
     }
 
-    /// Returns the values of an array on the edges of the tiling; NaN where no element is. Every element of the first term must have a
-    /// value, elements of the second may.
+    /// Returns the values of an array on the edges of the tiling; NaN where no element is. Every element of the first
+    /// term must have a value, elements of the second may.
     fn array(
         &self,
         array: &[f64],
@@ -161,8 +161,8 @@ impl<'a> ElementValues<'a> {
         Ok(if of_cell { self.tiling.edges.iter().map(|tiled| values[tiled.edge]).collect() } else { values })
     }
 
-    /// Checks that no array of rest angles of creases, if that is what has this name, has an angle at one of these edges of the cell, which
-    /// are diagonals of rigid polygons.
+    /// Checks that no array of rest angles of creases, if that is what has this name, has an angle at one of these
+    /// edges of the cell, which are diagonals of rigid polygons.
     pub(super) fn flat_at(&self, rigid: &[usize], name: &Located<PathBuf>) -> Result<(), SceneError> {
         let Some(array) = self.file.array(name) else { return Ok(()) };
         let cell = self.sheet.edges.len();
@@ -228,8 +228,8 @@ impl<'a> ElementValues<'a> {
         (0..self.tiling.edges.len()).filter(move |&k| of.is_at(self.tiling.edges[k].kind))
     }
 
-    /// Returns the rest angle of each hinge by the letter of its edge: 0 for creases that are flat or unassigned and for
-    /// diagonals, if the table does not give another.
+    /// Returns the rest angle of each hinge by the letter of its edge: 0 for creases that are flat or unassigned and
+    /// for diagonals, if the table does not give another.
     pub(super) fn angles_by_letter(
         &self,
         letters: &BTreeMap<Assignment, Angle>,

@@ -15,8 +15,8 @@ use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::setting::{Setting, apply};
 use super::spec::Scene;
 
-/// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the cell, or of the tiling;
-/// and `loads`, three for each vertex of a patch.
+/// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
+/// cell, or of the tiling; and `loads`, three for each vertex of a patch.
 pub type Arrays = Arc<BTreeMap<PathBuf, Vec<f64>>>;
 
 /// A scene with the text from which it was read.

@@ -39,7 +39,8 @@ pub struct RatesFile {
     pub rates: Located<PathBuf>,
 }
 
-/// `{ wave = [m1, m2] }`: goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2))` over the cells `(c1, c2)` of a torus of `n1 x n2`.
+/// `{ wave = [m1, m2] }`: goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2))` over the cells `(c1, c2)` of a torus of
+/// `n1 x n2`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wave {

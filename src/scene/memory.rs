@@ -106,7 +106,8 @@ fn of_study(study: &StudySpec) -> Option<Need> {
     }
 }
 
-/// Returns the memory that a density of states needs for its wavenumbers, with three frequencies for each vertex, and its bins.
+/// Returns the memory that a density of states needs for its wavenumbers, with three frequencies for each vertex, and
+/// its bins.
 fn of_density(study: &StudySpec, vertices: usize) -> Vec<Need> {
     let StudyKind::Bloch(bloch) = &*study.kind else { return vec![] };
     let Some(DensitySpec { grid, bins }) = bloch.density.as_deref() else { return vec![] };
@@ -131,8 +132,8 @@ fn of_map(name: &str, map: &MapSpec) -> Option<Need> {
     Some(Need { what, bytes: samples * SAMPLE, key: "rings", span: rings.span() })
 }
 
-/// Returns the number of bytes of memory that this process may have: what the machine has free, or less by a limit of its
-/// address space or of a group of processes to which it belongs, as those of a container or of a job.
+/// Returns the number of bytes of memory that this process may have: what the machine has free, or less by a limit of
+/// its address space or of a group of processes to which it belongs, as those of a container or of a job.
 fn free_memory() -> f64 {
     let text = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
     let machine = kilobytes(&text("/proc/meminfo")).unwrap_or(USUAL_MEMORY);

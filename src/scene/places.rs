@@ -1,5 +1,5 @@
-//! The vertices that a scene names, by number, by the names of the mesh or by their drawn positions; and the loads, pins
-//! and parts on them.
+//! The vertices that a scene names, by number, by the names of the mesh or by their drawn positions; and the loads,
+//! pins and parts on them.
 
 use std::collections::HashMap;
 use std::ops::Range;

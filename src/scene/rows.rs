@@ -1,7 +1,8 @@
 //! Tables of values of edges: rest angles, fold-angle rates, stiffnesses and rest lengths. CSV, one row per edge.
 //!
-//! The header is `i,j,n1,n2,angle`, one row per edge of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per edge of a
-//! patch; the last column is `angle`, `rate`, `stiffness` or `length`. Angles are in radians, a stiffness may be `inf`.
+//! The header is `i,j,n1,n2,angle`, one row per edge of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per edge of
+//! a patch; the last column is `angle`, `rate`, `stiffness` or `length`. Angles are in radians, a stiffness may be
+//! `inf`.
 
 use std::collections::HashMap;
 use std::fmt::Display;

@@ -81,8 +81,8 @@ impl Setting {
         self.keys.iter().map(Key::get).eq(other.keys.iter().map(Key::get))
     }
 
-    /// Returns the value as a field of a table: numbers with the fewest digits that are read back exactly, texts without
-    /// quotes, lists and tables as in TOML.
+    /// Returns the value as a field of a table: numbers with the fewest digits that are read back exactly, texts
+    /// without quotes, lists and tables as in TOML.
     pub(super) fn field(&self) -> String {
         match &self.value {
             Value::String(text) => text.value().clone(),

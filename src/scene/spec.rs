@@ -80,7 +80,8 @@ pub struct SheetSpec {
     /// Boundary conditions; left out: `patch`.
     pub domain: Option<Located<DomainSpec>>,
     /// Patch and torus: cells of the model, [1, 1] when left out. Screw: cells of the pictures, [6, 6] when left out.
-    /// Tube: strands and rows of the pictures; left out: all strands, and as many rows as make it about as long as wide.
+    /// Tube: strands and rows of the pictures; left out: all strands, and as many rows as make it about as long as
+    /// wide.
     pub cells: Option<Located<Cells>>,
     /// Torus only: whether the lattice vectors are unknowns (`free`, when left out) or stay as drawn (`fixed`).
     pub lattice: Option<Located<Lattice>>,
@@ -201,7 +202,8 @@ pub struct CreasesSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
-    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
+    /// letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
     pub law: Option<HingeLawSpec>,
@@ -215,7 +217,8 @@ pub struct FacetsSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
-    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
+    /// letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
     pub law: Option<HingeLawSpec>,
@@ -279,7 +282,8 @@ pub struct PinSpec {
     pub vertices: Option<Located<VertexSet>>,
     /// The coordinates that stay as drawn, letters of "xyz"; left out: all.
     pub axes: Option<Located<Axes>>,
-    /// Instead of `axes`: the direction `[x, y, z]` along which the vertices keep their coordinate; across it they move.
+    /// Instead of `axes`: the direction `[x, y, z]` along which the vertices keep their coordinate; across it they
+    /// move.
     pub normal: Option<Located<Triple>>,
 }
 

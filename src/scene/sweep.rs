@@ -52,8 +52,9 @@ impl Sweep {
     /// Reads the axes of a sweep, and the table of points that it names; `None` if the scene has no sweep.
     ///
     /// # Errors
-    /// [`SceneError`] with the place in the scene if an axis is wrong or sets a key that the scene does not have, if axes
-    /// that run together have different lengths, or if there are too many points; with the line if the table is wrong.
+    /// [`SceneError`] with the place in the scene if an axis is wrong or sets a key that the scene does not have, if
+    /// axes that run together have different lengths, or if there are too many points; with the line if the table is
+    /// wrong.
     pub fn of(file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(spec) = &file.scene.sweep else { return Ok(None) };
         // before the values are made, of which there may be too many for the memory
@@ -92,8 +93,8 @@ impl Sweep {
         self.axes.iter().flat_map(|axis| axis.keys.iter().map(String::as_str))
     }
 
-    /// Returns the number of values of each key if the points are their product, the first key the slowest; `None` if keys
-    /// run together.
+    /// Returns the number of values of each key if the points are their product, the first key the slowest; `None` if
+    /// keys run together.
     pub fn shape(&self) -> Option<Vec<usize>> {
         let product = !self.zip && self.axes.iter().all(|axis| axis.keys.len() == 1);
         product.then(|| self.axes.iter().map(Axis::len).collect())

@@ -1,5 +1,5 @@
-//! Numbers beyond pi that are given as angles, which are taken for degrees and refused; angles beyond pi that are meant,
-//! at which faces have passed through each other.
+//! Numbers beyond pi that are given as angles, which are taken for degrees and refused; angles beyond pi that are
+//! meant, at which faces have passed through each other.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;

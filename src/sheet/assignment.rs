@@ -43,8 +43,8 @@ impl Assignment {
         if angle > 0.0 { Self::Valley } else { Self::Mountain }
     }
 
-    /// Returns the fold angle of an edge with this letter in the sheet folded flat, in radians: -pi for a mountain, pi for
-    /// a valley, 0 for an edge that does not fold; `None` if the letter says nothing about it.
+    /// Returns the fold angle of an edge with this letter in the sheet folded flat, in radians: -pi for a mountain, pi
+    /// for a valley, 0 for an edge that does not fold; `None` if the letter says nothing about it.
     pub fn flat_folded_angle(self) -> Option<f64> {
         match self {
             Self::Mountain => Some(-std::f64::consts::PI),

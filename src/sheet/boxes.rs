@@ -7,8 +7,8 @@ use crate::math::Vec2;
 /// Most entries in all strips, in multiples of the number of boxes.
 const ENTRIES: f64 = 4.0;
 
-/// Calls `visit` once for each pair of boxes that meet, until it breaks; boxes are given by their lower and upper corners. In
-/// `visit(p, q)` box `p` does not begin to the left of box `q`.
+/// Calls `visit` once for each pair of boxes that meet, until it breaks; boxes are given by their lower and upper
+/// corners. In `visit(p, q)` box `p` does not begin to the left of box `q`.
 ///
 /// The plane is cut into horizontal strips, and every strip is swept along x. There are as many strips as fit where
 /// boxes are in a few strips on average, so that the work is about that of visiting the pairs.
@@ -57,8 +57,8 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Claim: each pair of boxes that meet is visited once, whether boxes are small, long, equal or without width. Source:
-    /// all pairs one by one.
+    /// Claim: each pair of boxes that meet is visited once, whether boxes are small, long, equal or without width.
+    /// Source: all pairs one by one.
     #[test]
     fn every_pair_once() {
         let mut random = ChaCha8Rng::seed_from_u64(5);

@@ -85,8 +85,8 @@ pub struct TriangleSide {
 /// The stiffnesses that a mesh file gives its edges, by the names of the edges; edges without a value are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshStiffness {
-    /// Stiffnesses of the hinges (creases and diagonals of polygons), a torque per radian and unit length; infinite for rigid
-    /// hinges.
+    /// Stiffnesses of the hinges (creases and diagonals of polygons), a torque per radian and unit length; infinite for
+    /// rigid hinges.
     pub hinges: BTreeMap<EdgeKey, f64>,
     /// `EA` of the bars, a force; infinite for rigid bars.
     pub bars: BTreeMap<EdgeKey, f64>,
@@ -191,7 +191,8 @@ impl Sheet {
         self.lattice.is_some() || self.screws.is_some()
     }
 
-    /// Returns the chords from vertex 0 to its copies in cells (1, 0) and (0, 1): the lattice vectors, if there are any.
+    /// Returns the chords from vertex 0 to its copies in cells (1, 0) and (0, 1): the lattice vectors, if there are
+    /// any.
     pub fn chords(&self) -> Option<[Vec3; 2]> {
         self.lattice.or_else(|| Some(self.screws?.chords(self.vertices.first()?)))
     }
@@ -235,8 +236,8 @@ impl Sheet {
         self.targets.get(key).copied().or_else(of_letter).filter(|angle| *angle != 0.0)
     }
 
-    /// Whether the drawn lattice vectors, or chords of screw motions, turn counter-clockwise seen from the side of the face normals; true for a finite
-    /// sheet.
+    /// Whether the drawn lattice vectors, or chords of screw motions, turn counter-clockwise seen from the side of the
+    /// face normals; true for a finite sheet.
     pub(crate) fn is_counterclockwise(&self) -> bool {
         let area = |corners: [Corner; 3]| {
             let [a, b, c] = corners.map(|corner| self.position(corner));

@@ -156,8 +156,8 @@ fn unfolded(sheet: &Sheet) -> Result<Vec<Vec2>, NotDevelopable> {
     Ok(places)
 }
 
-/// Returns the corners of a triangle in a plane of its own: the first at the origin, the second on the axis of x, and the
-/// third above it.
+/// Returns the corners of a triangle in a plane of its own: the first at the origin, the second on the axis of x, and
+/// the third above it.
 fn shape(sheet: &Sheet, number: usize) -> [Vec2; 3] {
     let [a, b, c] = sheet.triangles[number].corners.map(|corner| sheet.position(corner));
     let (side, other) = (b - a, c - a);

@@ -13,8 +13,8 @@ use crate::math::Vec3;
 /// Largest angle defect, in radians, of a sheet that is called developable.
 const DEVELOPABLE: f64 = 1e-9;
 
-/// Quality below which a triangle is thin: relaxations reach their tolerance on triangles of 2e-4 and, in tests of single
-/// thin triangles, fail on most of 2e-5, because rounding of their corners turns them by an angle of its own.
+/// Quality below which a triangle is thin: relaxations reach their tolerance on triangles of 2e-4 and, in tests of
+/// single thin triangles, fail on most of 2e-5, because rounding of their corners turns them by an angle of its own.
 const THIN_QUALITY: f64 = 1e-3;
 /// Number of thin triangles that are named.
 const NAMED: usize = 3;
@@ -87,14 +87,15 @@ pub struct Info {
     pub drawn_against_targets: usize,
     /// Whether all faces of the file were turned over, since its letters are those of the other side.
     pub turned_over: bool,
-    /// Number of vertices that stand where another one stands, as those of layers that touch; ends of cuts are not counted.
+    /// Number of vertices that stand where another one stands, as those of layers that touch; ends of cuts are not
+    /// counted.
     pub touching_vertices: usize,
     /// Number of the frame that is read: 0 is the top of the file.
     pub frame: usize,
     /// Number of the other frames of the file.
     pub further_frames: usize,
-    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller one
-    /// within which points were merged.
+    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller
+    /// one within which points were merged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<[f64; 2]>,
 }
@@ -184,7 +185,8 @@ fn largest_angle_defect(sheet: &Sheet) -> f64 {
     angle_defects(sheet).fold(0.0, |largest, (_, defect)| largest.max(defect.abs()))
 }
 
-/// Returns the inner vertices, each with its angle defect, a full turn less the sum of the angles of its faces, in radians.
+/// Returns the inner vertices, each with its angle defect, a full turn less the sum of the angles of its faces, in
+/// radians.
 pub(super) fn angle_defects(sheet: &Sheet) -> impl Iterator<Item = (usize, f64)> {
     let mut sums = vec![0.0; sheet.vertices.len()];
     for (triangle, x) in sheet.triangles.iter().zip(points(sheet)) {

@@ -8,8 +8,9 @@ use super::build::{Drawing, Identified, build, build_identified, edges_by_drawn_
 use super::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
 use super::error::{Defect, DrawnEdge, MeshPart, Problem};
 
-/// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces are turned over if
-/// the letters are those of the other side. Also returns the corner of the cell that each drawn vertex represents.
+/// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces
+/// are turned over if the letters are those of the other side. Also returns the corner of the cell that each drawn
+/// vertex represents.
 ///
 /// # Errors
 /// As [`build`]; also if an edge of the list is no side of a face.
@@ -42,7 +43,8 @@ pub fn build_arrays(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<Sheet, Def
     build_listed(drawn, listed).map(|(sheet, _)| sheet)
 }
 
-/// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error is that of an edge.
+/// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error is that of an
+/// edge.
 pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize, Problem)> {
     let mut seen = BTreeMap::new();
     for (edge, &[a, b]) in ends.iter().enumerate() {
@@ -68,8 +70,8 @@ fn sides(sheet: &Sheet) -> BTreeSet<EdgeKey> {
     sheet.polygons.iter().flat_map(sides).collect()
 }
 
-/// Returns the mesh with all faces turned over if its letters are those of the other side: at least two creases are drawn
-/// as mountains and valleys, and every one of them is drawn as the other one.
+/// Returns the mesh with all faces turned over if its letters are those of the other side: at least two creases are
+/// drawn as mountains and valleys, and every one of them is drawn as the other one.
 fn turned_over(drawn: &Drawing) -> Option<Drawing> {
     let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
     let letters: Vec<_> = drawn.assignments.iter().filter(|(_, letter)| folds(*letter)).collect();

@@ -16,7 +16,7 @@ pub struct FileRecord {
     pub further_frames: usize,
     /// The text of `file_frames`, if the frames can be kept beside the one that is read.
     pub frames: Option<String>,
-    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller one
-    /// within which points were merged, both in units of the file.
+    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller
+    /// one within which points were merged, both in units of the file.
     pub gap: Option<[f64; 2]>,
 }

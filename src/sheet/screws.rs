@@ -2,8 +2,9 @@
 
 use crate::math::Vec3;
 
-/// Two commuting screw motions about the z axis, which repeat a cell as two lattice vectors do on a sheet that goes straight on:
-/// cell `(n1, n2)` is cell (0, 0) turned by `n1 turn[0] + n2 turn[1]` and moved by `n1 rise[0] + n2 rise[1]` along the axis.
+/// Two commuting screw motions about the z axis, which repeat a cell as two lattice vectors do on a sheet that goes
+/// straight on: cell `(n1, n2)` is cell (0, 0) turned by `n1 turn[0] + n2 turn[1]` and moved by
+/// `n1 rise[0] + n2 rise[1]` along the axis.
 ///
 /// ```
 /// use foldwell::math::Vec3;

@@ -1,10 +1,10 @@
 //! Seams of tubes, and the numbering of cells modulo a seam.
 //!
-//! A seam `(n1, n2)` is the cell that lies on cell (0, 0) when a sheet is rolled up. Let `g` be the greatest common divisor of its two
-//! numbers and `p = (n1, n2) / g`. A second cell `m` with `p1 m2 - p2 m1 = 1` makes a basis of the lattice with `p`: every
-//! cell is `i p + j m` with whole numbers `i`, its strand, and `j`, its row. On the tube strands count modulo `g`, so that a row has
-//! `g` cells: a ring of cells if `p` is one of the two lattice vectors, otherwise one cell of each of the `g` strands that wind
-//! around the tube.
+//! A seam `(n1, n2)` is the cell that lies on cell (0, 0) when a sheet is rolled up. Let `g` be the greatest common
+//! divisor of its two numbers and `p = (n1, n2) / g`. A second cell `m` with `p1 m2 - p2 m1 = 1` makes a basis of the
+//! lattice with `p`: every cell is `i p + j m` with whole numbers `i`, its strand, and `j`, its row. On the tube
+//! strands count modulo `g`, so that a row has `g` cells: a ring of cells if `p` is one of the two lattice vectors,
+//! otherwise one cell of each of the `g` strands that wind around the tube.
 
 /// A seam: the cell `(n1, n2)` of a tube that coincides with cell (0, 0), and a basis of the lattice that goes with it.
 ///
@@ -29,7 +29,8 @@ pub struct Seam {
 }
 
 impl Seam {
-    /// Makes the seam to cell `(n1, n2)`; `None` for cell (0, 0), which is no seam, and for numbers of more than 15 bits.
+    /// Makes the seam to cell `(n1, n2)`; `None` for cell (0, 0), which is no seam, and for numbers of more than 15
+    /// bits.
     pub fn new([n1, n2]: [i32; 2]) -> Option<Self> {
         let far = |n: i32| n.unsigned_abs() > 1 << 15;
         if [n1, n2] == [0, 0] || far(n1) || far(n2) {

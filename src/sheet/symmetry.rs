@@ -1,8 +1,9 @@
-//! Symmetries of a periodic sheet: rotations and reflections of order two that, with a translation, carry it into itself.
+//! Symmetries of a periodic sheet: rotations and reflections of order two that, with a translation, carry it into
+//! itself.
 //!
-//! Candidates are the maps of the lattice onto itself whose square is the identity, each with and without turning the sheet
-//! over. A candidate with a translation is a symmetry if it carries every vertex to a vertex, to 1e-6 of the shorter lattice
-//! vector, and every edge to an edge, diagonals of polygons included.
+//! Candidates are the maps of the lattice onto itself whose square is the identity, each with and without turning the
+//! sheet over. A candidate with a translation is a symmetry if it carries every vertex to a vertex, to 1e-6 of the
+//! shorter lattice vector, and every edge to an edge, diagonals of polygons included.
 
 use super::cell::{Corner, EdgeKey, Sheet};
 use crate::math::Vec3;
@@ -50,8 +51,8 @@ impl SymmetryKind {
 pub struct Symmetry {
     /// Its kind.
     pub kind: SymmetryKind,
-    /// Unit vector of an axis along the sheet, of the line in which a plane across the sheet meets it, or of the translation of a
-    /// glide plane along it; `None` for the others.
+    /// Unit vector of an axis along the sheet, of the line in which a plane across the sheet meets it, or of the
+    /// translation of a glide plane along it; `None` for the others.
     pub direction: Option<Vec3>,
     /// Whether it exchanges the two sides of the sheet: then mountains become valleys.
     pub turns_over: bool,
@@ -113,8 +114,8 @@ impl<'a> Frame<'a> {
         Self { sheet, lattice, covectors, normal, tolerance: 1e-6 * l1.norm().min(l2.norm()), numbers }
     }
 
-    /// Returns the maps of order two, and the identity, that keep lengths: with entries of at most one they are all, for
-    /// lattice vectors that are not much longer than the shortest ones.
+    /// Returns the maps of order two, and the identity, that keep lengths: with entries of at most one they are all,
+    /// for lattice vectors that are not much longer than the shortest ones.
     fn lattice_maps(&self) -> Vec<LatticeMap> {
         let [l1, l2] = &self.lattice;
         let metric = [[l1.dot(l1), l1.dot(l2)], [l2.dot(l1), l2.dot(l2)]];
@@ -191,7 +192,8 @@ impl<'a> Frame<'a> {
         })
     }
 
-    /// Returns the unit vector that a reflection of the lattice keeps, or along which a map that keeps the lattice translates.
+    /// Returns the unit vector that a reflection of the lattice keeps, or along which a map that keeps the lattice
+    /// translates.
     fn direction(&self, map: LatticeMap, shift: &Vec3) -> Option<Vec3> {
         match map {
             HALF_TURN => None,

@@ -1,5 +1,5 @@
-//! The bands of a study `bloch`: eigenvalues of the energy against waves along a path, and with a mass their frequencies and the
-//! density of states.
+//! The bands of a study `bloch`: eigenvalues of the energy against waves along a path, and with a mass their
+//! frequencies and the density of states.
 
 use super::answer::Answer;
 use super::context::Context;
@@ -19,8 +19,8 @@ use crate::sheet::EdgeKind;
 
 /// Number of wavenumbers from each corner of a path to the next.
 const STEPS: usize = 50;
-/// Numbers of wavenumbers of the density of states along the two directions, and number of its bins, unless the scene gives
-/// others.
+/// Numbers of wavenumbers of the density of states along the two directions, and number of its bins, unless the scene
+/// gives others.
 const GRID: [usize; 2] = [64, 64];
 const BINS: usize = 100;
 
@@ -76,8 +76,8 @@ fn masses(assembly: &Assembly) -> Option<Vec<f64>> {
     Some(assembly.terms().mass?.of_cell(assembly.sheet()))
 }
 
-/// Returns the stiffness of the diagonals of polygons; infinite, that is rigid, unless the scene gives one, and `None` if
-/// they differ. One number is read from the scene since the model of a patch lacks the diagonals that are cut by its
+/// Returns the stiffness of the diagonals of polygons; infinite, that is rigid, unless the scene gives one, and `None`
+/// if they differ. One number is read from the scene since the model of a patch lacks the diagonals that are cut by its
 /// rim.
 pub(super) fn facet_stiffness(file: &SceneFile, assembly: &Assembly) -> Option<f64> {
     let Some(spec) = &file.scene.energy.facets else { return Some(f64::INFINITY) };
@@ -199,8 +199,8 @@ fn lengths(path: &[Bands]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns a row for every wavenumber of the path: the length of the path up to it, the wavenumber, the bands, and with a mass the
-/// frequencies.
+/// Returns a row for every wavenumber of the path: the length of the path up to it, the wavenumber, the bands, and with
+/// a mass the frequencies.
 fn band_table(path: &[Bands]) -> Table {
     let count = |of: fn(&Bands) -> &Vec<f64>| path.iter().map(|at| of(at).len()).max().unwrap_or(0);
     let bands = (0..count(|at| &at.values)).map(|k| format!("band_{k}"));
@@ -214,7 +214,8 @@ fn band_table(path: &[Bands]) -> Table {
     table
 }
 
-/// Returns a row for every bin: its lower and its upper edge, the density in it, and the number of states up to the upper edge.
+/// Returns a row for every bin: its lower and its upper edge, the density in it, and the number of states up to the
+/// upper edge.
 fn density_table(density: &Density) -> Table {
     let names = ["frequency_low", "frequency_high", "density", "states_below"];
     let mut table = Table::new(names.map(str::to_owned).to_vec());

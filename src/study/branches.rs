@@ -16,8 +16,8 @@ pub use summary::{BranchesSummary, RaySummary};
 /// Largest difference between the angle of a lock and the drawn angle, in radians, at which both count as equal.
 const AS_DRAWN: f64 = 1e-9;
 
-/// Checks that the sheet is a screw or a patch, that bars are at rest as drawn, and that locks and rigid hinges hold the
-/// drawn angles.
+/// Checks that the sheet is a screw or a patch, that bars are at rest as drawn, and that locks and rigid hinges hold
+/// the drawn angles.
 pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let assembly = context.assembly;
     if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {

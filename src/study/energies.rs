@@ -55,8 +55,8 @@ mod tests {
     use crate::model::{Length, OwnTerm, Site, Spring};
     use crate::output::table::{Solution, Value};
 
-    /// Claim: each energy of a term of one's own stands in the column of its name, in whatever order the terms were given, and terms of one
-    /// name are one column.
+    /// Claim: each energy of a term of one's own stands in the column of its name, in whatever order the terms were
+    /// given, and terms of one name are one column.
     #[test]
     fn energies_stand_in_their_columns() {
         let ends = [0, 1].map(|vertex| Site { vertex, shift: [0, 0] });

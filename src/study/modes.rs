@@ -98,8 +98,8 @@ fn summary(modes: &Modes) -> ModesSummary {
 }
 
 /// Adds a table of the eigenvalues, the state with each mode as displacement, and a picture of the softest mode that is
-/// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size; of a sheet with mass also the vibrations, of
-/// which the picture is then.
+/// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size; of a sheet with mass also the
+/// vibrations, of which the picture is then.
 fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordinates: &[f64]) {
     let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
     for (k, value) in modes.eigenvalues.iter().enumerate() {

@@ -9,8 +9,8 @@ use crate::analysis::state::{Cylinder, cylinder};
 use crate::output::table::{CYLINDER, RATIOS, Solution, Table, Value};
 use crate::scene::spec::PathSpec;
 
-/// Returns the table of all states. That of a periodic sheet has the columns of a cylinder; where the study asks for them,
-/// there are the columns of self-intersections and of Poisson's ratios.
+/// Returns the table of all states. That of a periodic sheet has the columns of a cylinder; where the study asks for
+/// them, there are the columns of self-intersections and of Poisson's ratios.
 pub(crate) fn table(
     context: &Context<'_>,
     spec: &PathSpec,

@@ -25,8 +25,8 @@ pub(crate) fn check(context: &Context<'_>, columns: Option<&Located<RatioColumns
     Ok(())
 }
 
-/// Returns the ratios in the plane and of bending, along the first lattice vector, of a state; `None` if the study does not
-/// ask for them. A state that is rolled up, or whose modes are not clear, has none.
+/// Returns the ratios in the plane and of bending, along the first lattice vector, of a state; `None` if the study does
+/// not ask for them. A state that is rolled up, or whose modes are not clear, has none.
 pub(crate) fn of_state(
     assembly: &Assembly,
     columns: Option<&Located<RatioColumns>>,

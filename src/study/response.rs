@@ -136,7 +136,8 @@ fn ratios_table(response: &Response, directions: u32) -> Table {
     table
 }
 
-/// Returns the ratios in the plane and of bending along a direction; a sheet that is rolled up has no modes of this kind.
+/// Returns the ratios in the plane and of bending along a direction; a sheet that is rolled up has no modes of this
+/// kind.
 fn ratios_at(response: &Response, angle: f64) -> [Result<f64, NoRatio>; 2] {
     let spaces = response.poisson.as_ref().map(|poisson| [&poisson.in_plane, &poisson.bending]);
     spaces.map_or([Err(NoRatio::NoTensor); 2], |spaces| spaces.map(|space| space.ratio(angle)))

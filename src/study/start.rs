@@ -33,7 +33,8 @@ pub(crate) fn check(context: &Context<'_>, start: Option<&Located<StartSpec>>) -
 /// The unknowns belong to `model`, whose reference state becomes this state: coordinates held against drift keep the
 /// values that they have in it, and angles continue from those that it was kept with, without jumps of `2 pi`. The
 /// model may have any gauge, but only with [`Gauge::Held`](crate::model::Gauge::Held) unknown tensions of rigid
-/// measures can be found. Tensions are known where forces are balanced, or nearly so, in a state of an earlier study or of a file.
+/// measures can be found. Tensions are known where forces are balanced, or nearly so, in a state of an earlier study or
+/// of a file.
 pub(crate) fn initial_state(
     context: &Context<'_>,
     start: Option<&Located<StartSpec>>,

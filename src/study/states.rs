@@ -99,8 +99,8 @@ pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], 
     add_rows(answer, context, states.iter().enumerate(), shown);
 }
 
-/// Adds the VTK series of states, each with the number of its row in the table, and the SVG picture of one of them, given
-/// by its place among these states, with its description, as the study asks.
+/// Adds the VTK series of states, each with the number of its row in the table, and the SVG picture of one of them,
+/// given by its place among these states, with its description, as the study asks.
 pub(crate) fn add_rows<'s>(
     answer: &mut Answer,
     context: &Context<'_>,

@@ -109,7 +109,8 @@ struct Halves {
     determinant: [Option<Determinant>; 2],
 }
 
-/// Computes the strip at all wavenumbers; `None` if the observer asked to stop, or the other cell cannot be read any more.
+/// Computes the strip at all wavenumbers; `None` if the observer asked to stop, or the other cell cannot be read any
+/// more.
 pub(super) fn compute(
     context: &Context<'_>,
     spec: &StripSpec,
@@ -202,8 +203,8 @@ impl Halves {
         Ok(())
     }
 
-    /// Number of roots inside the circle, those at zero too, where every row belongs to the lowest cell it touches; `None` without
-    /// a determinant.
+    /// Number of roots inside the circle, those at zero too, where every row belongs to the lowest cell it touches;
+    /// `None` without a determinant.
     fn inside(&self, half: usize, q1: f64) -> Result<Option<usize>, BlochError> {
         self.determinant[half].as_ref().map(|_| self.rigidity[half].roots_inside(q1)).transpose()
     }

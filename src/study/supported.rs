@@ -6,8 +6,8 @@ use super::error::StudyError;
 /// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
 
-/// Checks that there are no rigid parts, no pins along a direction and no springs between vertices, which relaxations, paths and wells
-/// alone know.
+/// Checks that there are no rigid parts, no pins along a direction and no springs between vertices, which relaxations,
+/// paths and wells alone know.
 pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
     let given = [

@@ -10,8 +10,8 @@ use crate::output::picture::Picture;
 use crate::output::table::{Table, Value};
 use crate::scene::spec::Draw;
 
-/// Adds a table of the frequencies and the state with each motion as displacement, and a picture of the slowest motion after
-/// the rigid ones; `moving` makes a picture of velocities.
+/// Adds a table of the frequencies and the state with each motion as displacement, and a picture of the slowest motion
+/// after the rigid ones; `moving` makes a picture of velocities.
 pub(super) fn add(
     answer: &mut Answer,
     context: &Context<'_>,

@@ -1,9 +1,10 @@
 //! Checks claims about foldwell, and writes a report.
 //!
-//! A claim is a file in `validation/claims/`: a sentence, its source, the expected value, and a tolerance with its reason ([`claim`]). The
-//! value comes from an experiment: a scene of `meshes/`, run as by `foldwell run`, or a measurement programmed in [`measure`]. Each claim
-//! becomes a case of the report, which says whether it holds ([`verdict`]). The reports `report.json`, `report.md` and `report.html`
-//! ([`report`], [`page`]) are written again after every case, so that an interrupted validation leaves the results up to then.
+//! A claim is a file in `validation/claims/`: a sentence, its source, the expected value, and a tolerance with its
+//! reason ([`claim`]). The value comes from an experiment: a scene of `meshes/`, run as by `foldwell run`, or a
+//! measurement programmed in [`measure`]. Each claim becomes a case of the report, which says whether it holds
+//! ([`verdict`]). The reports `report.json`, `report.md` and `report.html` ([`report`], [`page`]) are written again
+//! after every case, so that an interrupted validation leaves the results up to then.
 //!
 //! | exit status | meaning |
 //! |---|---|
@@ -122,8 +123,8 @@ fn chosen(mut claims: Vec<Claim>, options: &Options) -> Result<Vec<Claim>, Valid
     Ok(claims.into_iter().filter(asked).collect())
 }
 
-/// Checks claims and writes the reports. `announce` is called with every case once it is decided. A claim that does not hold, and an
-/// experiment that gives no value, are cases of the report.
+/// Checks claims and writes the reports. `announce` is called with every case once it is decided. A claim that does not
+/// hold, and an experiment that gives no value, are cases of the report.
 fn check(claims: Vec<Claim>, options: &Options, announce: &mut dyn FnMut(&Case)) -> Result<Report, ValidationError> {
     let mut laboratory = Experiments::new(options.out.clone(), options.quick);
     let mut report = Report::new(options.quick, claims.len());

@@ -1,8 +1,8 @@
 //! `L D L^T` factorization of symmetric matrices, with inertia, for one pattern and many sets of numbers.
 //!
 //! Sparse: multifrontal, without pivoting, on all of the caller's threads ([`super::fronts`]). The pattern is analysed
-//! once ([`Symbolic`]). Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia: the signs
-//! of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
+//! once ([`Symbolic`]). Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of
+//! inertia: the signs of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
 pub use super::factor_error::FactorError;
 use super::fronts::{Analysis, Fronts};

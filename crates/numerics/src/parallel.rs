@@ -134,9 +134,9 @@ pub(crate) fn in_pool<R: Send>(worthwhile: bool, work: impl FnOnce(bool) -> R + 
     }
 }
 
-/// Does the work in the `foreground` on the calling thread, and that in the `background` on another one at the same time
-/// if there is one to share with and this is `worthwhile`; then it waits for both. Otherwise the background is left out:
-/// it is for work whose result is computed anyway when it is asked for.
+/// Does the work in the `foreground` on the calling thread, and that in the `background` on another one at the same
+/// time if there is one to share with and this is `worthwhile`; then it waits for both. Otherwise the background is
+/// left out: it is for work whose result is computed anyway when it is asked for.
 pub fn meanwhile<'a, R>(worthwhile: bool, background: impl FnOnce() + Send + 'a, foreground: impl FnOnce() -> R) -> R {
     let place = Executor::of_loop(worthwhile);
     let pool = if let Executor::Pool(threads) = &place { threads.pool() } else { None };

@@ -12,7 +12,8 @@ pub struct Search {
     pub most_steps: usize,
     /// Largest residual of a root.
     pub residual: f64,
-    /// Size of the terms that sum up to an entry of the Jacobian, against which ranks are cut; 0 where entries are no such sums.
+    /// Size of the terms that sum up to an entry of the Jacobian, against which ranks are cut; 0 where entries are no
+    /// such sums.
     pub terms: f64,
 }
 
@@ -60,8 +61,8 @@ impl Search {
 mod tests {
     use super::*;
 
-    /// Claim: from (2, 1) Newton's method by shortest steps finds a point of the unit circle; where there is no root, it says so. Tolerance:
-    /// rounding.
+    /// Claim: from (2, 1) Newton's method by shortest steps finds a point of the unit circle; where there is no root,
+    /// it says so. Tolerance: rounding.
     #[test]
     fn a_root_is_found_or_not() {
         let search = Search { most_steps: 20, residual: 1e-15, terms: 0.0 };

@@ -12,8 +12,8 @@ use foldwell_numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 pub enum Patience {
     /// Where another one is not worth a solve.
     Short,
-    /// Where they make next to no progress. The first corrections of a large system may be slow, as they look for many soft
-    /// motions at once, and later ones fast.
+    /// Where they make next to no progress. The first corrections of a large system may be slow, as they look for many
+    /// soft motions at once, and later ones fast.
     Long,
 }
 

@@ -1,14 +1,15 @@
-//! The number of negative eigenvalues of the Hessian `H` on what rigid measures leave free: of `H + R^T C^-1 R`, where a
-//! compliance of zero leaves only motions with `R dx = 0`.
+//! The number of negative eigenvalues of the Hessian `H` on what rigid measures leave free: of `H + R^T C^-1 R`, where
+//! a compliance of zero leaves only motions with `R dx = 0`.
 //!
-//! The factored matrix `S = H + R^T W R` of [`kkt`](super::kkt) has weights `W` that are at most a few million times the
-//! Hessian. Its count is an upper bound, since a larger weight can only take negative eigenvalues away. The bound is not always
-//! reached: where gradients of rigid measures nearly depend on each other, as those of a compressed column do, a direction that
-//! they block is still too soft in `S`; and rounding errors of the weights hide the sign of small eigenvalues, which the bound counts as
-//! negative. Motions decide: on the span of any motions that meet the measures, `H` has at most as many eigenvalues below a value as on
-//! the whole (Courant and Fischer). These motions are a block Krylov space of the inverse of the true system, which is solved by
-//! corrections with the factorization of `S`. Once they are as many as the bound allows, the energies along them, in which no weight
-//! stands, tell which are negative. Where they are fewer, heavier weights lower the bound; what then still differs is not known. Small
+//! The factored matrix `S = H + R^T W R` of [`kkt`](super::kkt) has weights `W` that are at most a few million times
+//! the Hessian. Its count is an upper bound, since a larger weight can only take negative eigenvalues away. The bound
+//! is not always reached: where gradients of rigid measures nearly depend on each other, as those of a compressed
+//! column do, a direction that they block is still too soft in `S`; and rounding errors of the weights hide the sign of
+//! small eigenvalues, which the bound counts as negative. Motions decide: on the span of any motions that meet the
+//! measures, `H` has at most as many eigenvalues below a value as on the whole (Courant and Fischer). These motions are
+//! a block Krylov space of the inverse of the true system, which is solved by corrections with the factorization of
+//! `S`. Once they are as many as the bound allows, the energies along them, in which no weight stands, tell which are
+//! negative. Where they are fewer, heavier weights lower the bound; what then still differs is not known. Small
 //! problems are projected on the null space of the rigid measures instead.
 
 use super::kkt::{KktSystem, hessian_size, largest_weighted_entry};
@@ -22,8 +23,8 @@ use foldwell_numerics::{DenseMatrix, dense};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Eigenvalues of `S` up to this, relative to its largest diagonal entry, may be zero: rounding errors of the sums in its entries are
-/// about as large.
+/// Eigenvalues of `S` up to this, relative to its largest diagonal entry, may be zero: rounding errors of the sums in
+/// its entries are about as large.
 const ZERO_EIGENVALUE: f64 = 1e-14;
 /// The same of the Hessian on motions that meet the measures.
 const ZERO_IN_PROJECTION: f64 = 1e-12;
@@ -31,31 +32,33 @@ const ZERO_IN_PROJECTION: f64 = 1e-12;
 const DENSE_LIMIT: usize = 120;
 /// The same where the bounds do not meet: about a second.
 const MOST_PROJECTED: usize = 800;
-/// Singular values of the gradients of rigid measures, relative to the largest one, up to which they may be zero: rounding errors, and
-/// errors of the state by which they change.
+/// Singular values of the gradients of rigid measures, relative to the largest one, up to which they may be zero:
+/// rounding errors, and errors of the state by which they change.
 const ZERO_SINGULAR_VALUES: [f64; 2] = [1e-12, 1e-9];
-/// Least and largest unit of tensions of finite measures in the dense matrix, relative to the Hessian over a gradient's size.
+/// Least and largest unit of tensions of finite measures in the dense matrix, relative to the Hessian over a gradient's
+/// size.
 const UNITS_OF_TENSIONS: [f64; 2] = [1e-3, 1e3];
 /// Weights of further counts, relative to the usual ones. Heavier ones lose small eigenvalues to rounding.
 const HEAVIER_WEIGHTS: [f64; 3] = [1e2, 1e3, 1e5];
-/// Counts above this are not confirmed by motions, which cost about two solves each, but by the count of a heavier weight.
+/// Counts above this are not confirmed by motions, which cost about two solves each, but by the count of a heavier
+/// weight.
 const MOST_CONFIRMED_BY_MOTIONS: usize = 64;
 /// Number of motions tried, for every negative eigenvalue that is looked for and besides.
 const MOTIONS_PER_EIGENVALUE: usize = 3;
 const FURTHER_MOTIONS: usize = 24;
-/// Number of motions that one random force leads to, by solving again and again. Repeated eigenvalues, as symmetric sheets
-/// have, need several forces.
+/// Number of motions that one random force leads to, by solving again and again. Repeated eigenvalues, as symmetric
+/// sheets have, need several forces.
 const MOTIONS_PER_FORCE: usize = 8;
-/// Number of motions that are asked whether a state near one that is stable is stable too: next to a critical load the softest motion
-/// outweighs all others after two or three solves.
+/// Number of motions that are asked whether a state near one that is stable is stable too: next to a critical load the
+/// softest motion outweighs all others after two or three solves.
 const SOFTEST_MOTIONS: usize = 3;
 /// Number of random forces in a row that lead to no new motion after which all motions are taken to be found.
 const BARREN_FORCES: usize = 2;
 /// Relative residual to which the true system is solved.
 const SOLVED: f64 = 1e-12;
-/// Largest stretch of a rigid measure by a motion of length 1 that meets the measures, in natural sizes: between rounding
-/// errors and the singular values of gradients that nearly depend on each other, which are `P / EA` for a column under a load
-/// `P` and smaller for the higher modes of a long one.
+/// Largest stretch of a rigid measure by a motion of length 1 that meets the measures, in natural sizes: between
+/// rounding errors and the singular values of gradients that nearly depend on each other, which are `P / EA` for a
+/// column under a load `P` and smaller for the higher modes of a long one.
 const MEETS_MEASURES: f64 = 1e-12;
 /// Number of times that a motion is brought onto the measures.
 const MOST_CORRECTIONS: usize = 3;
@@ -64,8 +67,8 @@ const LEAST_NEW_PART: f64 = 1e-6;
 /// Seed of the random forces.
 const SEED: u64 = 1;
 
-/// Number of negative eigenvalues of the Hessian at a linearization, on what the rigid measures leave free; `None` where the
-/// bounds of this module do not meet. The system is left factored with a multiple of the identity added.
+/// Number of negative eigenvalues of the Hessian at a linearization, on what the rigid measures leave free; `None`
+/// where the bounds of this module do not meet. The system is left factored with a multiple of the identity added.
 ///
 /// # Errors
 /// [`FactorError`] where an entry is not finite, or a pivot vanishes.
@@ -92,7 +95,8 @@ pub(super) fn negative_eigenvalues(
             return Ok(negative_by_projection(at, compliance));
         }
     }
-    // too many may be zero, as of a mechanism, or the motions of a large sheet were not found: those that may be zero are left out
+    // too many may be zero, as of a mechanism, or the motions of a large sheet were not found: those that may be zero
+    // are left out
     let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
@@ -106,7 +110,8 @@ pub(super) fn negative_eigenvalues(
         return Ok(Some(most));
     }
     for heavier in HEAVIER_WEIGHTS {
-        // less what rounding errors of such weights may add to an eigenvalue, so that the count is an upper bound all the same
+        // less what rounding errors of such weights may add to an eigenvalue, so that the count is an upper bound all
+        // the same
         if system.count_negative(at, compliance, [-zero * heavier, heavier])? == least {
             return Ok(Some(least));
         }
@@ -114,9 +119,9 @@ pub(super) fn negative_eigenvalues(
     Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance) } else { None })
 }
 
-/// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where singular values of which
-/// it cannot be told whether they are zero make a difference. No weights of rigid measures spoil small eigenvalues here: those above minus
-/// [`ZERO_IN_PROJECTION`] of the largest diagonal entry count as zero.
+/// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where singular
+/// values of which it cannot be told whether they are zero make a difference. No weights of rigid measures spoil small
+/// eigenvalues here: those above minus [`ZERO_IN_PROJECTION`] of the largest diagonal entry count as zero.
 fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usize> {
     let zero = ZERO_IN_PROJECTION * hessian_size(at);
     let rows = Rows { cliques: at.rows().cliques, values: &at.scaled_jacobian() };
@@ -132,8 +137,8 @@ fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usiz
     if counted[0] == counted[1] { counted[0] } else { None }
 }
 
-/// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns of length 1;
-/// `None` where none is found. The system is left factored with a multiple of the identity added.
+/// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns
+/// of length 1; `None` where none is found. The system is left factored with a multiple of the identity added.
 ///
 /// # Errors
 /// As [`negative_eigenvalues`].
@@ -149,18 +154,19 @@ pub(super) fn falling_motion(
     Ok(if motions.falling() > 0 { motions.lowest() } else { None })
 }
 
-/// Whether the energy falls to second order on one of a few soft motions that meet the measures. The system may have been factored at
-/// another state near by.
+/// Whether the energy falls to second order on one of a few soft motions that meet the measures. The system may have
+/// been factored at another state near by.
 pub(super) fn softest_falls(system: &mut KktSystem, at: &Linearization, compliance: &[f64]) -> bool {
     let mut motions = Motions::new(system, at, compliance, 0.0);
     motions.answer(&mut ChaCha8Rng::seed_from_u64(SEED), SOFTEST_MOTIONS);
     motions.falling() > 0
 }
 
-/// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
-/// finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness is so large that rounding
-/// errors of its multiples matter. Tensions are in units in which compliances are of the size of the Hessian, as far as that leaves the
-/// gradients of measures moderate: beside a Hessian of large tensions a small compliance would be lost to rounding.
+/// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a
+/// matrix. Measures of finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no
+/// stiffness is so large that rounding errors of its multiples matter. Tensions are in units in which compliances are
+/// of the size of the Hessian, as far as that leaves the gradients of measures moderate: beside a Hessian of large
+/// tensions a small compliance would be lost to rounding.
 fn negative_on(
     at: &Linearization,
     (compliance, rows): (&[f64], &DenseMatrix),
@@ -215,8 +221,8 @@ impl<'a> Motions<'a> {
         Self { system, at, compliance, zero, found: vec![], energies: vec![] }
     }
 
-    /// Number of negative eigenvalues on the span of motions, which grows until there are `most`, or until random forces
-    /// lead to no new motions.
+    /// Number of negative eigenvalues on the span of motions, which grows until there are `most`, or until random
+    /// forces lead to no new motions.
     fn negative(&mut self, most: usize) -> usize {
         let unknowns = self.at.gradient.len();
         let enough = unknowns.min(MOTIONS_PER_EIGENVALUE * most + FURTHER_MOTIONS);
@@ -243,8 +249,8 @@ impl<'a> Motions<'a> {
         }
     }
 
-    /// The motion that a force makes, without its parts along those already found; `None` where nothing is left of it, or
-    /// where it does not meet the measures.
+    /// The motion that a force makes, without its parts along those already found; `None` where nothing is left of it,
+    /// or where it does not meet the measures.
     fn next_motion(&mut self, force: &[f64]) -> Option<Motion> {
         let nothing = vec![0.0; self.compliance.len()];
         let step = self.system.solve(self.at, force, &nothing, SOLVED);
@@ -322,14 +328,14 @@ impl<'a> Motions<'a> {
         DenseMatrix::from_fn(count, count, |i, j| self.energies[i.max(j)][i.min(j)])
     }
 
-    /// Number of independent motions of the span on which the energy itself, without the multiple of the identity, falls by more than
-    /// counts as zero.
+    /// Number of independent motions of the span on which the energy itself, without the multiple of the identity,
+    /// falls by more than counts as zero.
     fn falling(&self) -> usize {
         self.below(self.zero - ZERO_IN_PROJECTION * hessian_size(self.at))
     }
 
-    /// Number of eigenvalues of `dx H dx + dt C dt` on the span of the motions that are smaller than a value; 0 where they cannot be
-    /// found.
+    /// Number of eigenvalues of `dx H dx + dt C dt` on the span of the motions that are smaller than a value; 0 where
+    /// they cannot be found.
     fn below(&self, limit: f64) -> usize {
         let values = dense::symmetric_eigenvalues(&self.energies_on_span()).unwrap_or_default();
         values.iter().filter(|value| **value < limit).count()

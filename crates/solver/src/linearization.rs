@@ -14,7 +14,8 @@ pub enum HessianKind {
     Full,
 }
 
-/// A soft element at one state. Its energy is a function of one measure `m(x)`, and its Hessian is `(k + excess) g g^T + f h`.
+/// A soft element at one state. Its energy is a function of one measure `m(x)`, and its Hessian is
+/// `(k + excess) g g^T + f h`.
 #[derive(Clone, Copy, Debug)]
 pub struct SoftElement<'a> {
     /// Stiffness `k >= 0` of the Gauss-Newton part: for a spring the second derivative of the energy by the measure.
@@ -23,7 +24,8 @@ pub struct SoftElement<'a> {
     pub excess: f64,
     /// Force `f`: the first derivative of the energy by the measure.
     pub force: f64,
-    /// Change of the measure that counts as one radian where steps are bounded; infinite for a measure that bounds no step.
+    /// Change of the measure that counts as one radian where steps are bounded; infinite for a measure that bounds no
+    /// step.
     pub size: f64,
     /// Gradient `g` of the measure by the unknowns of the element.
     pub gradient: &'a [f64],
@@ -194,7 +196,8 @@ impl Linearization {
         Rows { cliques: &self.layout.soft, values: &self.soft_gradients }
     }
 
-    /// Largest change along `dx`, to first order, of the measure of a soft element that has a stiffness; the others are loads.
+    /// Largest change along `dx`, to first order, of the measure of a soft element that has a stiffness; the others are
+    /// loads.
     pub fn largest_measure_change(&self, dx: &[f64]) -> f64 {
         let mut changes = vec![0.0; self.layout.soft.len()];
         self.soft_rows().product(dx, &mut changes);

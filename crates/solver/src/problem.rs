@@ -18,7 +18,8 @@ pub trait Problem {
     fn unit_of_length(&self) -> f64 {
         1.0
     }
-    /// Largest change of the measure of a soft element in one step, to first order; without one, steps of any length are tried.
+    /// Largest change of the measure of a soft element in one step, to first order; without one, steps of any length
+    /// are tried.
     fn largest_change(&self) -> f64 {
         f64::INFINITY
     }
@@ -32,12 +33,13 @@ pub trait Problem {
     /// Adds terms to the Hessian that make it regular along motions that cost nothing, where there are any; forces stay
     /// as they are.
     fn hold(&self, _tension: &[f64], _out: &mut Linearization) {}
-    /// Whether a step from the accepted state `from` to `to` is short enough for the problem to be what its derivatives say, as one
-    /// that turns an angle too far or flattens a triangle is not.
+    /// Whether a step from the accepted state `from` to `to` is short enough for the problem to be what its derivatives
+    /// say, as one that turns an angle too far or flattens a triangle is not.
     fn admits(&self, _from: &[f64], _to: &[f64]) -> bool {
         true
     }
-    /// Why a state is none of which derivatives tell anything, as one with a triangle without height; `None` for other states.
+    /// Why a state is none of which derivatives tell anything, as one with a triangle without height; `None` for other
+    /// states.
     fn breakdown(&self, _x: &[f64]) -> Option<Collapse> {
         None
     }

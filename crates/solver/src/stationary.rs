@@ -18,8 +18,8 @@ pub struct StationaryPoint {
     pub x: Vec<f64>,
     /// Tensions of the stiff measures.
     pub tension: Vec<f64>,
-    /// Number of negative eigenvalues of the Hessian: 0 at a minimum, 1 at a saddle point between two minima; `None` where it
-    /// cannot be established.
+    /// Number of negative eigenvalues of the Hessian: 0 at a minimum, 1 at a saddle point between two minima; `None`
+    /// where it cannot be established.
     pub negative_eigenvalues: Option<usize>,
     /// Residuals reached.
     pub residuals: Residuals,
@@ -31,9 +31,8 @@ pub struct StationaryPoint {
 /// would change the measure of a soft element by more than `longest`. A start without tensions has none.
 ///
 /// # Errors
-/// [`Failure::TooManySteps`] where the iteration does not converge, [`Failure::Collapsed`] where it leads to a state in which derivatives
-/// tell nothing, and [`Failure::Factor`] where a linear system
-/// cannot be solved.
+/// [`Failure::TooManySteps`] where the iteration does not converge, [`Failure::Collapsed`] where it leads to a state in
+/// which derivatives tell nothing, and [`Failure::Factor`] where a linear system cannot be solved.
 pub fn stationary_point<P: Problem>(
     problem: &mut P,
     start: impl Into<Start>,

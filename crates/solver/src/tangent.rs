@@ -1,7 +1,8 @@
 //! The tangent problem at one state: the equations of equilibrium linearized there, factored, and solved.
 //!
 //! With it one asks for a single Newton step ([`Tangent::newton_step`]), for the number of negative eigenvalues
-//! ([`Tangent::negative_eigenvalues`]) or for the response to forces and stretches ([`Tangent::solve`]) without an iteration.
+//! ([`Tangent::negative_eigenvalues`]) or for the response to forces and stretches ([`Tangent::solve`]) without an
+//! iteration.
 
 use super::corrections::Patience;
 use super::inertia;
@@ -70,14 +71,15 @@ impl Tangent {
         inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)
     }
 
-    /// Whether the energy falls to second order on one of the softest motions that meet the stiff measures, as the last factorization
-    /// shows them; it may have been made at another state near by. Motions are few: a quick look, and no count.
+    /// Whether the energy falls to second order on one of the softest motions that meet the stiff measures, as the last
+    /// factorization shows them; it may have been made at another state near by. Motions are few: a quick look, and no
+    /// count.
     pub(super) fn softest_falls(&mut self) -> bool {
         inertia::softest_falls(&mut self.system, &self.at, &self.compliance)
     }
 
-    /// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns of
-    /// length 1; `None` where none is found. Factors anew.
+    /// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the
+    /// unknowns of length 1; `None` where none is found. Factors anew.
     ///
     /// # Errors
     /// As [`Tangent::factor`].

@@ -56,8 +56,8 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> BalancedTensions 
     if unbalanced(&least, &at) <= allowed { least } else { before }
 }
 
-/// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness follow from
-/// their stretch.
+/// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness
+/// follow from their stretch.
 fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
     let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
     let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * at.sizes[row]).collect();

@@ -6,9 +6,10 @@
 //! `q = 0`; zero modes of the bars cost only what their creases do. With masses `m` of the vertices the squared
 //! frequencies are the eigenvalues of `M^(-1/2) D M^(-1/2)`: every row and column of a vertex is divided by `sqrt(m)`.
 //!
-//! In another state in balance bars and hinges carry forces `f`, and an element adds `f` times the second derivative of its
-//! measure. Such a state can be unstable against a wave, whose eigenvalue then is negative. On a cylinder the copies of a
-//! vertex move along with the lattice rotations, so that a wave with `q = 0` is the same in every cell as seen from the axis.
+//! In another state in balance bars and hinges carry forces `f`, and an element adds `f` times the second derivative of
+//! its measure. Such a state can be unstable against a wave, whose eigenvalue then is negative. On a cylinder the
+//! copies of a vertex move along with the lattice rotations, so that a wave with `q = 0` is the same in every cell as
+//! seen from the axis.
 
 use super::BlochError;
 use super::rigidity::power;
@@ -102,8 +103,8 @@ impl DynamicalMatrix {
         Ok(Self { vertices: sheet.vertices.len(), elements })
     }
 
-    /// The dynamical matrix of a state of a model of one cell, periodic or a cylinder, from all its coordinates: with the forces
-    /// that bars and hinges carry there. Angles continue from those of the model.
+    /// The dynamical matrix of a state of a model of one cell, periodic or a cylinder, from all its coordinates: with
+    /// the forces that bars and hinges carry there. Angles continue from those of the model.
     ///
     /// # Errors
     /// [`BlochError::RigidElement`] where an element has no finite stiffness.
@@ -157,9 +158,10 @@ impl DynamicalMatrix {
         Ok(hermitian_eigenvalues(&self.at(q))?)
     }
 
-    /// Square roots of the eigenvalues of `D(q)`, ascending: angular frequencies if masses were given. Exactly 0 are those of
-    /// eigenvalues that are zero up to rounding, at most `4 sqrt(n) epsilon d` with the size `n` and the largest diagonal entry `d`.
-    /// A negative one is minus the rate at which a wave grows, of a state that is not stable.
+    /// Square roots of the eigenvalues of `D(q)`, ascending: angular frequencies if masses were given. Exactly 0 are
+    /// those of eigenvalues that are zero up to rounding, at most `4 sqrt(n) epsilon d` with the size `n` and the
+    /// largest diagonal entry `d`. A negative one is minus the rate at which a wave grows, of a state that is not
+    /// stable.
     ///
     /// # Errors
     /// [`BlochError`] where the eigenvalues cannot be computed.
@@ -172,8 +174,8 @@ impl DynamicalMatrix {
             .collect())
     }
 
-    /// Frequencies at all wavenumbers `2 pi (k1 / n1, k2 / n2)` of a grid, the first one running faster; `None` if `go_on` returned
-    /// false, which is asked before each of the `n1 n2` wavenumbers. Those at `-q` are those at `q`.
+    /// Frequencies at all wavenumbers `2 pi (k1 / n1, k2 / n2)` of a grid, the first one running faster; `None` if
+    /// `go_on` returned false, which is asked before each of the `n1 n2` wavenumbers. Those at `-q` are those at `q`.
     ///
     /// # Errors
     /// [`BlochError`] where the eigenvalues cannot be computed.

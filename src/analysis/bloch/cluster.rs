@@ -1,12 +1,12 @@
-//! Roots that coincide, as those of symmetric sheets do: found as singular points of the rigidity matrix, which knows them
-//! to all digits where the determinant's coefficients know them to half.
+//! Roots that coincide, as those of symmetric sheets do: found as singular points of the rigidity matrix, which knows
+//! them to all digits where the determinant's coefficients know them to half.
 //!
 //! With the left and right singular vectors `W`, `V` of the `m` smallest singular values at `z`, the matrix
-//! `G = W^H R V` is their diagonal there and has the derivative `G' = W^H dR V` by `log z`: what couples these vectors to the
-//! others vanishes at `z` on both sides, so that it enters with the square of a step. The eigenvalues of `-G'^-1 G` are
-//! therefore Newton steps to the `m` roots near by. Where `R` has `m` null vectors at a root of multiplicity `m`, `G'` is
-//! invertible there and all of them end at one point. Where `R` has fewer null vectors, the roots coincide as far as the
-//! determinant's coefficients tell and are then found as a zero of its derivative.
+//! `G = W^H R V` is their diagonal there and has the derivative `G' = W^H dR V` by `log z`: what couples these vectors
+//! to the others vanishes at `z` on both sides, so that it enters with the square of a step. The eigenvalues of
+//! `-G'^-1 G` are therefore Newton steps to the `m` roots near by. Where `R` has `m` null vectors at a root of
+//! multiplicity `m`, `G'` is invertible there and all of them end at one point. Where `R` has fewer null vectors, the
+//! roots coincide as far as the determinant's coefficients tell and are then found as a zero of its derivative.
 
 use super::rigidity::TERM;
 use super::root::Root;
@@ -22,8 +22,8 @@ const FARTHEST: f64 = 0.01;
 /// Roots nearer to the mean of a cluster than so many roundings are one root.
 const ROUNDINGS: f64 = 16.0;
 
-/// The roots of a cluster by their numbers in a list: each within the rounding errors of another of them. Roots that are
-/// alone are left out.
+/// The roots of a cluster by their numbers in a list: each within the rounding errors of another of them. Roots that
+/// are alone are left out.
 pub(crate) fn clusters(roots: &[Root]) -> Vec<Vec<usize>> {
     let mut left: Vec<usize> = (0..roots.len()).collect();
     let mut found = Vec::new();
@@ -67,11 +67,11 @@ pub(crate) fn on_matrix(rigidity: &Rigidity, mut z: [Complex<f64>; 2], a: usize,
     None
 }
 
-/// The root of a multiplicity `count` near `start`, along `z_b` at `z_a = exp(i q)`, of a determinant whose matrix may have fewer null
-/// vectors there.
+/// The root of a multiplicity `count` near `start`, along `z_b` at `z_a = exp(i q)`, of a determinant whose matrix may
+/// have fewer null vectors there.
 ///
-/// Where `p` has such a root, its derivative of order `count - 1` by `log z` has a simple one, which the coefficients know to all
-/// digits. `None` where one of the lower derivatives is there more than the rounding of the coefficients.
+/// Where `p` has such a root, its derivative of order `count - 1` by `log z` has a simple one, which the coefficients
+/// know to all digits. `None` where one of the lower derivatives is there more than the rounding of the coefficients.
 pub(crate) fn of_polynomial(
     polynomial: &Laurent,
     (a, q): (usize, f64),

@@ -1,8 +1,8 @@
 //! Numbers of zero modes and self stresses at a real wavenumber.
 //!
-//! Zero modes at `q` are null vectors of `R(z)`, self stresses at `q` those of the equilibrium matrix `R(1/z)^T`. So at every
-//! `q` there are as many zero modes as self stresses at `-q` where bars and coordinates balance (C. L. Kane, T. C. Lubensky,
-//! Nature Physics 10, 39 (2014); McInerney and others, PNAS 117, 30252 (2020), equation 16).
+//! Zero modes at `q` are null vectors of `R(z)`, self stresses at `q` those of the equilibrium matrix `R(1/z)^T`. So at
+//! every `q` there are as many zero modes as self stresses at `-q` where bars and coordinates balance (C. L. Kane, T.
+//! C. Lubensky, Nature Physics 10, 39 (2014); McInerney and others, PNAS 117, 30252 (2020), equation 16).
 
 use super::rigidity::TERM;
 use super::{BlochError, Rigidity};
@@ -23,8 +23,8 @@ pub struct Counts {
     pub self_stresses: usize,
     /// Self stresses at the opposite wavenumber.
     pub self_stresses_opposite: usize,
-    /// Smallest singular value that is not zero over the largest that is, of the two matrices at `q` the less clear; the
-    /// latter never taken below rounding.
+    /// Smallest singular value that is not zero over the largest that is, of the two matrices at `q` the less clear;
+    /// the latter never taken below rounding.
     pub gap: f64,
 }
 

@@ -31,7 +31,8 @@ pub struct Decay {
     pub at_zero: usize,
     /// Roots that are infinite: modes of the last cell alone.
     pub at_infinity: usize,
-    /// Whether the determinant vanishes at this wavenumber for every factor along the other direction: then there are no roots.
+    /// Whether the determinant vanishes at this wavenumber for every factor along the other direction: then there are
+    /// no roots.
     pub vanishes: bool,
 }
 

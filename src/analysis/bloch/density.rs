@@ -16,13 +16,14 @@
 pub struct Density {
     /// Edges of the bins, ascending and equally far apart, from 0 to the largest frequency on the grid.
     pub edges: Vec<f64>,
-    /// Number of states of a cell with frequencies in each bin, over the width of the bin: the integral is the number of bands.
+    /// Number of states of a cell with frequencies in each bin, over the width of the bin: the integral is the number
+    /// of bands.
     pub values: Vec<f64>,
 }
 
 impl Density {
-    /// Returns the density of bands, which are not negative, on a periodic grid of wavenumbers: one list of values, ascending, for each
-    /// wavenumber, the first one running faster. All lists have the same length.
+    /// Returns the density of bands, which are not negative, on a periodic grid of wavenumbers: one list of values,
+    /// ascending, for each wavenumber, the first one running faster. All lists have the same length.
     ///
     /// ```
     /// use foldwell::analysis::bloch::Density;
@@ -77,8 +78,8 @@ fn triangles([n1, n2]: [usize; 2]) -> impl Iterator<Item = [usize; 3]> {
     })
 }
 
-/// Returns the part of a triangle in which a linear function is at most `value`; `a`, `b`, `c` are its values at the corners,
-/// ascending.
+/// Returns the part of a triangle in which a linear function is at most `value`; `a`, `b`, `c` are its values at the
+/// corners, ascending.
 fn below(value: f64, [a, b, c]: [f64; 3]) -> f64 {
     if value >= c {
         1.0
@@ -104,8 +105,8 @@ mod tests {
         (all.map(|(i, j)| band(at(i, grid[0]), at(j, grid[1]))).collect(), grid)
     }
 
-    /// Claim: the part of a triangle below a value is that of the area of the triangle in the plane whose heights are the
-    /// values: by counting points for a general one, in closed form where corners agree. Tolerance: of counting.
+    /// Claim: the part of a triangle below a value is that of the area of the triangle in the plane whose heights are
+    /// the values: by counting points for a general one, in closed form where corners agree. Tolerance: of counting.
     #[test]
     fn parts_of_triangles() {
         let (corners, n) = ([0.3, 0.5, 1.1], 1000);
@@ -122,8 +123,8 @@ mod tests {
         assert_eq!([0.5, 1.0].map(|value| below(value, [0.0, 1.0, 1.0])), [0.25, 1.0]);
     }
 
-    /// Claim: the integral is the number of bands to rounding on any grid and for any number of bins, with flat bands, one
-    /// of them at zero and one at the largest value.
+    /// Claim: the integral is the number of bands to rounding on any grid and for any number of bins, with flat bands,
+    /// one of them at zero and one at the largest value.
     #[test]
     fn the_integral_is_the_number_of_bands() {
         for (n, bins) in [(1, 1), (2, 7), (5, 3), (16, 100), (31, 1000)] {

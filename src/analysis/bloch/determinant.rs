@@ -46,8 +46,8 @@ impl Determinant {
     /// The determinant of a rigidity matrix.
     ///
     /// # Errors
-    /// [`BlochError`] where the matrix is not square, where the determinant [vanishes](BlochError::Vanishes) identically, as
-    /// for a flat sheet, and where it is [nothing but rounding](BlochError::NoDeterminant).
+    /// [`BlochError`] where the matrix is not square, where the determinant [vanishes](BlochError::Vanishes)
+    /// identically, as for a flat sheet, and where it is [nothing but rounding](BlochError::NoDeterminant).
     pub fn new(rigidity: &Rigidity) -> Result<Self, BlochError> {
         rigidity.require_square()?;
         let lowest = [0, 1].map(|a| rigidity.powers(a)[0]);

@@ -1,4 +1,5 @@
-//! Sums of two numbers that carry twice the digits (T. J. Dekker, Numer. Math. 18, 224 (1971)), and complex numbers of them.
+//! Sums of two numbers that carry twice the digits (T. J. Dekker, Numer. Math. 18, 224 (1971)), and complex numbers of
+//! them.
 
 use nalgebra::Complex;
 

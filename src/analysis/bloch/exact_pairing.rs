@@ -1,8 +1,8 @@
 //! The rigidity matrix between two vectors to twice the digits, at real wavenumbers.
 //!
-//! Where zero lines nearly cross, the determinant has hardly a gradient, and the rounding of `R` alone moves the line by
-//! more than 1e-12. `w^H R v` is right to second order in the null vectors, so that these may be rounded when only the
-//! sum is taken exactly enough: in [`double_double`](super::double_double), as are the directions of the bars.
+//! Where zero lines nearly cross, the determinant has hardly a gradient, and the rounding of `R` alone moves the line
+//! by more than 1e-12. `w^H R v` is right to second order in the null vectors, so that these may be rounded when only
+//! the sum is taken exactly enough: in [`double_double`](super::double_double), as are the directions of the bars.
 
 use super::Rigidity;
 use super::double_double::{ComplexTwice, DoubleDouble, factor, plus, power, times, twice};

@@ -2,8 +2,9 @@
 //!
 //! A closed line of zeros encloses an extremum of the determinant, of the sign that the outside does not have. A line
 //! smaller than the mesh of a grid leaves all signs on the grid as they are, but its extremum is still there: where the
-//! norm of the gradient on the grid is smallest among its neighbours, Newton's method leads to the nearest point without
-//! a gradient. It is hidden when it is an extremum and its sign is not that of the four points of the grid around it.
+//! norm of the gradient on the grid is smallest among its neighbours, Newton's method leads to the nearest point
+//! without a gradient. It is hidden when it is an extremum and its sign is not that of the four points of the grid
+//! around it.
 
 use super::laurent::wavenumber;
 use super::zone::{Zone, reduced};

@@ -44,8 +44,8 @@ impl Count {
 }
 
 impl Polarization {
-    /// The polarization, from this many wavenumbers along each direction; those at which the determinant vanishes for every other
-    /// factor are left out.
+    /// The polarization, from this many wavenumbers along each direction; those at which the determinant vanishes for
+    /// every other factor are left out.
     ///
     /// # Errors
     /// [`BlochError`] where the determinant cannot be computed.

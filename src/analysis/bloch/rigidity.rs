@@ -18,8 +18,8 @@ use crate::numerics::complex::{ComplexMatrix, determinant};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use nalgebra::{Complex, Matrix3, Rotation3};
 
-/// Magnitude of the terms of which entries of the matrix are sums at real wavenumbers: directions, which cancel where both ends
-/// of a bar are copies of one vertex.
+/// Magnitude of the terms of which entries of the matrix are sums at real wavenumbers: directions, which cancel where
+/// both ends of a bar are copies of one vertex.
 pub(crate) const TERM: f64 = 1.0;
 
 /// One condition on the displacements: the sum of `direction . u` over some corners is zero.
@@ -81,8 +81,8 @@ impl Rigidity {
         Self::placed(sheet, false, place, |shift| shape.screw.motion(shift).rotation)
     }
 
-    /// The bars of a state of one cell, periodic or screw-periodic as its domain says, with all coordinates of the state
-    /// in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
+    /// The bars of a state of one cell, periodic or screw-periodic as its domain says, with all coordinates of the
+    /// state in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
     ///
     /// # Errors
     /// [`BlochError`] on a patch.
@@ -150,8 +150,8 @@ impl Rigidity {
         })
     }
 
-    /// `left^H R(z1, z2) right`, its derivatives by `log z1` and `log z2`, and the sum of the magnitudes of the products
-    /// that make it; rows by `left`, columns by `right`.
+    /// `left^H R(z1, z2) right`, its derivatives by `log z1` and `log z2`, and the sum of the magnitudes of the
+    /// products that make it; rows by `left`, columns by `right`.
     pub(crate) fn pairing(&self, z: [Complex<f64>; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Pairing {
         let mut found = Pairing::default();
         for (row, weight) in self.rows.iter().zip(left) {

@@ -15,8 +15,8 @@ pub struct Root {
     /// Change of `log z` per change of the determinant's coefficients by so much of the largest; of a root corrected on
     /// the matrix, per relative change of its entries.
     pub condition: f64,
-    /// How many roots coincide here: more than one where the matrix has as many null vectors, or fewer while the derivatives of the
-    /// determinant vanish up to rounding; each is listed.
+    /// How many roots coincide here: more than one where the matrix has as many null vectors, or fewer while the
+    /// derivatives of the determinant vanish up to rounding; each is listed.
     pub multiplicity: usize,
 }
 

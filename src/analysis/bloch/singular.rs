@@ -163,8 +163,8 @@ mod tests {
         assert!((found - expected).norm() <= 1e-12 * expected.norm(), "{found} {expected}");
     }
 
-    /// Claim: from a start a twentieth away the search ends where the smallest singular value is rounding, and the slope
-    /// is that of differences of the pairing.
+    /// Claim: from a start a twentieth away the search ends where the smallest singular value is rounding, and the
+    /// slope is that of differences of the pairing.
     #[test]
     fn roots_are_singular() {
         let rigidity = random(4);

@@ -1,14 +1,16 @@
-//! Strips: sheets that are periodic along the first lattice vector and some cells wide along the second, with free edges.
+//! Strips: sheets that are periodic along the first lattice vector and some cells wide along the second, with free
+//! edges.
 //!
-//! At a wavenumber `q1` the displacements of the cells `0 .. N` across the strip are the unknowns. A row of the rigidity
-//! matrix belongs to the lowest cell that it touches; rows that stick out of the strip are left out. So a strip has as many
-//! zero modes less self stresses as rows stick out, whatever its cells are.
+//! At a wavenumber `q1` the displacements of the cells `0 .. N` across the strip are the unknowns. A row of the
+//! rigidity matrix belongs to the lowest cell that it touches; rows that stick out of the strip are left out. So a
+//! strip has as many zero modes less self stresses as rows stick out, whatever its cells are.
 //!
-//! The lower half of a strip may be of another cell than the upper half. Cells are joined by the numbers of their vertices: a
-//! row of the last cell below the interface holds the vertices of the first cell above it. If `w` is the number of roots
-//! `z2` of `det R` inside the unit circle, rows counted as said and zero roots too, the zero modes bound to the interface
-//! less the self stresses bound to it are `w(above) - w(below)`: the index of half a sheet of the upper cell is `w`, that
-//! of half a sheet of the lower one, with all its rows, `-w` (C. L. Kane, T. C. Lubensky, Nature Physics 10, 39 (2014)).
+//! The lower half of a strip may be of another cell than the upper half. Cells are joined by the numbers of their
+//! vertices: a row of the last cell below the interface holds the vertices of the first cell above it. If `w` is the
+//! number of roots `z2` of `det R` inside the unit circle, rows counted as said and zero roots too, the zero modes
+//! bound to the interface less the self stresses bound to it are `w(above) - w(below)`: the index of half a sheet of
+//! the upper cell is `w`, that of half a sheet of the lower one, with all its rows, `-w` (C. L. Kane, T. C. Lubensky,
+//! Nature Physics 10, 39 (2014)).
 
 use super::rigidity::{Row, TERM};
 use super::{BlochError, Rigidity};
@@ -121,8 +123,8 @@ impl Strip {
         Ok(Self { cells, half: cells / 2, clamped: false, below: first, above: second, across })
     }
 
-    /// The same strip with clamped edges: the cells beyond them are held, so that no row is left out. Where free edges have
-    /// zero modes clamped ones have self stresses, which the self stresses bound to an interface cannot cancel.
+    /// The same strip with clamped edges: the cells beyond them are held, so that no row is left out. Where free edges
+    /// have zero modes clamped ones have self stresses, which the self stresses bound to an interface cannot cancel.
     pub fn clamped(self) -> Self {
         Self { clamped: true, ..self }
     }
@@ -223,11 +225,12 @@ impl StripModes {
         Ok(Self { modes: &self.modes * v.columns(0, count), ..self.clone() })
     }
 
-    /// The factors by which zero modes are multiplied from a cell to the next upwards, or downwards, from a first cell on.
+    /// The factors by which zero modes are multiplied from a cell to the next upwards, or downwards, from a first cell
+    /// on.
     ///
     /// Where all cells ahead are equal, what the zero modes are in a window of cells spans a space that the step to the
-    /// next window maps into itself: its eigenvalues are the factors. `shifts` windows are taken from the first on; one is
-    /// enough at a free edge, where every mode that the cell allows is there.
+    /// next window maps into itself: its eigenvalues are the factors. `shifts` windows are taken from the first on; one
+    /// is enough at a free edge, where every mode that the cell allows is there.
     ///
     /// # Errors
     /// [`BlochError`] where a decomposition fails.
@@ -260,8 +263,8 @@ impl StripModes {
 }
 
 impl Rigidity {
-    /// The number of roots `z2` inside the unit circle at a real `q1`, those at zero too, where every row belongs to the
-    /// lowest cell it touches: how often the determinant goes round zero.
+    /// The number of roots `z2` inside the unit circle at a real `q1`, those at zero too, where every row belongs to
+    /// the lowest cell it touches: how often the determinant goes round zero.
     ///
     /// # Errors
     /// [`BlochError`] where the matrix is not square, and where the determinant comes too near to zero on the circle.

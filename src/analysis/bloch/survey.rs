@@ -1,4 +1,5 @@
-//! All that is asked of the spatially varying modes of one state: decay rates, polarization, lines of zero modes, a map.
+//! All that is asked of the spatially varying modes of one state: decay rates, polarization, lines of zero modes, a
+//! map.
 
 use super::laurent::wavenumber;
 use super::{BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone};
@@ -36,8 +37,8 @@ pub struct Survey {
     pub decays: Vec<Decay>,
     /// Numbers of modes that decay to either side.
     pub polarization: Polarization,
-    /// The zone of real determinants, and the lines on which it vanishes or why they could not be followed; `None` where the
-    /// determinant is not real.
+    /// The zone of real determinants, and the lines on which it vanishes or why they could not be followed; `None`
+    /// where the determinant is not real.
     pub real: Option<(Zone, Result<ZeroLines, BlochError>)>,
     /// Real and imaginary parts of the determinant on the grid, the first wavenumber running faster.
     pub map: [Vec<f64>; 2],
@@ -51,13 +52,15 @@ impl Survey {
         self.real.as_ref().and_then(|(_, lines)| lines.as_ref().ok())
     }
 
-    /// Returns why the lines of zero modes could not be followed; `None` where they were, or the determinant is not real.
+    /// Returns why the lines of zero modes could not be followed; `None` where they were, or the determinant is not
+    /// real.
     pub fn no_lines(&self) -> Option<&BlochError> {
         self.real.as_ref().and_then(|(_, lines)| lines.as_ref().err())
     }
 }
 
-/// Surveys the spatially varying modes of bars; `None` where `go_on`, which is told the number of each finished step, asks to stop.
+/// Surveys the spatially varying modes of bars; `None` where `go_on`, which is told the number of each finished step,
+/// asks to stop.
 ///
 /// ```
 /// use foldwell::analysis::bloch::{Rigidity, SurveyOptions, survey};

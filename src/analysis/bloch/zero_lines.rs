@@ -1,8 +1,8 @@
 //! Lines of zero modes: the curves in the Brillouin zone on which a real determinant is zero.
 //!
 //! Curves are followed with the positive side on their left, by steps along the tangent and corrections along the
-//! gradient. They begin on the rays at which the form at `q = 0` vanishes, wherever else the signs of the determinant on
-//! a grid differ between neighbours, and round the extrema that the grid's signs hide (see
+//! gradient. They begin on the rays at which the form at `q = 0` vanishes, wherever else the signs of the determinant
+//! on a grid differ between neighbours, and round the extrema that the grid's signs hide (see
 //! [`extrema`](super::extrema)). At the end every edge of the grid must be crossed by curves an odd number of times
 //! where its ends differ in sign, and an even number of times where they do not: that is how one knows that no line is
 //! missing.

@@ -1,9 +1,9 @@
 //! Whether two triangles in space pass through each other, exactly for the coordinates given.
 //!
-//! Triangles are closed. They **cross** when they lie in two different planes and have a point in common that is interior
-//! to both: there each goes through the other from side to side. Everything less is not a crossing: a corner or an edge of
-//! one on the other, a shared corner or edge, and all overlap within one plane, that is, layers that lie on each other. A
-//! triangle whose corners are collinear has no sides and never crosses.
+//! Triangles are closed. They **cross** when they lie in two different planes and have a point in common that is
+//! interior to both: there each goes through the other from side to side. Everything less is not a crossing: a corner
+//! or an edge of one on the other, a shared corner or edge, and all overlap within one plane, that is, layers that lie
+//! on each other. A triangle whose corners are collinear has no sides and never crosses.
 //!
 //! Triangles with a common corner cross when the edge opposite to it pierces the other triangle; triangles with a
 //! common edge never do, since in two planes all they share is that edge.
@@ -24,8 +24,8 @@ use robust::{Coord3D, orient3d};
 /// Corners of a triangle.
 pub type Triangle = [Vec3; 3];
 
-/// Whether two triangles cross; the same whatever the order of triangles and corners. Triangles with a coordinate that is not
-/// finite cross no others.
+/// Whether two triangles cross; the same whatever the order of triangles and corners. Triangles with a coordinate that
+/// is not finite cross no others.
 pub fn cross(a: &Triangle, b: &Triangle) -> bool {
     if !finite(a) || !finite(b) {
         return false;
@@ -74,8 +74,8 @@ mod tests {
 
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
 
-    /// Whether triangles cross that can be judged by eye, against the triangle (0,0,0), (4,0,0), (0,4,0); all coordinates are small integers, so
-    /// nothing is rounded.
+    /// Whether triangles cross that can be judged by eye, against the triangle (0,0,0), (4,0,0), (0,4,0); all
+    /// coordinates are small integers, so nothing is rounded.
     const SEEN: &[([[f64; 3]; 3], bool)] = &[
         // goes through its interior, and just beside it
         ([[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [9.0, 1.0, 1.0]], true),

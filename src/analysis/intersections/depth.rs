@@ -1,8 +1,8 @@
 //! How deep two triangles are in each other: the length of the shortest translation after which they only touch.
 //!
-//! Two convex bodies overlap by the smallest overlap of their shadows on a line; for triangles in two planes it is enough to
-//! look along the two normals and the nine products of an edge of each (the facets of their Minkowski difference; S. Gottschalk,
-//! M. C. Lin, D. Manocha, SIGGRAPH 1996).
+//! Two convex bodies overlap by the smallest overlap of their shadows on a line; for triangles in two planes it is
+//! enough to look along the two normals and the nine products of an edge of each (the facets of their Minkowski
+//! difference; S. Gottschalk, M. C. Lin, D. Manocha, SIGGRAPH 1996).
 
 use super::contact::Triangle;
 use crate::math::Vec3;
@@ -50,8 +50,8 @@ mod tests {
         corners.map(Vec3::from)
     }
 
-    /// Claim: a tip pushed through a face by h is h deep; two edges that pass each other by h across are h deep. Source: the
-    /// construction. Tolerance: rounding of numbers of size 4.
+    /// Claim: a tip pushed through a face by h is h deep; two edges that pass each other by h across are h deep.
+    /// Source: the construction. Tolerance: rounding of numbers of size 4.
     #[test]
     fn depths_that_can_be_seen() {
         let base = triangle([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]]);
@@ -64,8 +64,8 @@ mod tests {
         }
     }
 
-    /// Claim: moved by a little more than their depth along some direction two triangles no longer cross, moved by a little
-    /// less along any direction they do. Source: the definition. Directions: 2000 at random.
+    /// Claim: moved by a little more than their depth along some direction two triangles no longer cross, moved by a
+    /// little less along any direction they do. Source: the definition. Directions: 2000 at random.
     #[test]
     fn the_depth_is_the_shortest_way_out() {
         use rand_chacha::rand_core::SeedableRng;

@@ -4,16 +4,16 @@
 //! - a **patch**: its faces;
 //! - a **torus**: its period, with [`NEIGHBOURS`] more cells on every side, so that a cell is held against what really
 //!   surrounds it;
-//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says, and no more; faces that reach over their rim
-//!   are among them. Without end, every curved
-//!   screw-periodic sheet winds round and meets itself: whether a tube closes on itself is a question about a number of cells. To
-//!   see it, draw a whole turn: `n` cells of rotation angle `theta` with `n |theta|` above 2 pi. Six cells, which are drawn when the
-//!   scene says nothing, show a cell among its neighbours;
+//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says, and no more; faces that reach over
+//!   their rim are among them. Without end, every curved screw-periodic sheet winds round and meets itself: whether a
+//!   tube closes on itself is a question about a number of cells. To see it, draw a whole turn: `n` cells of rotation
+//!   angle `theta` with `n |theta|` above 2 pi. Six cells, which are drawn when the scene says nothing, show a cell
+//!   among its neighbours;
 //! - a **tube**: the rows of cells that are drawn, joined at the seam, where faces are neighbours as anywhere else.
 //!
-//! Fold angles are continued through pi, so an angle beyond it says that the two faces of a hinge have gone through each
-//! other on the way. Their positions alone do not show that (they are those of the opposite fold), hence it is asked of the
-//! angles.
+//! Fold angles are continued through pi, so an angle beyond it says that the two faces of a hinge have gone through
+//! each other on the way. Their positions alone do not show that (they are those of the opposite fold), hence it is
+//! asked of the angles.
 
 use super::Finder;
 use crate::analysis::shown_cells::ShownCells;
@@ -72,8 +72,8 @@ impl SelfIntersection {
         }
     }
 
-    /// The self-intersections of a state. `margin`: how deep faces may be in each other and still lie on each other, as a part
-    /// of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
+    /// The self-intersections of a state. `margin`: how deep faces may be in each other and still lie on each other, as
+    /// a part of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
     pub fn marks(&mut self, drawn: &Drawn, state: &State, margin: f64) -> Marks {
         let positions = self.view.positions(drawn, &state.coordinates);
         let mut found = self.finder.crossings(&positions, margin * self.mean_edge).faces;

@@ -6,7 +6,8 @@
 //!
 //! `closure(rho) = 0,  |K| = a,  t . K = 0`,  `K` the point of the tensor, `t` along the ring of the linear cone,
 //!
-//! by Newton's method. The energy of a patch has its zeros there too, found without the kinematics by [`zero_of_energy`].
+//! by Newton's method. The energy of a patch has its zeros there too, found without the kinematics by
+//! [`zero_of_energy`].
 
 use super::samples::SampleError;
 use super::sphere::{self, Direction, curvature};
@@ -51,8 +52,8 @@ impl<'a> Cone<'a> {
         Ok(Self { closure, modes, drawn, tensor: points * modes.basis.transpose() })
     }
 
-    /// The point of the cone at this amplitude near an azimuth, on the nappe of positive (1) or negative (-1) curvature, on the
-    /// unit sphere; `None` where Newton's method does not find it.
+    /// The point of the cone at this amplitude near an azimuth, on the nappe of positive (1) or negative (-1)
+    /// curvature, on the unit sphere; `None` where Newton's method does not find it.
     pub fn point(&self, azimuth: f64, nappe: i8, amplitude: f64) -> Option<Vec3> {
         let sign = f64::from(nappe);
         let start = Direction { polar: FRAC_PI_4, azimuth }.point() * sign;

@@ -16,8 +16,8 @@ pub struct Estimate {
     pub error: Option<f64>,
 }
 
-/// The coefficient `c4` of `energy = c4 a^4 + c5 a^5 + c6 a^6`, fitted to `(amplitude, energy)`; with fewer than three samples
-/// the last terms are left out. `None` without samples.
+/// The coefficient `c4` of `energy = c4 a^4 + c5 a^5 + c6 a^6`, fitted to `(amplitude, energy)`; with fewer than three
+/// samples the last terms are left out. `None` without samples.
 pub fn coefficient(samples: &[(f64, f64)]) -> Option<Estimate> {
     let terms = samples.len().min(3);
     let largest = samples.iter().map(|(a, _)| a.abs()).fold(0.0, f64::max);
@@ -28,16 +28,16 @@ pub fn coefficient(samples: &[(f64, f64)]) -> Option<Estimate> {
     first(&rows, terms)
 }
 
-/// Whether a fitted coefficient is the predicted one within three of its standard errors and what the series leaves out at
-/// the largest amplitude: not more than its fifth and sixth orders, and a thousandth for what linear solves lose.
+/// Whether a fitted coefficient is the predicted one within three of its standard errors and what the series leaves out
+/// at the largest amplitude: not more than its fifth and sixth orders, and a thousandth for what linear solves lose.
 pub fn agrees(samples: &[(f64, f64)], fitted: Estimate, predicted: Expansion) -> bool {
     let largest = samples.iter().map(|(a, _)| a.abs()).fold(0.0, f64::max);
     let next = predicted.fifth.abs() * largest + predicted.sixth.abs() * largest.powi(2);
     (fitted.value - predicted.fourth).abs() <= 3.0 * fitted.error.unwrap_or(0.0) + 1e-3 * predicted.fourth.abs() + next
 }
 
-/// The slope of log energy against log amplitude, from the three samples of smallest amplitude. `None` with fewer than two, or
-/// where an energy is not positive.
+/// The slope of log energy against log amplitude, from the three samples of smallest amplitude. `None` with fewer than
+/// two, or where an energy is not positive.
 pub fn exponent(samples: &[(f64, f64)]) -> Option<Estimate> {
     let mut smallest: Vec<(f64, f64)> = samples.to_vec();
     smallest.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
@@ -69,8 +69,8 @@ fn first(rows: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Estimate> {
 mod tests {
     use super::*;
 
-    /// Claim: polynomials of the fitted form give their coefficients back, and powers their exponents, with no error left.
-    /// Tolerance: rounding, times the condition of the fit.
+    /// Claim: polynomials of the fitted form give their coefficients back, and powers their exponents, with no error
+    /// left. Tolerance: rounding, times the condition of the fit.
     #[test]
     fn what_was_put_in_comes_out() {
         let energy = |a: f64| 7.0 * a.powi(4) - 3.0 * a.powi(5) + 2.0 * a.powi(6);

@@ -13,8 +13,8 @@ const OFF: f64 = 1e-6;
 
 /// A sheet and its modes.
 ///
-/// Rest angles are named by the edges of the piece of sheet that repeats: the edges of a cell on a patch, where all cells have
-/// the same, and all edges on a torus.
+/// Rest angles are named by the edges of the piece of sheet that repeats: the edges of a cell on a patch, where all
+/// cells have the same, and all edges on a torus.
 pub struct HeldSheet {
     /// The modes: orthonormal rates of rest angles as columns, a row for each edge of the piece that repeats.
     pub basis: DenseMatrix,
@@ -26,8 +26,8 @@ pub struct HeldSheet {
     pub model: Model,
     /// The modes of a cell by the curvatures they make; `None` on a torus, which has none.
     pub bending: Option<FoldingModes>,
-    /// Edge of the repeating piece of every hinge that is not rigid, in the order of the model's elements, soft ones first;
-    /// `None` for all other elements.
+    /// Edge of the repeating piece of every hinge that is not rigid, in the order of the model's elements, soft ones
+    /// first; `None` for all other elements.
     repeating: Vec<Option<usize>>,
     /// Rest values as drawn, in the same order.
     rests: Vec<f64>,
@@ -36,8 +36,8 @@ pub struct HeldSheet {
 }
 
 impl HeldSheet {
-    /// The sheet of an assembly held along its folding modes, at rest as drawn: those of a cell on a patch, all that stretch no bar
-    /// on a torus.
+    /// The sheet of an assembly held along its folding modes, at rest as drawn: those of a cell on a patch, all that
+    /// stretch no bar on a torus.
     ///
     /// # Errors
     /// [`LandscapeError`] where the modes are not known, a term has more than one stiffness, or bars are not at rest.
@@ -57,8 +57,8 @@ impl HeldSheet {
         }
     }
 
-    /// A model held along these modes, `locked` being the edges of the repeating piece that are rigid. `repeating` gives the
-    /// edge of the repeating piece of every edge of the tiling.
+    /// A model held along these modes, `locked` being the edges of the repeating piece that are rigid. `repeating`
+    /// gives the edge of the repeating piece of every edge of the tiling.
     pub(super) fn of_model(
         model: Model,
         (basis, motions): (DenseMatrix, Vec<Vec<f64>>),
@@ -148,8 +148,8 @@ impl HeldSheet {
         }
     }
 
-    /// An amount per edge of the repeating piece for every soft element and every stiff measure; zero where rest values do
-    /// not float.
+    /// An amount per edge of the repeating piece for every soft element and every stiff measure; zero where rest values
+    /// do not float.
     pub(crate) fn spread(&self, per_edge: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let of = |edge: &Option<usize>| edge.map_or(0.0, |edge| per_edge[edge]);
         let all: Vec<f64> = self.repeating.iter().map(of).collect();

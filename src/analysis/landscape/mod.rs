@@ -1,8 +1,8 @@
 //! Energy landscapes near the rigid limit: what a folding mode of a periodic sheet costs on a patch.
 //!
 //! The rest angles of a patch of `n1 x n2` cells are the same in every cell and are themselves unknowns, but for their
-//! components along the linear folding modes, which are held at an amplitude times a mode. What is left is the cost of not
-//! being a rigid folding. It goes as the fourth power of the amplitude for modes with Gaussian curvature, and its
+//! components along the linear folding modes, which are held at an amplitude times a mode. What is left is the cost of
+//! not being a rigid folding. It goes as the fourth power of the amplitude for modes with Gaussian curvature, and its
 //! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone.
 
 pub mod cone;

@@ -1,14 +1,14 @@
 //! The leading coefficient of a landscape, from linear solves alone.
 //!
-//! Along a linear mode the sheet moves by `x = x0 + a x1 + a^2 x2` and its rest angles by `p = p0 + a phi + a^2 p2`. Bars stretch by
-//! `a^2 (R x2 + e2)` and hinges are off by `a^2 (G x2 + r2 - p2)`, with `e2`, `r2` the second derivatives of length and fold angle
-//! along `x1`. The energy is `a^4` times
+//! Along a linear mode the sheet moves by `x = x0 + a x1 + a^2 x2` and its rest angles by `p = p0 + a phi + a^2 p2`.
+//! Bars stretch by `a^2 (R x2 + e2)` and hinges are off by `a^2 (G x2 + r2 - p2)`, with `e2`, `r2` the second
+//! derivatives of length and fold angle along `x1`. The energy is `a^4` times
 //!
 //! `min over x2, p2 of  sum (K/2) (G x2 + r2 - p2)^2 + sum t^2 / 2k,   R x2 + e2 = t / k,`
 //!
-//! `p2` the same in every cell and orthogonal to the modes. Rigid bars are the case `1/k = 0`. The sources are quadratic in
-//! the mode, so the coefficient is a quartic form: one linear solve for each pair of modes and one for each direction of
-//! `p2` give it for all modes at once.
+//! `p2` the same in every cell and orthogonal to the modes. Rigid bars are the case `1/k = 0`. The sources are
+//! quadratic in the mode, so the coefficient is a quartic form: one linear solve for each pair of modes and one for
+//! each direction of `p2` give it for all modes at once.
 
 use super::settling::{self, Settling, TermValues};
 use super::{HeldSheet, LandscapeError};
@@ -93,8 +93,8 @@ pub(super) fn curvature_forces(model: &Model, v: &[f64], (soft, stiff): (&[f64],
     all
 }
 
-/// Calls with the number of every element (soft ones first), the coordinates it depends on, and `H v` there: `H` its second
-/// derivative in the drawn state.
+/// Calls with the number of every element (soft ones first), the coordinates it depends on, and `H v` there: `H` its
+/// second derivative in the drawn state.
 fn each_curvature(model: &Model, v: &[f64], mut call: impl FnMut(usize, &[usize], &[f64])) {
     let x = model.coordinates(&model.start());
     let shared = x.len() - model.domain().shared()..x.len();

@@ -1,9 +1,9 @@
 //! Samples of a landscape: patches relaxed with their rest angles held along the modes and free across them.
 //!
-//! The rest angles are `p = p0 + a phi + C y`. A step of Newton's method moves the patch, its tensions and `y` together; after some
-//! of them the patch relaxes at these rest angles, and where torques are left there are more. A step has the gradient
-//! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
-//! predicts where the patch relaxes to next, so that one round is mostly enough.
+//! The rest angles are `p = p0 + a phi + C y`. A step of Newton's method moves the patch, its tensions and `y`
+//! together; after some of them the patch relaxes at these rest angles, and where torques are left there are more. A
+//! step has the gradient `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each
+//! direction of `C`. The response also predicts where the patch relaxes to next, so that one round is mostly enough.
 
 use super::settling::{Settling, TermValues};
 use super::taylor_path::HeldState;
@@ -32,8 +32,8 @@ const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
 /// Rounding errors of an angle or a length in its evaluation.
 const ROUNDINGS: f64 = 4.0;
-/// Energies above so many times what rounding makes are right to a fifth at least: the error of `k (off + e)^2 / 2` with `e`
-/// that of `k e^2 / 2` and `off` ten times as large.
+/// Energies above so many times what rounding makes are right to a fifth at least: the error of `k (off + e)^2 / 2`
+/// with `e` that of `k e^2 / 2` and `off` ten times as large.
 const ABOVE: f64 = 100.0;
 
 /// One sample.

@@ -1,4 +1,5 @@
-//! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
+//! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its
+//! modes.
 
 use super::taylor_path::HeldState;
 use super::{HeldSheet, LandscapeError};
@@ -87,8 +88,8 @@ impl<'a> Settling<'a> {
         Ok(settling)
     }
 
-    /// Where hinges that are off rest by `off` and stiff measures that are longer by `stretch` settle under these forces on
-    /// the unknowns, at given rest angles.
+    /// Where hinges that are off rest by `off` and stiff measures that are longer by `stretch` settle under these
+    /// forces on the unknowns, at given rest angles.
     fn respond(&mut self, (off, stretch): (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
         let model = &self.held.model;
         let forces: Vec<f64> = self.stiffness().iter().zip(off).map(|(stiffness, off)| -stiffness * off).collect();
@@ -130,8 +131,9 @@ impl<'a> Settling<'a> {
         Ok(least_squares(&self.hessian, &right)?.solution.column(0).into_owned())
     }
 
-    /// Newton's step for unknowns, tensions and rest angles together, at `(x, tension)`, which need not be an equilibrium; the
-    /// Hessian of the energy in the rest angles is that of equilibria near it. `longest` bounds what rest angles move by.
+    /// Newton's step for unknowns, tensions and rest angles together, at `(x, tension)`, which need not be an
+    /// equilibrium; the Hessian of the energy in the rest angles is that of equilibria near it. `longest` bounds what
+    /// rest angles move by.
     ///
     /// Fails where the energy is not convex in the rest angles.
     pub(crate) fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<HeldState, LandscapeError> {
@@ -159,8 +161,8 @@ impl<'a> Settling<'a> {
         hinges.sum::<f64>() + stiff.iter().zip(tension).map(|(c, t)| c * t).sum::<f64>()
     }
 
-    /// Twice the energy of a pair of responses. With the work of tensions on what is left open it is stationary where they are
-    /// exact: the error is of second order in what linear solves have left.
+    /// Twice the energy of a pair of responses. With the work of tensions on what is left open it is stationary where
+    /// they are exact: the error is of second order in what linear solves have left.
     pub(crate) fn product(&self, a: &Response, b: &Response) -> f64 {
         let hinges = a.off.iter().zip(&b.off).zip(self.stiffness()).map(|((a, b), k)| k * a * b);
         let bars =

@@ -1,9 +1,9 @@
 //! Energies over the sphere of the modes that curvature tensors name.
 //!
-//! A tensor `K` is the point `(k11, k22, sqrt(2) k12)`, so that distances are those of tensors and do not depend on axes. The
-//! sphere is laid out round the tensors of equal curvature in all directions, `u = (k11 + k22)/sqrt(2)`: rings of equal
-//! polar angle, on which `2 (k11 k22 - k12^2) = u^2 - (1 - u^2)` is constant. So the linear cone of cylinders is the rings
-//! at 45 degrees and the equator has opposite curvatures.
+//! A tensor `K` is the point `(k11, k22, sqrt(2) k12)`, so that distances are those of tensors and do not depend on
+//! axes. The sphere is laid out round the tensors of equal curvature in all directions, `u = (k11 + k22)/sqrt(2)`:
+//! rings of equal polar angle, on which `2 (k11 k22 - k12^2) = u^2 - (1 - u^2)` is constant. So the linear cone of
+//! cylinders is the rings at 45 degrees and the equator has opposite curvatures.
 
 use super::samples::{Sample, SampleError, Samples};
 use super::{HeldSheet, LandscapeError, TaylorPaths};
@@ -100,8 +100,8 @@ pub(crate) fn sample(
     Samples::new(held, course).at(amplitude, &mut |_| true)
 }
 
-/// Samples at points of the unit sphere, shared out over the threads; the same numbers for any number of threads. `go_on` is asked
-/// before each; those that come after it said no are `None`.
+/// Samples at points of the unit sphere, shared out over the threads; the same numbers for any number of threads.
+/// `go_on` is asked before each; those that come after it said no are `None`.
 pub fn samples(
     make: &(dyn Fn() -> Result<HeldSheet, LandscapeError> + Sync),
     courses: &TaylorPaths,

@@ -31,7 +31,8 @@ impl HeldState {
 pub struct TaylorPath {
     /// Rates of the rest angles along the modes.
     pub rates: Vec<f64>,
-    /// What goes with the powers of the amplitude. To first order a mode makes no tensions and needs no rest angles across.
+    /// What goes with the powers of the amplitude. To first order a mode makes no tensions and needs no rest angles
+    /// across.
     pub orders: [HeldState; ORDERS],
 }
 

@@ -1,7 +1,8 @@
 //! Where a sheet goes along any of its modes, from what it does along a few.
 //!
-//! What goes with the power `d` of the amplitude is a form of degree `d` in the amplitudes of the modes. Forms of degree three are
-//! known from their values at `(i, j, k, ...)`, whole numbers of sum three (a unisolvent set), and those of lower degree too.
+//! What goes with the power `d` of the amplitude is a form of degree `d` in the amplitudes of the modes. Forms of
+//! degree three are known from their values at `(i, j, k, ...)`, whole numbers of sum three (a unisolvent set), and
+//! those of lower degree too.
 
 use super::prediction::drawn;
 use super::taylor_path::ORDERS;

@@ -1,8 +1,8 @@
 //! Tori: every crease has its own rest angle, held along the motions that stretch no bar.
 //!
 //! Such a motion is a Bloch mode at a wavenumber that fits the torus, or one that is the same in every cell. At nonzero
-//! wavenumbers modes come as pairs of waves, a quarter of a wavelength apart; all of them are held, so that the one that
-//! was asked for neither turns into its partner nor is hindered by the creases.
+//! wavenumbers modes come as pairs of waves, a quarter of a wavelength apart; all of them are held, so that the one
+//! that was asked for neither turns into its partner nor is hindered by the creases.
 
 use super::{HeldSheet, LandscapeError};
 use crate::math::fold_angle::fold_angle_gradient;
@@ -24,8 +24,8 @@ impl HeldSheet {
     /// A torus; the rest angles of its terms are not read, those drawn take their place.
     ///
     /// # Errors
-    /// [`LandscapeError`] where no motion but the rigid ones leaves all bars as they are, and where the torus is too large to
-    /// tell.
+    /// [`LandscapeError`] where no motion but the rigid ones leaves all bars as they are, and where the torus is too
+    /// large to tell.
     pub fn torus(assembly: &Assembly) -> Result<Self, LandscapeError> {
         let (locked, angles) = (rigid_facets(assembly), assembly.drawn_angles());
         let facets = Hinges { stiffness: RIGID.into(), rest: angles.to_vec() };
@@ -50,8 +50,9 @@ impl HeldSheet {
         Self::of_model(model, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
     }
 
-    /// Rates of the mode of a torus that goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2) + phase)` from cell to cell: the mean
-    /// square over the cells, summed over the edges of a cell, is 1, and the edge that turns most has the phase zero.
+    /// Rates of the mode of a torus that goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2) + phase)` from cell to cell: the
+    /// mean square over the cells, summed over the edges of a cell, is 1, and the edge that turns most has the phase
+    /// zero.
     ///
     /// # Errors
     /// [`LandscapeError`] where no mode has this wavenumber.
@@ -111,7 +112,8 @@ fn fold_rates(assembly: &Assembly, motion: &[f64]) -> DVector<f64> {
     DVector::from_iterator(edges.len(), edges.iter().map(rate))
 }
 
-/// Orthonormal rates with the same span, and the motions that go with them. Fails where a motion has no rates of its own.
+/// Orthonormal rates with the same span, and the motions that go with them. Fails where a motion has no rates of its
+/// own.
 fn orthonormal(rates: DenseMatrix, motions: &[Vec<f64>]) -> Result<(DenseMatrix, Vec<Vec<f64>>), LandscapeError> {
     let moving = DenseMatrix::from_columns(&motions.iter().map(|m| DVector::from_column_slice(m)).collect::<Vec<_>>());
     let rank = rank_at_largest_gap(&singular_values(&rates)?)?.rank;

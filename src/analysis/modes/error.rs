@@ -6,7 +6,8 @@ use crate::numerics::eigen::EigenError;
 use crate::numerics::factor::FactorError;
 use thiserror::Error;
 
-/// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot give.
+/// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot
+/// give.
 pub(crate) const DENSE_EIGENVALUES: usize = 2000;
 /// Most eigenvalues that are asked of the iteration.
 pub const SPARSE_EIGENVALUES: usize = 256;

@@ -1,7 +1,7 @@
 //! Motions of a tube that its closing conditions leave free, each set of conditions on its own.
 //!
-//! Two motions are left without conditions, one if the seam keeps its angle (it slips along itself) or its rise (it opens), and
-//! none with both: generic tubes are rigid within screw-symmetric motions.
+//! Two motions are left without conditions, one if the seam keeps its angle (it slips along itself) or its rise (it
+//! opens), and none with both: generic tubes are rigid within screw-symmetric motions.
 
 use super::error::ModesError;
 use super::rank::{rank_of, rigid_part};
@@ -26,7 +26,8 @@ pub struct SeamMotions {
     pub rise: usize,
     /// Number of motions that keep angle and rise of the seam.
     pub both: usize,
-    /// Smallest of the four ratios of the smallest kept to the largest dropped singular value; infinite where none is dropped.
+    /// Smallest of the four ratios of the smallest kept to the largest dropped singular value; infinite where none is
+    /// dropped.
     pub gap: f64,
 }
 

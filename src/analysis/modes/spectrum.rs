@@ -1,7 +1,8 @@
 //! The lowest eigenvalues of the energy's Hessian at a state, dense or by iteration.
 //!
 //! The Hessian is that of the whole energy: tensions of bars add their geometric stiffness. Its unknowns may be given
-//! factors, `x_k = factor_k y_k`: with the inverse square roots of masses the eigenvalues by `y` are squared frequencies.
+//! factors, `x_k = factor_k y_k`: with the inverse square roots of masses the eigenvalues by `y` are squared
+//! frequencies.
 
 use super::error::{DENSE_EIGENVALUES, ModesError, SPARSE_EIGENVALUES};
 use crate::model::Model;
@@ -44,12 +45,14 @@ pub(super) fn linearized(model: &Model, tension: &[f64]) -> Linearization {
 /// Eigenvalues and eigenvectors, and the largest diagonal entry of the matrix.
 type Pairs = (Vec<f64>, Vec<Vec<f64>>, f64);
 
-/// Whether the dense way finds this number of eigenpairs of a model, of which at most `free` are finite: else the iteration does.
+/// Whether the dense way finds this number of eigenpairs of a model, of which at most `free` are finite: else the
+/// iteration does.
 ///
 /// # Errors
 /// [`ModesError::TooManyEigenvalues`] where neither does.
 pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<bool, ModesError> {
-    // the iteration works on 4 wanted + 64 vectors, of which there must be so many; and it cannot find more than there are
+    // the iteration works on 4 wanted + 64 vectors, of which there must be so many; and it cannot find more than there
+    // are
     let iterated = wanted <= SPARSE_EIGENVALUES && 4 * wanted + 64 <= unknowns;
     if unknowns <= DENSE_LIMIT {
         Ok(true)
@@ -62,8 +65,8 @@ pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<b
     }
 }
 
-/// Lowest eigenvalues and eigenvectors of the energy's Hessian, by unknowns with these factors, at the model's reference
-/// state with these tensions, on what the rigid terms leave free, which is at most `free`.
+/// Lowest eigenvalues and eigenvectors of the energy's Hessian, by unknowns with these factors, at the model's
+/// reference state with these tensions, on what the rigid terms leave free, which is at most `free`.
 pub(super) fn lowest(
     (model, tension): (&Model, &[f64]),
     factors: &[f64],
@@ -114,8 +117,8 @@ fn lowest_dense(
     Ok((found.values[..count].to_vec(), vectors, at.pattern().largest_diagonal(&values)))
 }
 
-/// Returns the lowest eigenvalues of the Hessian `H` on the null space of the rigid measures, and their vectors. They are
-/// found by shift and invert, as the largest eigenvalues of `(H + shift)^-1`.
+/// Returns the lowest eigenvalues of the Hessian `H` on the null space of the rigid measures, and their vectors. They
+/// are found by shift and invert, as the largest eigenvalues of `(H + shift)^-1`.
 fn lowest_sparse(
     (model, tension): (&Model, &[f64]),
     factors: &[f64],
@@ -130,7 +133,8 @@ fn lowest_sparse(
     let unit = tangent.at.pattern().largest_diagonal(&tangent.at.hessian);
     let (mut shift, mut powers) = (0.0, 0..SHIFTS);
     loop {
-        // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of its own
+        // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of
+        // its own
         let power = powers.next().ok_or(FactorError::Singular { ratio: 0.0 })?;
         let next = 1e-7 * unit * 4f64.powi(power);
         go_on(observe)?;

@@ -1,8 +1,8 @@
 //! Small vibrations about a state: the eigenvalues of the energy's Hessian `H` against the masses `M` of the vertices.
 //!
-//! `H u = omega^2 M u`. `M` is diagonal, so that with `u = M^(-1/2) y` the eigenvalues are those of the symmetric matrix
-//! `M^(-1/2) H M^(-1/2)`. Masses enter relative to the largest one: multiplying all of them by a number divides every
-//! `omega^2` by it and changes nothing else.
+//! `H u = omega^2 M u`. `M` is diagonal, so that with `u = M^(-1/2) y` the eigenvalues are those of the symmetric
+//! matrix `M^(-1/2) H M^(-1/2)`. Masses enter relative to the largest one: multiplying all of them by a number divides
+//! every `omega^2` by it and changes nothing else.
 
 use super::error::ModesError;
 use super::spectrum::{Observer, Spectrum, lowest};
@@ -11,11 +11,11 @@ use crate::model::{Assembly, Boundary, Model};
 /// The slowest vibrations of a sheet about a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vibrations {
-    /// Squares of the angular frequencies, ascending, in stiffness over mass; negative where the motion grows. Those of at most
-    /// `rounding` in magnitude are exactly 0.
+    /// Squares of the angular frequencies, ascending, in stiffness over mass; negative where the motion grows. Those of
+    /// at most `rounding` in magnitude are exactly 0.
     pub squares: Vec<f64>,
-    /// Bound on the rounding error of a square: `4 sqrt(n) epsilon d`, with `n` unknowns, the machine epsilon, and the largest
-    /// diagonal entry `d` of `M^(-1/2) H M^(-1/2)`.
+    /// Bound on the rounding error of a square: `4 sqrt(n) epsilon d`, with `n` unknowns, the machine epsilon, and the
+    /// largest diagonal entry `d` of `M^(-1/2) H M^(-1/2)`.
     pub rounding: f64,
     /// Velocities `u` of all coordinates, one list for each square, with `u^T M u = 1`.
     pub vectors: Vec<Vec<f64>>,
@@ -45,7 +45,8 @@ impl Vibrations {
         self.squares.iter().map(|&square| (square < 0.0).then(|| (-square).sqrt())).collect()
     }
 
-    /// Finds the slowest vibrations of a model at its reference state with these tensions; `None` if the sheet has no mass.
+    /// Finds the slowest vibrations of a model at its reference state with these tensions; `None` if the sheet has no
+    /// mass.
     pub(super) fn lowest(
         assembly: &Assembly,
         (model, tension): (&Model, &[f64]),

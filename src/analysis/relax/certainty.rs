@@ -11,10 +11,10 @@ const ROUGH: f64 = 0.1;
 /// Scaled force above which the state of a sheet under torques is not balanced.
 const UNBALANCED: f64 = 1e-9;
 
-/// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual
-/// means for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose axis
-/// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
-/// torques has a residual that is no rounding error of theirs.
+/// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual means
+/// for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose
+/// axis has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a
+/// state under torques has a residual that is no rounding error of theirs.
 pub(super) fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
     if !model.gauge_is_valid(&found.x) {
         return Some(f64::INFINITY);
@@ -37,8 +37,8 @@ pub(super) fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) ->
     next_change(&mut tangent, &found.tension).or_else(unknown)
 }
 
-/// The largest change of a soft hinge's angle in the Newton step from a factored state, in radians; `None` where the linear system tells
-/// none.
+/// The largest change of a soft hinge's angle in the Newton step from a factored state, in radians; `None` where the
+/// linear system tells none.
 pub(super) fn next_change(tangent: &mut Tangent, tension: &[f64]) -> Option<f64> {
     let step = tangent.newton_step(tension, ROUGH);
     (step.residual <= ROUGH).then(|| tangent.at.largest_measure_change(&step.dx))

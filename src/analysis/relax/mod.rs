@@ -45,7 +45,8 @@ pub struct Relaxed {
     pub self_stresses: Option<usize>,
     /// All accepted steps.
     pub history: Vec<Step>,
-    /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after it.
+    /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after
+    /// it.
     pub routes: Vec<RouteTried>,
     /// Why fold angles were given up, if they were tried as unknowns.
     pub intrinsic_failure: Option<IntrinsicFailure>,
@@ -106,12 +107,13 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
     relax_from(&model, model.start(), Options::default(), &mut |_| true)
 }
 
-/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. The model stays as it is; many starts
-/// may share it. `observe` sees every accepted step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`].
+/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. The model stays as
+/// it is; many starts may share it. `observe` sees every accepted step and returns false to stop. [`Options`] alone
+/// leave the method to [`Method::Auto`].
 ///
-/// Newton's method begins at the start, in positions or in fold angles. Where it fails, or ends in a saddle or another state that need not
-/// be the answer, other ways are tried one after the other: [`Relaxed::routes`] names those that helped. A start that knows its tensions
-/// asks for the equilibrium next to it, whatever its stability.
+/// Newton's method begins at the start, in positions or in fold angles. Where it fails, or ends in a saddle or another
+/// state that need not be the answer, other ways are tried one after the other: [`Relaxed::routes`] names those that
+/// helped. A start that knows its tensions asks for the equilibrium next to it, whatever its stability.
 ///
 /// ```
 /// use foldwell::analysis::relax::RelaxOptions;
@@ -143,7 +145,8 @@ pub fn relax_from(
     relax_model(model.clone(), start, options, observe).map(|(relaxed, _, _)| relaxed)
 }
 
-/// Relaxes as [`relax_from`] does, and returns the model at the equilibrium too, with its unknowns there: for those who go on with it.
+/// Relaxes as [`relax_from`] does, and returns the model at the equilibrium too, with its unknowns there: for those who
+/// go on with it.
 pub(crate) fn relax_model(
     model: Model,
     start: impl Into<Start>,

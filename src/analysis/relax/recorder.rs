@@ -5,7 +5,8 @@ use crate::model::Model;
 use crate::solver::{Equilibrium, NewtonError, Options, Start, Step, minimize_iterates};
 use std::num::NonZeroUsize;
 
-/// A state on the way of a relaxation, which [`RelaxOptions::keep_every`](crate::analysis::relax::RelaxOptions::keep_every) asks for.
+/// A state on the way of a relaxation, which
+/// [`RelaxOptions::keep_every`](crate::analysis::relax::RelaxOptions::keep_every) asks for.
 ///
 /// ```
 /// use foldwell::analysis::relax::RelaxOptions;
@@ -40,7 +41,8 @@ pub(super) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// An observer that shows steps to `observe` and keeps one in `every` states, the first one included; none without that.
+    /// An observer that shows steps to `observe` and keeps one in `every` states, the first one included; none without
+    /// that.
     pub(super) fn new(observe: &'a mut dyn FnMut(&Step) -> bool, every: Option<NonZeroUsize>) -> Self {
         Self { observe, every, history: vec![], kept: vec![] }
     }
@@ -86,8 +88,8 @@ impl<'a> Recorder<'a> {
         self.kept.retain(|kept| kept.iteration < steps);
     }
 
-    /// Returns the history, and the states that were kept, the last of the history among them in any case: as `last`, where that is
-    /// known.
+    /// Returns the history, and the states that were kept, the last of the history among them in any case: as `last`,
+    /// where that is known.
     pub(super) fn end(mut self, last: Option<&State>) -> (Vec<Step>, Vec<KeptState>) {
         if let Some(last) = last.filter(|_| self.every.is_some()) {
             let iteration = self.steps().saturating_sub(1);
@@ -135,7 +137,8 @@ mod tests {
         assert_eq!(kept_of(None, unmade), []);
     }
 
-    /// Claim: steps that are forgotten leave no state, and those after them are counted as if they had never been. Exact.
+    /// Claim: steps that are forgotten leave no state, and those after them are counted as if they had never been.
+    /// Exact.
     #[test]
     fn forgotten_steps_leave_no_state() {
         let kept = kept_of(Some(2), |recorder| {

@@ -1,8 +1,8 @@
 //! The ways to go on from how a relaxation ended: a list, in the order in which they are tried.
 //!
-//! A relaxation begins with Newton's method in positions, or in fold angles where that is faster. Each route then sees how the
-//! relaxation ended so far, says whether it is wanted, and returns how it ends with it. Routes that look for something better return
-//! the ending before where they find nothing.
+//! A relaxation begins with Newton's method in positions, or in fold angles where that is faster. Each route then sees
+//! how the relaxation ended so far, says whether it is wanted, and returns how it ends with it. Routes that look for
+//! something better return the ending before where they find nothing.
 
 mod bent_screw;
 pub(super) mod fold_angles;
@@ -26,8 +26,8 @@ pub(super) struct Route {
     pub(super) go: fn(&mut Run<'_>, Ending) -> Ending,
 }
 
-/// All routes, in order: first those for relaxations that failed, then those that look for a lower energy, then those that settle what is
-/// held and the tensions.
+/// All routes, in order: first those for relaxations that failed, then those that look for a lower energy, then those
+/// that settle what is held and the tensions.
 pub(super) const ROUTES: [Route; 9] = [
     Route { name: "soft bars", wanted: soft_bars::is_singular, go: soft_bars::leave },
     Route { name: "fold angles", wanted: fold_angles::may_help, go: fold_angles::from_the_start },

@@ -1,4 +1,5 @@
-//! One relaxation on its way: the model, what is asked for, where it began, and what has been done so far. The routes work on it.
+//! One relaxation on its way: the model, what is asked for, where it began, and what has been done so far. The routes
+//! work on it.
 
 use super::recorder::Recorder;
 use crate::analysis::relax::options::{IntrinsicFailure, Method, RelaxOptions};
@@ -21,7 +22,8 @@ pub struct RouteTried {
     pub iterations: usize,
     /// The failure that stood after it; `None` for an equilibrium.
     pub failure: Option<Failure>,
-    /// Negative eigenvalues of the equilibrium that stood after it; `None` where it is none, or where they could not be counted.
+    /// Negative eigenvalues of the equilibrium that stood after it; `None` where it is none, or where they could not be
+    /// counted.
     pub negative_eigenvalues: Option<usize>,
 }
 
@@ -71,13 +73,14 @@ impl<'a> Run<'a> {
         Self { model, options, method, start, start_energy, recorder, routes, soft_steps, intrinsic_failure: None }
     }
 
-    /// Whether tensions were known at the start: it is then next to an equilibrium, and the relaxation stays on its branch.
+    /// Whether tensions were known at the start: it is then next to an equilibrium, and the relaxation stays on its
+    /// branch.
     pub(super) fn is_restarted(&self) -> bool {
         self.start.tension.is_some()
     }
 
-    /// Notes a way that was taken, with the steps that it added after the first `steps` of the history. One that found nothing better than
-    /// the equilibrium that was there is passed over.
+    /// Notes a way that was taken, with the steps that it added after the first `steps` of the history. One that found
+    /// nothing better than the equilibrium that was there is passed over.
     pub(super) fn note(&mut self, name: &'static str, steps: usize, ending: &Ending) {
         let added = self.recorder.history().get(steps..).unwrap_or_default();
         if added.is_empty() && ending.is_ok() {
@@ -104,8 +107,8 @@ impl<'a> Run<'a> {
         self.model.enter(&self.start).x
     }
 
-    /// Tries another way and takes its ending where it has one that is `better` than the one before; else the model and the history
-    /// are again as they were.
+    /// Tries another way and takes its ending where it has one that is `better` than the one before; else the model and
+    /// the history are again as they were.
     pub(super) fn prefer(
         &mut self,
         before: Ending,

@@ -1,4 +1,5 @@
-//! Compatibility: rates of lengths and fold angles when the vertices of a cell move and the lattice is strained and bent.
+//! Compatibility: rates of lengths and fold angles when the vertices of a cell move and the lattice is strained and
+//! bent.
 //!
 //! The copy of vertex `x` in the cell `(n1, n2)` moves with the twist of `A1^n1 A2^n2`, where the lattice motion
 //! `A_a x = S_a x + l_a` changes at the rates `Omega_a` and `dl_a`. A strain `E` and a curvature tensor `K` give
@@ -18,8 +19,8 @@ use nalgebra::{Matrix2, Vector2};
 /// Components of strain and of curvature.
 pub(super) const MACROSCOPIC: usize = 6;
 
-/// Rates of the measures of some elements, all of them lengths: a fold angle counts times the root of the cell's area, so that no
-/// unit decides which of them matter.
+/// Rates of the measures of some elements, all of them lengths: a fold angle counts times the root of the cell's area,
+/// so that no unit decides which of them matter.
 pub(super) struct Rates {
     /// Per unit velocity of the vertices of the cell: a row for each element, three columns for each vertex.
     pub by_vertices: DenseMatrix,

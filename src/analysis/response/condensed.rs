@@ -1,18 +1,18 @@
 //! The condensation of the springs of a cell: its energy under strains and bendings of the lattice, minimised over the
 //! motions of its vertices, for any stiffness of the bars.
 //!
-//! The unit of length is `length`, the square root of the cell's area. The vector `y` is a motion: the velocities of the
-//! vertices, and the strain and curvature `m` in the norm of [`Principal`]. Rigid elements restrict it to `R y = 0`. What
-//! is left is split into the motions that change no bar's length, among them the rigid modes with strains and curvatures
-//! `T`, and the others, `c`. Of these
+//! The unit of length is `length`, the square root of the cell's area. The vector `y` is a motion: the velocities of
+//! the vertices, and the strain and curvature `m` in the norm of [`Principal`]. Rigid elements restrict it to
+//! `R y = 0`. What is left is split into the motions that change no bar's length, among them the rigid modes with
+//! strains and curvatures `T`, and the others, `c`. Of these
 //!
 //! - a part is given by the strains and curvatures across `T`: `c = G^+ x + Y d` with `G Y = 0`, and
 //! - `d` minimises the energy, `Y^T Q (G^+ x + Y d) + Y^T A^T B t = 0`, for the amplitude `t` of the rigid modes,
 //!
-//! where `Q` is the stiffness of bars and hinges along `c`, and `A` and `B` the rates of the hinges along `c` and along the
-//! rigid modes, weighted by the roots of their stiffnesses and without what motions that neither strain nor bend make of
-//! them. Along the rigid modes the stiffness is `B^T B` less what `d` relaxes, which falls as the inverse of the stiffness
-//! of the bars: no large number is subtracted from another, and rigid bars are the limit.
+//! where `Q` is the stiffness of bars and hinges along `c`, and `A` and `B` the rates of the hinges along `c` and along
+//! the rigid modes, weighted by the roots of their stiffnesses and without what motions that neither strain nor bend
+//! make of them. Along the rigid modes the stiffness is `B^T B` less what `d` relaxes, which falls as the inverse of
+//! the stiffness of the bars: no large number is subtracted from another, and rigid bars are the limit.
 
 use super::cell::{CellElement, PeriodicCell};
 use super::compatibility::{MACROSCOPIC, rates};
@@ -217,8 +217,8 @@ impl Condensed {
         self.principal(&self.limit, &self.rigid, |value| value)
     }
 
-    /// Returns the softest principal strains and bendings of all, as many as there are rigid modes, by rising stiffness.
-    /// They are the largest eigenvalues of the compliance, which keeps their digits beside stiff bars.
+    /// Returns the softest principal strains and bendings of all, as many as there are rigid modes, by rising
+    /// stiffness. They are the largest eigenvalues of the compliance, which keeps their digits beside stiff bars.
     ///
     /// # Errors
     /// [`ResponseError::Decomposition`].
@@ -261,8 +261,8 @@ impl Condensed {
         )
     }
 
-    /// Returns the eigenvectors of a matrix in a frame of strains and curvatures, by rising eigenvalues, with the stiffness
-    /// that belongs to each eigenvalue.
+    /// Returns the eigenvectors of a matrix in a frame of strains and curvatures, by rising eigenvalues, with the
+    /// stiffness that belongs to each eigenvalue.
     fn principal(
         &self,
         matrix: &DenseMatrix,

@@ -109,11 +109,11 @@ fn rigid_terms(assembly: &Assembly) -> Terms {
     Terms { bars: Some(RIGID.into()), locks, ..Terms::default() }
 }
 
-/// Returns Poisson's ratios in the plane and of bending, along the first lattice vector, of a state; `None` for one that
-/// does not exist, as for a state that is rolled up.
+/// Returns Poisson's ratios in the plane and of bending, along the first lattice vector, of a state; `None` for one
+/// that does not exist, as for a state that is rolled up.
 ///
-/// The argument `bending` says which modes are meant: if it is true, all polygons bend and locks are released; otherwise
-/// rigid polygons and locks keep their angles.
+/// The argument `bending` says which modes are meant: if it is true, all polygons bend and locks are released;
+/// otherwise rigid polygons and locks keep their angles.
 ///
 /// # Errors
 /// As [`response_at`].

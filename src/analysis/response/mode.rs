@@ -109,8 +109,8 @@ impl RawTable {
         })
     }
 
-    /// Returns the modes by which the table is shown, as combinations of the basis, and the spaces of their tensors; `error` is
-    /// the error of the basis.
+    /// Returns the modes by which the table is shown, as combinations of the basis, and the spaces of their tensors;
+    /// `error` is the error of the basis.
     ///
     /// First the modes without curvature, by falling strain, each with 1 as its largest component of strain, or of norm
     /// 1 if it has no strain. Then modes with curvature, orthogonal to those: of three, those with one component 1 and

@@ -12,8 +12,8 @@ use super::error::ResponseError;
 use super::moduli_matrices::{ModuliMatrices, Principal};
 use crate::model::{Assembly, Configuration, Gauge};
 
-/// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to that length,
-/// in a state at rest.
+/// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to that
+/// length, in a state at rest.
 const AT_REST: f64 = 1e-9;
 
 /// The effective moduli of a sheet.
@@ -22,8 +22,8 @@ pub struct Moduli {
     /// The moduli; `None` where rigid elements make some of them infinite.
     pub matrices: Option<ModuliMatrices>,
     /// Moduli of the bars alone, with hinges of no stiffness and the stiffest bar of `EA = 1`: the limit of the moduli
-    /// over `EA` for stiff bars. Their null space are the rigid modes. `None` where rigid polygons or locks make some of
-    /// them infinite.
+    /// over `EA` for stiff bars. Their null space are the rigid modes. `None` where rigid polygons or locks make some
+    /// of them infinite.
     pub rigid_limit: Option<ModuliMatrices>,
     /// Principal strains and bendings of the rigid modes alone, in the limit of rigid bars, by rising stiffness.
     pub rigid_modes: Vec<Principal>,
@@ -44,7 +44,8 @@ pub enum ModuliOf {
     RolledUp,
     /// The state is under stress: an element is off its rest value.
     UnderStress {
-        /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to it.
+        /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to
+        /// it.
         off: f64,
     },
 }
@@ -102,7 +103,8 @@ pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<Mo
     })))
 }
 
-/// Returns how far an element of finite stiffness is off its rest value: an angle in radians, or a length relative to it.
+/// Returns how far an element of finite stiffness is off its rest value: an angle in radians, or a length relative to
+/// it.
 fn off_rest(cell: &PeriodicCell, CellElement { element, .. }: &CellElement<'_>) -> f64 {
     let spring = element.spring;
     if spring.stiffness.is_infinite() {

@@ -11,8 +11,8 @@ pub struct ModuliMatrices {
     pub bending: [[f64; 3]; 3],
 }
 
-/// A principal strain and bending: an eigenvector of the moduli in the norm `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 +
-/// 2 k12^2)` with the area `A` of the cell.
+/// A principal strain and bending: an eigenvector of the moduli in the norm
+/// `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)` with the area `A` of the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Principal {
     /// Strain, of norm 1 together with the curvature.

@@ -4,11 +4,11 @@
 //! self stress of the bars, which does no work on the other). Let one mode of three strain the sheet by `E` without
 //! bending it. Then every other mode bends it by a `K` with `cof(K) : E = 0`, that is, in the frame of any direction,
 //! `k_across e_along + k_along e_across = 2 k_twist e_shear`; and of the two curvature tensors that are left one has no
-//! twist in this direction. So `-k_across/k_along = +e_across/e_along`: in every direction the ratio of bending is minus
-//! the one in the plane. Cells of four parallelograms have such a mode by their symmetry (J. McInerney, G. H. Paulino,
-//! D. Z. Rocklin, "Discrete symmetries control geometric mechanics in parallelogram-based origami", PNAS 119,
-//! e2202777119 (2022)); for Miura-ori see M. Schenk, S. D. Guest, PNAS 110, 3276 (2013) and Z. Y. Wei, Z. V. Guo,
-//! L. Dudte, H. Y. Liang, L. Mahadevan, Phys. Rev. Lett. 110, 215501 (2013).
+//! twist in this direction. So `-k_across/k_along = +e_across/e_along`: in every direction the ratio of bending is
+//! minus the one in the plane. Cells of four parallelograms have such a mode by their symmetry (J. McInerney, G. H.
+//! Paulino, D. Z. Rocklin, "Discrete symmetries control geometric mechanics in parallelogram-based origami", PNAS 119,
+//! e2202777119 (2022)); for Miura-ori see M. Schenk, S. D. Guest, PNAS 110, 3276 (2013) and Z. Y. Wei, Z. V. Guo, L.
+//! Dudte, H. Y. Liang, L. Mahadevan, Phys. Rev. Lett. 110, 215501 (2013).
 
 use super::mode::{LinearMode, ModeTable};
 use super::tensors::{TensorSpace, flat};
@@ -58,8 +58,8 @@ pub enum Relation {
     NoModes,
     /// Every combination of modes bends the sheet: there is no ratio in the plane.
     NoPlanarMode {
-        /// Least curvature of a mode, relative to the largest, for modes of norm 1: small where the sheet is close to one
-        /// that has a ratio.
+        /// Least curvature of a mode, relative to the largest, for modes of norm 1: small where the sheet is close to
+        /// one that has a ratio.
         least: f64,
     },
     /// Several modes strain the sheet without bending it: there is no single ratio in the plane.
@@ -130,8 +130,9 @@ impl Relation {
 }
 
 impl Poisson {
-    /// Finds the ratios of these modes, which are arranged, those without curvature first, with the spaces of the strains of
-    /// those and of all curvatures. `length` is the unit of length, `locked` whether some hinges keep their angles.
+    /// Finds the ratios of these modes, which are arranged, those without curvature first, with the spaces of the
+    /// strains of those and of all curvatures. `length` is the unit of length, `locked` whether some hinges keep their
+    /// angles.
     pub(super) fn new(
         sheet: &Sheet,
         (modes, [in_plane, bent]): (&[LinearMode], [TensorSpace; 2]),

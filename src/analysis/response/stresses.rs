@@ -24,8 +24,8 @@ pub struct SelfStress {
     pub moment: [f64; 3],
 }
 
-/// Returns an orthonormal basis of the self stresses, by falling [work](ordered_by_work); `assembly` is the one of the cell, with rigid
-/// terms alone.
+/// Returns an orthonormal basis of the self stresses, by falling [work](ordered_by_work); `assembly` is the one of the
+/// cell, with rigid terms alone.
 ///
 /// # Errors
 /// [`ResponseError::Decomposition`] where their number is not clear.
@@ -53,9 +53,9 @@ pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<Se
     Ok(basis.column_iter().map(|values| stress(values.as_slice())).collect())
 }
 
-/// Returns the orthonormal basis of the same space whose forces and moments are orthogonal too, moments divided by this length: the right
-/// singular vectors of these six numbers, by falling singular value. The largest number of each is positive. Stresses that do no work
-/// come last. Where singular values are equal the basis is any.
+/// Returns the orthonormal basis of the same space whose forces and moments are orthogonal too, moments divided by this
+/// length: the right singular vectors of these six numbers, by falling singular value. The largest number of each is
+/// positive. Stresses that do no work come last. Where singular values are equal the basis is any.
 fn ordered_by_work(basis: &DenseMatrix, by_lattice: &DenseMatrix, length: f64) -> Result<DenseMatrix, DenseError> {
     let mut work = by_lattice.transpose() * basis;
     (3..6).for_each(|k| work.row_mut(k).unscale_mut(length));

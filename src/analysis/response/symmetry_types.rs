@@ -1,8 +1,9 @@
-//! Linear folding modes and self stresses of a cell by symmetry type: even, if a symmetry of the sheet carries them into
-//! themselves, or odd, if it reverses their sign.
+//! Linear folding modes and self stresses of a cell by symmetry type: even, if a symmetry of the sheet carries them
+//! into themselves, or odd, if it reverses their sign.
 //!
-//! A symmetry carries the rate of an edge to the image of the edge, with the other sign if it turns the sheet over. On the
-//! space of the modes it is a map whose square is the identity: its trace is the number of even less that of odd ones.
+//! A symmetry carries the rate of an edge to the image of the edge, with the other sign if it turns the sheet over. On
+//! the space of the modes it is a map whose square is the identity: its trace is the number of even less that of odd
+//! ones.
 
 use super::cell::PeriodicCell;
 use super::mode::LinearMode;
@@ -46,8 +47,8 @@ pub(super) fn of_cell(cell: &PeriodicCell, modes: &[LinearMode], stresses: &[Sel
     counted.flatten().collect()
 }
 
-/// Returns the numbers of even and odd vectors in the span of a list, under the map that carries entry `k` to another place with a
-/// sign; `None` if the map does not keep the span.
+/// Returns the numbers of even and odd vectors in the span of a list, under the map that carries entry `k` to another
+/// place with a sign; `None` if the map does not keep the span.
 fn types(vectors: &[Vec<f64>], image: impl Fn(usize) -> (usize, f64)) -> Option<[usize; 2]> {
     let Some(length) = vectors.first().map(Vec::len) else { return Some([0, 0]) };
     // of norm 1, since modes of different units may span the space

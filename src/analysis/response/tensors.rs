@@ -15,8 +15,8 @@ const LEAST_GAP: f64 = 1e3;
 pub struct TensorSpace {
     /// A basis, orthonormal in the product `a11 b11 + a22 b22 + 2 a12 b12`.
     pub basis: Vec<[f64; 3]>,
-    /// How far off the components of the basis may be: the error of modes of norm 1 over the smallest singular value of their
-    /// tensors.
+    /// How far off the components of the basis may be: the error of modes of norm 1 over the smallest singular value of
+    /// their tensors.
     pub uncertainty: f64,
 }
 
@@ -111,12 +111,13 @@ impl TensorSpace {
     /// along the direction.
     ///
     /// In a space of one tensor it is that of the tensor, with whatever shear it has; in a space of two tensors that of
-    /// the one without shear (or twist) in this direction. The component along the direction is none where it is below 1e-9 of
-    /// the tensor's norm, as a tensor below 1e-9 of its mode is none, and where less than three digits of it are known.
+    /// the one without shear (or twist) in this direction. The component along the direction is none where it is below
+    /// 1e-9 of the tensor's norm, as a tensor below 1e-9 of its mode is none, and where less than three digits of it
+    /// are known.
     ///
     /// # Errors
-    /// [`NoRatio`] where there is no tensor, where any ratio is possible, and where the tensor has no component along the
-    /// direction.
+    /// [`NoRatio`] where there is no tensor, where any ratio is possible, and where the tensor has no component along
+    /// the direction.
     pub fn ratio(&self, angle: f64) -> Result<f64, NoRatio> {
         let least = larger(ZERO, LEAST_GAP * self.uncertainty);
         let [along, across] = match &self.basis[..] {
@@ -181,9 +182,9 @@ mod tests {
         assert_eq!(space(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).ratio(0.0), Err(NoRatio::Any));
     }
 
-    /// Claim: where a tensor has neither strain along a direction nor across it there is no ratio, whatever rounding leaves of
-    /// both; an eighth of a turn from such a direction the ratio of the same tensor is 1. A tensor that is known to 1e-6 only has
-    /// none where 1e-4 of it is left.
+    /// Claim: where a tensor has neither strain along a direction nor across it there is no ratio, whatever rounding
+    /// leaves of both; an eighth of a turn from such a direction the ratio of the same tensor is 1. A tensor that is
+    /// known to 1e-6 only has none where 1e-4 of it is left.
     #[test]
     fn no_ratio_of_rounding() {
         let space = |tensor: [f64; 3], error: f64| TensorSpace::new(&span(&[tensor]).unwrap(), error);

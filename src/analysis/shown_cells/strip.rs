@@ -2,10 +2,11 @@
 
 use crate::sheet::{Corner, Seam, SeamKept, Sheet, Site, TiledEdge, TiledTriangle, Tiling};
 
-/// Returns `cells[0]` strands and `cells[1]` rows of the cells of a tube: cell `(a, b)` is the cell `a p + b m` of the sheet.
+/// Returns `cells[0]` strands and `cells[1]` rows of the cells of a tube: cell `(a, b)` is the cell `a p + b m` of the
+/// sheet.
 ///
-/// Everything that begins in these cells is there once. All strands of a closed tube join at the seam; elsewhere, vertices
-/// beyond the last cell are copies, translated by the numbers of strands and rows, as on a torus.
+/// Everything that begins in these cells is there once. All strands of a closed tube join at the seam; elsewhere,
+/// vertices beyond the last cell are copies, translated by the numbers of strands and rows, as on a torus.
 pub(super) fn strip(sheet: &Sheet, seam: &Seam, kept: SeamKept, cells: [usize; 2]) -> Tiling {
     let joined = kept.is_closed() && cells[0] == seam.strands() as usize;
     let count = cells.map(|n| n as i32);

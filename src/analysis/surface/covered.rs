@@ -42,8 +42,9 @@ pub struct Surface {
     pub triangles: Vec<[usize; 3]>,
     /// How the covering ended; holes around the drawn state are closed and do not count.
     pub coverage: Coverage,
-    /// Of a complete covering: states within the limit beside which triangles are missing. Charts of one surface take those of
-    /// another for their own where both cross at a small angle, and then there is no telling how they hang together.
+    /// Of a complete covering: states within the limit beside which triangles are missing. Charts of one surface take
+    /// those of another for their own where both cross at a small angle, and then there is no telling how they hang
+    /// together.
     pub gaps: usize,
     /// Whether neighbours go the same way round everywhere.
     pub oriented: bool,
@@ -53,7 +54,8 @@ pub struct Surface {
     /// other at the drawn state, and by those that hang together elsewhere; a nappe that was found only behind another
     /// spatially periodic state has one of its own.
     pub branches: Vec<(usize, i8)>,
-    /// Largest radius of a chart: that of the options, or less where the largest curvature is met close to the drawn state.
+    /// Largest radius of a chart: that of the options, or less where the largest curvature is met close to the drawn
+    /// state.
     pub radius: f64,
     /// Spatially periodic states at which nappes meet, each once.
     pub tips: usize,

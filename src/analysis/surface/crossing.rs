@@ -1,9 +1,9 @@
 //! The curve of spatially periodic states along which two surfaces of folded states cross.
 //!
 //! On it the lattice rotations vanish beside closure, and together these leave one tangent. Where an edge of the
-//! triangulation goes over the curve, the vector from vertex 0 to the axis turns round; the state on the curve is found by
-//! Newton's method from between. An energy is lowest along the curve where its slope along the tangent vanishes, and is
-//! lowest on both surfaces there when it rises along each of the four ways that leave the curve.
+//! triangulation goes over the curve, the vector from vertex 0 to the axis turns round; the state on the curve is found
+//! by Newton's method from between. An energy is lowest along the curve where its slope along the tangent vanishes, and
+//! is lowest on both surfaces there when it rises along each of the four ways that leave the curve.
 
 use super::covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
 use super::folding::SurfaceClosure;
@@ -56,8 +56,8 @@ pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triang
 }
 
 impl Surface {
-    /// Where a quadratic energy is lowest along the curve on which two surfaces cross, near a state of it; `None` where that
-    /// is not found.
+    /// Where a quadratic energy is lowest along the curve on which two surfaces cross, near a state of it; `None` where
+    /// that is not found.
     pub(crate) fn lowest_on_crossing(
         assembly: &Assembly,
         options: &SurfaceOptions,
@@ -105,8 +105,8 @@ fn descend(folding: &SurfaceClosure<'_>, start: Vec<f64>, energy: &dyn Fn(&[f64]
     None
 }
 
-/// Whether an energy is higher a little away along each of the four ways that leave the curve at a state of it; so it is where none
-/// leaves it, as the quadratic condition is definite across the curve.
+/// Whether an energy is higher a little away along each of the four ways that leave the curve at a state of it; so it
+/// is where none leaves it, as the quadratic condition is definite across the curve.
 fn rises(
     options: &SurfaceOptions,
     (closure, embedding): (&Closure, &Embedding),

@@ -1,7 +1,8 @@
 //! Folded states that are a curve: trajectories along every ray of the drawn state.
 //!
-//! Where one real direction leaves a drawn state whose quadric is definite across it, the states on the curve are spatially periodic, and closure
-//! alone has three null vectors at each: the condition that the lattice does not turn leaves one.
+//! Where one real direction leaves a drawn state whose quadric is definite across it, the states on the curve are
+//! spatially periodic, and closure alone has three null vectors at each: the condition that the lattice does not turn
+//! leaves one.
 
 use super::covered::{Negative, Surface, SurfaceOptions, SurfacePoint};
 use super::error::SurfaceError;

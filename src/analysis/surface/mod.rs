@@ -7,8 +7,8 @@
 //! charts leave around the tip is closed with triangles to the drawn state (`tip`). Where the surface comes to other
 //! spatially periodic states, these are tips as well, and the nappes behind them are covered in turn (`behind`).
 //!
-//! Where that difference is one, or the drawn state has but one real direction, the folded states are a curve, which is followed
-//! (`curve`).
+//! Where that difference is one, or the drawn state has but one real direction, the folded states are a curve, which is
+//! followed (`curve`).
 //!
 //! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
 //! there the coverage stays open, and says so.
@@ -40,8 +40,8 @@ const OBSERVED: usize = 256;
 /// Charts are no larger than this part of the way at which half of the largest curvature is met.
 const REACH: f64 = 2.0;
 
-/// Covers the surface, or follows the curve where the folded states are one; no points where no direction is real. `observe` is told
-/// the number of charts and returns false to stop.
+/// Covers the surface, or follows the curve where the folded states are one; no points where no direction is real.
+/// `observe` is told the number of charts and returns false to stop.
 ///
 /// # Errors
 /// [`SurfaceError`] where the folded states are neither, or their directions are not established.
@@ -96,8 +96,8 @@ pub(super) fn on_surface(
     Ok(found)
 }
 
-/// The atlas of all starts; of surfaces that cross, an atlas of each, so that at small crossing angles the charts of one are
-/// not taken for neighbours of those of the other.
+/// The atlas of all starts; of surfaces that cross, an atlas of each, so that at small crossing angles the charts of
+/// one are not taken for neighbours of those of the other.
 fn cover(
     folding: &mut SurfaceClosure<'_>,
     (starts, options): (&mut starts::Starts, &SurfaceOptions),

@@ -1,15 +1,15 @@
 //! The sign of the curvature over a surface, carried from neighbour to neighbour.
 //!
-//! Next to the drawn state the sign of a state says on which side the axis lies; from there it spreads over the triangles, to
-//! the nearest states first. Where the surface leads from one side to the other round the axis, without passing a
-//! straight state, the two signs meet along a line, and no choice is continuous across it.
+//! Next to the drawn state the sign of a state says on which side the axis lies; from there it spreads over the
+//! triangles, to the nearest states first. Where the surface leads from one side to the other round the axis, without
+//! passing a straight state, the two signs meet along a line, and no choice is continuous across it.
 
 use super::SurfacePoint;
 use crate::kinematics::Embedding;
 use std::collections::VecDeque;
 
-/// Carries signs over pairs of neighbours from the first state of every start; pieces that hang together with no start keep
-/// the signs of single states. `starts` is the number of the start from which each state was found.
+/// Carries signs over pairs of neighbours from the first state of every start; pieces that hang together with no start
+/// keep the signs of single states. `starts` is the number of the start from which each state was found.
 pub(super) fn carry(
     embedding: &Embedding,
     points: &mut [SurfacePoint],

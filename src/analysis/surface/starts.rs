@@ -2,11 +2,12 @@
 //!
 //! The drawn state is the tip of a cone, the zeros of the obstruction quadrics. Of one quadric with eigenvalues of both
 //! signs the cone has two nappes, `v` and `-v`, with `v` in the plane of the eigenvector whose sign is alone and
-//! another. With one eigenvalue of either sign and one zero the cone is two planes, and the folded states are two surfaces
-//! that cross along a curve of spatially periodic states: planar folding, as of the eggbox. Each is smooth across it, so that
-//! charts go over the curve. Of several quadrics the cone is met by hyperplanes in general position, on each of which the real rays are known with
-//! multiplicity ([`crate::kinematics::Rays`]); as many hyperplanes are taken as make it unlikely that a piece meets
-//! none. On such a hyperplane the surface is a curve, followed from the drawn state along its ray.
+//! another. With one eigenvalue of either sign and one zero the cone is two planes, and the folded states are two
+//! surfaces that cross along a curve of spatially periodic states: planar folding, as of the eggbox. Each is smooth
+//! across it, so that charts go over the curve. Of several quadrics the cone is met by hyperplanes in general position,
+//! on each of which the real rays are known with multiplicity ([`crate::kinematics::Rays`]); as many hyperplanes are
+//! taken as make it unlikely that a piece meets none. On such a hyperplane the surface is a curve, followed from the
+//! drawn state along its ray.
 
 use super::folding::{Section, SurfaceClosure};
 use super::{Negative, SurfaceError, SurfaceOptions};
@@ -23,8 +24,8 @@ const SECTIONS: u64 = 6;
 /// Eigenvalues below this part of the largest are zero.
 const ZERO: f64 = 1e-9;
 
-/// Least distance from the drawn state, in fold angles, at which the surface can be told from its singular point: closure to
-/// 3e-14 fixes a state to that over the distance, and charts are a hundredth of the distance wide.
+/// Least distance from the drawn state, in fold angles, at which the surface can be told from its singular point:
+/// closure to 3e-14 fixes a state to that over the distance, and charts are a hundredth of the distance wide.
 const NEAREST: f64 = 2e-5;
 
 /// A state on the surface.
@@ -41,7 +42,8 @@ pub(super) struct SurfaceStart {
 /// States from which the surface is begun.
 pub(super) struct Starts {
     pub list: Vec<SurfaceStart>,
-    /// Distance from the drawn state, in fold angles, of the nearest one; infinite where the drawn state is itself the start.
+    /// Distance from the drawn state, in fold angles, of the nearest one; infinite where the drawn state is itself the
+    /// start.
     pub reach: f64,
     /// Ways along which no state was found, or that are not known themselves.
     pub lost: usize,
@@ -121,8 +123,8 @@ fn follow_out(
     found.points.into_iter().next_back().filter(|last| last.arc_length > 0.0)
 }
 
-/// Simple directions on the zeros of one quadric of three motions: one line on a cone, one on each of two planes that meet
-/// in the null direction, on the plane across it. What is established where no plane of directions is real.
+/// Simple directions on the zeros of one quadric of three motions: one line on a cone, one on each of two planes that
+/// meet in the null direction, on the plane across it. What is established where no plane of directions is real.
 fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negative>, SurfaceError> {
     let found = symmetric_eigen(quadric).map_err(KinematicsError::from)?;
     let zero = ZERO * found.values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
@@ -151,8 +153,9 @@ fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negati
 
 /// The simple real rays on hyperplanes in general position.
 ///
-/// That every hyperplane has none does not say that there are none: a small curve of directions is missed by most. Beside them the
-/// number of those that are multiple, of which second order says no more, and of hyperplanes on which not all are known.
+/// That every hyperplane has none does not say that there are none: a small curve of directions is missed by most.
+/// Beside them the number of those that are multiple, of which second order says no more, and of hyperplanes on which
+/// not all are known.
 fn on_sections(second_order: &SecondOrder) -> Result<(Vec<Direction>, usize), SurfaceError> {
     let count = second_order.count();
     let (mut found, mut multiple, mut unknown) = (Vec::new(), 0, 0);

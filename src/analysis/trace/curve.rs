@@ -34,8 +34,8 @@ pub(super) struct TracedClosure<'a, 'b> {
     pub tube: Option<(Seam, Condition)>,
     /// The seam of the first state, if the sheet is drawn rolled up.
     pub drawn: Option<SeamPlace>,
-    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign, and seams their
-    /// direction.
+    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign, and seams
+    /// their direction.
     pub known: Vec<Known>,
     pub stop: Stop,
     pub intersects: Option<Intersects<'b>>,
@@ -81,8 +81,8 @@ impl TracedClosure<'_, '_> {
         states
     }
 
-    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known. Returns the seam of
-    /// a tube.
+    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known. Returns the
+    /// seam of a tube.
     fn carry_on(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) -> Option<SeamPlace> {
         let after = self.known.partition_point(|known| known.arc_length < arc_length);
         let beside = [after.checked_sub(1), (after < self.known.len()).then_some(after)];
@@ -104,8 +104,8 @@ impl TracedClosure<'_, '_> {
         seam
     }
 
-    /// Defect of the closing condition that a tube does not keep, a length or an angle: zero where the tube is closed; NaN for
-    /// other sheets.
+    /// Defect of the closing condition that a tube does not keep, a length or an angle: zero where the tube is closed;
+    /// NaN for other sheets.
     fn opening(&self, state: &Folded) -> f64 {
         let opening = |(seam, (_, kept)): (SeamPlace, (Seam, Condition))| match kept {
             Condition::Turn => seam.rise,

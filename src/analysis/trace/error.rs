@@ -21,7 +21,8 @@ pub enum TraceError {
         /// Found.
         count: usize,
     },
-    /// TracedClosure leaves along infinitely many directions, none of which stands alone: there is no single trajectory to follow.
+    /// TracedClosure leaves along infinitely many directions, none of which stands alone: there is no single trajectory
+    /// to follow.
     #[error(
         "folding leaves the drawn state along infinitely many directions: lock a crease to choose among them, or ask for a surface"
     )]

@@ -36,8 +36,8 @@ pub(super) fn start(assembly: &Assembly) -> Result<Start<'_>, TraceError> {
     Ok(Start { angles, rays: found.rays, directions: found.directions, planar, tube: None })
 }
 
-/// Counts the motions of a tube that keep its closing conditions. Where there is none, the Jacobian of closure and conditions
-/// has full column rank: the tube is rigid. One motion that keeps one condition makes two rays.
+/// Counts the motions of a tube that keep its closing conditions. Where there is none, the Jacobian of closure and
+/// conditions has full column rank: the tube is rigid. One motion that keeps one condition makes two rays.
 fn of_tube(assembly: &Assembly, angles: Vec<f64>, (seam, kept): (Seam, SeamKept)) -> Result<Start<'_>, TraceError> {
     let tube = Tube::new(assembly.sheet(), seam.lattice_vector())?;
     let is_kept = |condition: &Condition| match condition {

@@ -1,17 +1,19 @@
 //! The barrier between two wells: a path with soft bars, its pass, and the pass followed to the sheet's own stiffness.
 //!
-//! Soft bars, at most a hundred times as stiff as the creases, let the sheet deform from one well to the other even where no
-//! rigidly folded states connect them. The string method ([`super::string`]) finds such a path. The highest state on it is close
-//! to a pass. Newton's method ([`super::pass`]) converges to the pass, and follows it while the bars become ten times as stiff in
-//! each stage, until they have the stiffness of the sheet; infinite stiffness is the last stage.
+//! Soft bars, at most a hundred times as stiff as the creases, let the sheet deform from one well to the other even
+//! where no rigidly folded states connect them. The string method ([`super::string`]) finds such a path. The highest
+//! state on it is close to a pass. Newton's method ([`super::pass`]) converges to the pass, and follows it while the
+//! bars become ten times as stiff in each stage, until they have the stiffness of the sheet; infinite stiffness is the
+//! last stage.
 //!
-//! Where bars differ, the stiffness of a stage limits that of every bar: softer bars keep their own. The unit is the stiffness of
-//! the median crease. If a stage fails, the path is sought again with stiffer bars, and at last with those of the sheet itself,
-//! because some wells exist for stiff bars only. States that slide down from a steep pass are then held with increasing
-//! strength.
+//! Where bars differ, the stiffness of a stage limits that of every bar: softer bars keep their own. The unit is the
+//! stiffness of the median crease. If a stage fails, the path is sought again with stiffer bars, and at last with those
+//! of the sheet itself, because some wells exist for stiff bars only. States that slide down from a steep pass are then
+//! held with increasing strength.
 //!
-//! A pass is accepted if its Hessian has exactly one negative eigenvalue, if its energy is above that of both wells, and if the
-//! descents to its two sides end in different wells. If these are other wells than the given two, they are reported.
+//! A pass is accepted if its Hessian has exactly one negative eigenvalue, if its energy is above that of both wells,
+//! and if the descents to its two sides end in different wells. If these are other wells than the given two, they are
+//! reported.
 
 use super::limit::{Height, STIFFER, rigid_limit};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
@@ -28,8 +30,9 @@ use thiserror::Error;
 const SOFTEST: f64 = 1e2;
 /// Stiffness over that of creases after which the next is the rigid limit.
 const ALMOST_RIGID: f64 = 1e12;
-/// Farthest fold angle, in radians, from the last pass before the rigid limit to that in the limit. A regular one is approached as
-/// one over the stiffness, one where branches cross as its cube root; to that, Newton's steps get no nearer than tolerances ask.
+/// Farthest fold angle, in radians, from the last pass before the rigid limit to that in the limit. A regular one is
+/// approached as one over the stiffness, one where branches cross as its cube root; to that, Newton's steps get no
+/// nearer than tolerances ask.
 const REGULAR: f64 = 1e-7;
 /// Tries from ever stiffer bars, before those of the sheet.
 const TRIES: usize = 6;
@@ -39,8 +42,8 @@ const BENDS: u64 = 3;
 const SAME_PASS: f64 = 1e-8;
 /// Tolerance of a pass.
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
-/// Largest fold angle, in radians, of a pass in nearly rigid bars that tends to the flat state: with the cube root of one over
-/// their stiffness.
+/// Largest fold angle, in radians, of a pass in nearly rigid bars that tends to the flat state: with the cube root of
+/// one over their stiffness.
 const NEARLY_FLAT_RAD: f64 = 1e-2;
 /// How many estimated errors of a limit it may be off.
 const ERRORS_OF_LIMIT: f64 = 5.0;
@@ -223,8 +226,8 @@ fn held_strongly(
     None
 }
 
-/// Whether two barriers have one pass: its energy, or its height where loads put the zero of the energy elsewhere, is the
-/// same.
+/// Whether two barriers have one pass: its energy, or its height where loads put the zero of the energy elsewhere, is
+/// the same.
 fn same_pass(a: &Barrier, b: &Barrier, wells: &[Well]) -> bool {
     let height = b.pass.energy - wells[b.joins[0]].settled.energy;
     (a.pass.energy - b.pass.energy).abs() <= SAME_PASS * b.pass.energy.abs().max(height)
@@ -379,9 +382,9 @@ fn near(found: &Pass, before: &Pass) -> bool {
     found.rho.iter().zip(&before.rho).all(|(a, b)| (a - b).abs() <= REGULAR)
 }
 
-/// The energy of the flat state of a sheet without loads, where a pass that is singular in rigid bars tends to it: the sheet
-/// can be unfolded, all hinges of the last regular pass are nearly flat, and the energies tend to that energy within a few
-/// times the error of their limit.
+/// The energy of the flat state of a sheet without loads, where a pass that is singular in rigid bars tends to it: the
+/// sheet can be unfolded, all hinges of the last regular pass are nearly flat, and the energies tend to that energy
+/// within a few times the error of their limit.
 fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Option<f64> {
     let flat = singular.rho.iter().all(|angle| angle.abs() <= NEARLY_FLAT_RAD);
     let limit = rigid_limit(heights).filter(|_| flat)?;

@@ -22,8 +22,8 @@ pub struct RigidLimit {
     pub exponent: f64,
     /// The limit.
     pub energy: f64,
-    /// Estimate of the limit's error: the difference to that of three energies before it, or, where there are none, to the last
-    /// energy.
+    /// Estimate of the limit's error: the difference to that of three energies before it, or, where there are none, to
+    /// the last energy.
     pub error: f64,
 }
 

@@ -1,8 +1,9 @@
 //! Wells told apart by their fold angles: rigid motions change none of them, and the translations of a torus exchange
-//! them. Where pins or rigid parts make a difference between places of one shape ([`super::placement`]) they are told apart by these too.
+//! them. Where pins or rigid parts make a difference between places of one shape ([`super::placement`]) they are told
+//! apart by these too.
 //!
-//! A translation counts where it leaves stiffnesses, rest angles and locked angles as they are. Angles are not taken modulo whole
-//! turns, because the energy is not: a crease wound once more is another well, and passes through itself.
+//! A translation counts where it leaves stiffnesses, rest angles and locked angles as they are. Angles are not taken
+//! modulo whole turns, because the energy is not: a crease wound once more is another well, and passes through itself.
 
 use super::placement::Placement;
 use super::settle::Settled;

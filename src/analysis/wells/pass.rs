@@ -119,8 +119,8 @@ pub(crate) fn sides(
     }
 }
 
-/// Descends from a pass to the side of a push with steps that are short against the way from the pass, so that none leads
-/// across it, however steep the pass and however near the well on the other side.
+/// Descends from a pass to the side of a push with steps that are short against the way from the pass, so that none
+/// leads across it, however steep the pass and however near the well on the other side.
 fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Options) -> Result<Settled, Failure> {
     let mut strength = STRENGTH * 100f64.powi(STRONGER);
     let mut settler = MinimumTracker::new(assembly, strength);

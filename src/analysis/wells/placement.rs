@@ -1,12 +1,12 @@
-//! Pins, guides and rigid parts: whether they say more about a state than its shape, and whether two states of one shape are
-//! one for them.
+//! Pins, guides and rigid parts: whether they say more about a state than its shape, and whether two states of one
+//! shape are one for them.
 //!
-//! Pins that only take rigid motions away, such as three, two and one coordinate of three vertices, hold no shape: every
-//! shape of the free sheet can be placed on them. Then states of one shape count as one. Other pins hold the shape too,
-//! and one shape can be held by them in several places, between which the sheet has to bend: a triangle on two pinned
-//! vertices, whose third one is kept in a plane, stands on either side of that plane's zero line. Two states of one shape
-//! then are one if a rigid motion that the pins leave free leads from one to the other. Guides, and the coordinates of
-//! parts that are not free, count as pins do.
+//! Pins that only take rigid motions away, such as three, two and one coordinate of three vertices, hold no shape:
+//! every shape of the free sheet can be placed on them. Then states of one shape count as one. Other pins hold the
+//! shape too, and one shape can be held by them in several places, between which the sheet has to bend: a triangle on
+//! two pinned vertices, whose third one is kept in a plane, stands on either side of that plane's zero line. Two states
+//! of one shape then are one if a rigid motion that the pins leave free leads from one to the other. Guides, and the
+//! coordinates of parts that are not free, count as pins do.
 
 use crate::math::{Vec3, rotation};
 use crate::model::gauge::{self, Motion};
@@ -29,7 +29,8 @@ const DEPENDENT: f64 = 1e-12;
 pub(crate) struct Placement(Assembly);
 
 impl Placement {
-    /// Returns the conditions for the pins, guides and parts of a patch; `None` if two states of one shape are always one.
+    /// Returns the conditions for the pins, guides and parts of a patch; `None` if two states of one shape are always
+    /// one.
     pub(crate) fn new(assembly: &Assembly) -> Option<Self> {
         let model = assembly.model(Gauge::Free);
         let kept = kept(&model);

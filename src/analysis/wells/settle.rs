@@ -1,8 +1,9 @@
 //! Relaxations that go on from each other, freely or held near given fold angles.
 //!
-//! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the minimum of
-//! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
-//! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
+//! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the
+//! minimum of `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff
+//! with the rest angles `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid
+//! bars.
 
 use super::work::Work;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_model};

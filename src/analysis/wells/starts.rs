@@ -1,12 +1,11 @@
 //! Random starts: the sheet crumpled to random fold angles, with soft bars, and then released.
 //!
-//! Every crease that is not rigid is given a rest angle at random around the drawn one, every coordinate is moved at random
-//! (flat sheets have to leave the flat state), rigid parts by as much as their vertices are in the mean, a screw gets an
-//! axis at random, and the sheet relaxes with bars of at most a thousand times the stiffness of its median crease, so that
-//! no folded state is out of reach; on pins that hold its shape, and with rigid parts, of a thousand, a hundred and ten
-//! times by turns. From there it relaxes with its own bars
-//! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
-//! seed and its own number alone.
+//! Every crease that is not rigid is given a rest angle at random around the drawn one, every coordinate is moved at
+//! random (flat sheets have to leave the flat state), rigid parts by as much as their vertices are in the mean, a screw
+//! gets an axis at random, and the sheet relaxes with bars of at most a thousand times the stiffness of its median
+//! crease, so that no folded state is out of reach; on pins that hold its shape, and with rigid parts, of a thousand, a
+//! hundred and ten times by turns. From there it relaxes with its own bars and rest angles. Where that ends in no well
+//! the start is made anew, a few times. Its random numbers depend on the seed and its own number alone.
 //!
 //! Random angles are those around another state if one is given. The first start then is that state itself, so that it
 //! is among the wells if it is one, and a screw keeps the axis that it has there.
@@ -24,7 +23,8 @@ use std::f64::consts::PI;
 
 /// Stiffness of bars over that of creases while the sheet is crumpled.
 const SOFT: f64 = 1e3;
-/// The same for a sheet whose shape pins or parts hold, by turns: they make bars resist that a free sheet would not stretch.
+/// The same for a sheet whose shape pins or parts hold, by turns: they make bars resist that a free sheet would not
+/// stretch.
 const SOFT_ON_PINS: [f64; 3] = [1e3, 1e2, 1e1];
 /// Random part of a coordinate, over the mean edge.
 const MOVED: f64 = 0.05;
@@ -59,13 +59,14 @@ pub enum Outcome {
     Interrupted,
 }
 
-/// Relaxes from all starts around the drawn state, in their order. `go_on` is asked after each and returns false to stop.
+/// Relaxes from all starts around the drawn state, in their order. `go_on` is asked after each and returns false to
+/// stop.
 pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
     relax_around(assembly, None, starts, go_on)
 }
 
-/// Relaxes from all starts around a state, in their order; around the drawn one if none is given. `go_on` is asked after
-/// each and returns false to stop.
+/// Relaxes from all starts around a state, in their order; around the drawn one if none is given. `go_on` is asked
+/// after each and returns false to stop.
 pub fn relax_around(
     assembly: &Assembly,
     state: Option<&Configuration>,
@@ -177,7 +178,8 @@ fn released(settler: &MinimumTracker, from: &Configuration, options: Options) ->
     }
 }
 
-/// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is a state.
+/// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is
+/// a state.
 fn crumpled(
     assembly: &Assembly,
     centre: Option<&Centre<'_>>,
@@ -217,8 +219,8 @@ fn crumpled(
     }
 }
 
-/// Moves every coordinate at random; those that are no lengths by what moves points as far. The axis of a screw has its direction by chance
-/// already.
+/// Moves every coordinate at random; those that are no lengths by what moves points as far. The axis of a screw has its
+/// direction by chance already.
 fn shake(assembly: &Assembly, coordinates: &mut [f64], within: &mut dyn FnMut(f64) -> f64) {
     let (domain, edge) = (&assembly.drawn().domain, assembly.mean_edge());
     let units = domain.units(coordinates, edge);

@@ -25,8 +25,8 @@ const BENT: f64 = 0.1;
 /// When the states of a row are converged.
 const STRING_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 
-/// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number but
-/// zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
+/// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number
+/// but zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
 ///
 /// # Errors
 /// [`Failure`] of a relaxation on the way, or [`Failure::Interrupted`].

@@ -1,9 +1,9 @@
 //! The motions of a tube about the z axis, to the cells of its strands and rows, and their derivatives.
 //!
-//! Cell `i p + j m` (see [`Seam`]) turns by `t = i alpha + j theta` and rises by `d = i rise + j h`, so that a point `P` of cell
-//! (0, 0) has its copy at `R_z(t) P + d e_z`. The shared coordinates are `theta, h`, then `rise` and `alpha` where they are
-//! free. A seam that keeps its turn has `alpha = 2 pi / g` with the number `g` of strands, and one that keeps its rise has
-//! `rise = 0`: both closing conditions hold identically.
+//! Cell `i p + j m` (see [`Seam`]) turns by `t = i alpha + j theta` and rises by `d = i rise + j h`, so that a point
+//! `P` of cell (0, 0) has its copy at `R_z(t) P + d e_z`. The shared coordinates are `theta, h`, then `rise` and
+//! `alpha` where they are free. A seam that keeps its turn has `alpha = 2 pi / g` with the number `g` of strands, and
+//! one that keeps its rise has `rise = 0`: both closing conditions hold identically.
 
 use super::shared::{Pulled, SharedMatrix};
 use crate::math::Vec3;

@@ -138,9 +138,10 @@ impl IntrinsicModel {
         [forces, lengths]
     }
 
-    /// Returns the whole sheet in the state of these variables, put together face by face from the middle outward and moved as close
-    /// to the model's reference state as a rigid motion can. Where the closure is not met yet, the faces that were placed last
-    /// do not fit: the vertices are those of the faces placed first, and angles and lengths remain those of the variables.
+    /// Returns the whole sheet in the state of these variables, put together face by face from the middle outward and
+    /// moved as close to the model's reference state as a rigid motion can. Where the closure is not met yet, the faces
+    /// that were placed last do not fit: the vertices are those of the faces placed first, and angles and lengths
+    /// remain those of the variables.
     pub fn folded_up(&self, model: &Model, z: &[f64], multipliers: &[f64]) -> FoldedUp {
         let [angles, lengths] = self.measures(z);
         let [torques, forces] = self.forces(z, multipliers);

@@ -74,8 +74,8 @@ impl DrivenModel {
         Ok(Self::driven(model, quantity, [parameter, target], effect))
     }
 
-    /// Makes a model whose rest values, those of locks and supports included, go from some at 0 to others at 1: one of each measure,
-    /// as [`Model::values`] gives them.
+    /// Makes a model whose rest values, those of locks and supports included, go from some at 0 to others at 1: one of
+    /// each measure, as [`Model::values`] gives them.
     pub(crate) fn by_rests(model: Model, [from, to]: [Vec<f64>; 2]) -> Self {
         let effect = Effect::Rest { drawn: from, given: to };
         Self::driven(model, Driven::Rest, [0.0, 1.0], effect)

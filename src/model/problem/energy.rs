@@ -11,8 +11,8 @@ use std::sync::Arc;
 /// Angle in radians whose torque is the least force to which residuals are relative: if every hinge is closer to rest
 /// than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
-/// Largest change of a fold angle in one step, to first order, in radians: with 0.3 and with 1 the scenes of `meshes/` take as many
-/// iterations, and a step that turns a hinge further says little about it.
+/// Largest change of a fold angle in one step, to first order, in radians: with 0.3 and with 1 the scenes of `meshes/`
+/// take as many iterations, and a step that turns a hinge further says little about it.
 const LARGEST_CHANGE_RAD: f64 = 0.3;
 /// Mean edges over the shortest height of a triangle whose forces count in full where residuals are made relative.
 const SHORTEST_ARMS: f64 = 1e4;
@@ -132,8 +132,8 @@ impl Model {
         }
     }
 
-    /// Displacement of the loads, each along its force and weighted by it, from the origin; the energy falls by it times
-    /// the factor of the loads.
+    /// Displacement of the loads, each along its force and weighted by it, from the origin; the energy falls by it
+    /// times the factor of the loads.
     pub(super) fn load_displacement(&self, all: &[f64]) -> f64 {
         self.loads.iter().zip(all).map(|(f, x)| f * x).sum()
     }
@@ -213,15 +213,15 @@ impl Model {
         }
     }
 
-    /// Largest gradient of a measure that counts where forces are given a size: those of angles grow without bound as a triangle
-    /// collapses, and would hide every other force.
+    /// Largest gradient of a measure that counts where forces are given a size: those of angles grow without bound as a
+    /// triangle collapses, and would hide every other force.
     fn most_arm(&self, term: &dyn Elements) -> f64 {
         if term.is_angle() { SHORTEST_ARMS / self.equations.mean_edge } else { f64::INFINITY }
     }
 
     /// Returns the force to which those of a model without soft elements and loads are relative where all of them
-    /// vanish, as in a truss without stress: that of the softest stiff measure at the gap [`LEAST_GAP`]. Without measures
-    /// of finite stiffness forces have no size, and none is too large.
+    /// vanish, as in a truss without stress: that of the softest stiff measure at the gap [`LEAST_GAP`]. Without
+    /// measures of finite stiffness forces have no size, and none is too large.
     fn least_force(&self, at: &Linearization) -> f64 {
         let springs = self.compliance.iter().zip(&self.gap_scale).enumerate().filter(|(_, (c, _))| **c > 0.0);
         let force = |(measure, (compliance, scale)): (usize, (&f64, &f64))| {

@@ -1,4 +1,5 @@
-//! The elastic hinges of a model: creases and facets of finite stiffness, whether or not they have a tension as unknown.
+//! The elastic hinges of a model: creases and facets of finite stiffness, whether or not they have a tension as
+//! unknown.
 
 use super::Model;
 use crate::model::element::Element;
@@ -16,7 +17,8 @@ impl Model {
         self.soft().map(|element| element.response(element.value(&all))).collect()
     }
 
-    /// Returns for each soft element the derivatives of energy and force by its rest value, and the second one of the energy.
+    /// Returns for each soft element the derivatives of energy and force by its rest value, and the second one of the
+    /// energy.
     pub(super) fn soft_by_rest(&self, x: &[f64]) -> Vec<[f64; 3]> {
         let all = self.coordinates(x);
         self.soft().map(|element| element.by_rest(element.value(&all))).collect()

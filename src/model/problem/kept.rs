@@ -1,4 +1,5 @@
-//! Constraints on the position of a sheet: the coordinates that pins and parts hold, and those along the directions of guides.
+//! Constraints on the position of a sheet: the coordinates that pins and parts hold, and those along the directions of
+//! guides.
 
 use super::Model;
 use crate::model::gauge::Motion;

@@ -1,7 +1,8 @@
-//! Steps that stay where the model is one: no hinge turns too far, and no triangle beside a hinge loses most of its height.
+//! Steps that stay where the model is one: no hinge turns too far, and no triangle beside a hinge loses most of its
+//! height.
 //!
-//! The gradient of a fold angle grows as the reciprocal of the height of its triangles. A step that flattens a triangle, or turns a
-//! hinge by more than about a radian, ends where derivatives at its start tell nothing.
+//! The gradient of a fold angle grows as the reciprocal of the height of its triangles. A step that flattens a
+//! triangle, or turns a hinge by more than about a radian, ends where derivatives at its start tell nothing.
 
 use super::Model;
 use crate::math::Vec3;
@@ -13,7 +14,8 @@ const KEPT_HEIGHT: f64 = 0.4;
 /// Largest change of a fold angle in one step, in radians.
 const LARGEST_TURN_RAD: f64 = 1.0;
 
-/// Least height of a triangle over its longest side: below it rounding errors of coordinates are no longer small beside heights.
+/// Least height of a triangle over its longest side: below it rounding errors of coordinates are no longer small beside
+/// heights.
 const COLLAPSED: f64 = 1e-6;
 
 impl Model {
@@ -28,8 +30,8 @@ impl Model {
         (quality < COLLAPSED).then_some(Collapse { vertices, quality })
     }
 
-    /// Least height over longest side of the triangle of a hinge with one of its wings, the third or fourth site, and the numbers of
-    /// its vertices.
+    /// Least height over longest side of the triangle of a hinge with one of its wings, the third or fourth site, and
+    /// the numbers of its vertices.
     fn triangle(&self, hinge: &Element<'_>, wing: usize, coordinates: &[f64]) -> (f64, [usize; 3]) {
         let sites = [0, 1, wing].map(|n| hinge.sites()[n]);
         let [a, b, c] = sites.map(|site| self.equations.domain.point(coordinates, site));
@@ -37,8 +39,8 @@ impl Model {
         ((b - a).cross(&(c - a)).norm() / longest, sites.map(|site| site.vertex))
     }
 
-    /// Whether no hinge turns by more than [`LARGEST_TURN_RAD`] between two states, the first of which was accepted last, and the
-    /// triangles beside hinges keep [`KEPT_HEIGHT`] of their heights.
+    /// Whether no hinge turns by more than [`LARGEST_TURN_RAD`] between two states, the first of which was accepted
+    /// last, and the triangles beside hinges keep [`KEPT_HEIGHT`] of their heights.
     pub(super) fn turns_no_hinge_too_far(&self, from: &[f64], to: &[f64]) -> bool {
         let [from, to] = [from, to].map(|x| self.coordinates(x));
         self.elements().filter(Element::is_angle).all(|hinge| {

@@ -1,7 +1,7 @@
 //! Supports: linear functions of the generalised coordinates that keep a value exactly.
 //!
-//! A guide keeps the coordinate of a vertex along a direction, and a driven displacement is moved along one. Each enters
-//! with a tension of its own, the force of the support.
+//! A guide keeps the coordinate of a vertex along a direction, and a driven displacement is moved along one. Each
+//! enters with a tension of its own, the force of the support.
 
 /// A linear function of generalised coordinates with a prescribed value.
 #[derive(Clone, Debug, PartialEq)]

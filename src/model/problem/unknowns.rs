@@ -21,11 +21,12 @@ const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 const WELL_HELD: f64 = 0.5;
 /// The same for a state from which a path goes on, whose states are compared with each other where the same is held.
 const STILL_HELD: f64 = 0.1;
-/// Largest change of a unit with which a path goes on. Turning the axis moves points in proportion to the curvature: in the unit of a
-/// straight sheet, the stiffness of a curved one against it is so large that all others drown in its rounding errors.
+/// Largest change of a unit with which a path goes on. Turning the axis moves points in proportion to the curvature: in
+/// the unit of a straight sheet, the stiffness of a curved one against it is so large that all others drown in its
+/// rounding errors.
 const MOST_CHANGED_UNIT: f64 = 4.0;
-/// Singular value of the rigid motions of the held coordinates, relative to motions of unit length, below which a motion is
-/// not held.
+/// Singular value of the rigid motions of the held coordinates, relative to motions of unit length, below which a
+/// motion is not held.
 const NOT_HELD: f64 = 1e-9;
 
 impl Model {
@@ -83,7 +84,8 @@ impl Model {
         held
     }
 
-    /// Returns the coordinates to hold, in addition to those already `held`, so that no piece of the sheet has a rigid motion.
+    /// Returns the coordinates to hold, in addition to those already `held`, so that no piece of the sheet has a rigid
+    /// motion.
     pub(super) fn chosen_by_pieces(&self, motions: &[gauge::Motion], held: &[bool]) -> Vec<usize> {
         let of_piece = |(number, piece): (usize, &Vec<usize>)| {
             let (motions, held) = self.motions_of_piece((number, piece), motions, held);
@@ -92,8 +94,8 @@ impl Model {
         self.pieces().iter().enumerate().flat_map(of_piece).collect()
     }
 
-    /// The rigid motions of the coordinates of a piece, and which of them are held. Further cylinders about the axis of a screw move along
-    /// it and about it, which are displacements in the plane of the chart, but not away from it.
+    /// The rigid motions of the coordinates of a piece, and which of them are held. Further cylinders about the axis of
+    /// a screw move along it and about it, which are displacements in the plane of the chart, but not away from it.
     fn motions_of_piece(
         &self,
         (number, piece): (usize, &[usize]),
@@ -110,9 +112,9 @@ impl Model {
         piece.iter().map(of).unzip()
     }
 
-    /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them, which come
-    /// after all coordinates. Elements, rigid parts and supports connect points. Points without elements count as one piece, and the
-    /// coordinates that all points share are those of the first.
+    /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them,
+    /// which come after all coordinates. Elements, rigid parts and supports connect points. Points without elements
+    /// count as one piece, and the coordinates that all points share are those of the first.
     fn pieces(&self) -> Vec<Vec<usize>> {
         let (points, count) = (self.points(), self.base.len() + self.supports.len());
         if self.elements().next().is_none() {
@@ -134,8 +136,8 @@ impl Model {
         pieces(count, links.chain((shared..points).map(|k| [0, k])), 0..count)
     }
 
-    /// Makes these coordinates the reference state of a screw, and holds as many coordinates of its axis as `held` says: the
-    /// direction, then the curvature. Returns the unknowns.
+    /// Makes these coordinates the reference state of a screw, and holds as many coordinates of its axis as `held`
+    /// says: the direction, then the curvature. Returns the unknowns.
     pub(crate) fn hold_axis(&mut self, held: usize, coordinates: Vec<f64>) -> Vec<f64> {
         let axis = self.points() - self.equations.domain.shared();
         self.pinned.retain(|k| !(axis..axis + 2).contains(k));
@@ -150,17 +152,18 @@ impl Model {
         self.gauge_quality(x) >= LEAST_SEPARATION_RATIO
     }
 
-    /// Makes a state the reference state, as [`enter`](Self::enter) does, and chooses anew what is held if it would
-    /// not hold rigid motions well: steps from here may then have no room. Returns the unknowns, and whether the same is held.
+    /// Makes a state the reference state, as [`enter`](Self::enter) does, and chooses anew what is held if it would not
+    /// hold rigid motions well: steps from here may then have no room. Returns the unknowns, and whether the same is
+    /// held.
     pub(crate) fn enter_well_held(&mut self, state: &Configuration) -> (Vec<f64>, bool) {
         let x = self.enter(state).x;
         let is_well_held = self.gauge_quality(&x) >= WELL_HELD;
         (if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) }, is_well_held)
     }
 
-    /// Chooses anew what is held where it would soon hold the shape instead of rigid motions, and the units of unknowns where they have
-    /// become others. Returns then the unknowns of the state `x`, and the given rates of unknowns less the rigid motion with which the
-    /// coordinates now held would move.
+    /// Chooses anew what is held where it would soon hold the shape instead of rigid motions, and the units of unknowns
+    /// where they have become others. Returns then the unknowns of the state `x`, and the given rates of unknowns less
+    /// the rigid motion with which the coordinates now held would move.
     pub(super) fn still_held(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
         let generalised = self.generalised(x);
         let units = self.units_at(&generalised[..self.points()]);

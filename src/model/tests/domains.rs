@@ -133,8 +133,8 @@ fn tubes_with_every_condition() {
     }
 }
 
-/// Claim: on a closed tube the copy of a point in the cell of the seam is the point itself, to the last bit; motions to cells
-/// commute and add. Tolerance of the second part: rounding of numbers of size 5.
+/// Claim: on a closed tube the copy of a point in the cell of the seam is the point itself, to the last bit; motions to
+/// cells commute and add. Tolerance of the second part: rounding of numbers of size 5.
 #[test]
 fn a_closed_tube_comes_back_to_itself() {
     for seam in [[0, 5], [1, 4], [4, -2], [-6, 3]] {

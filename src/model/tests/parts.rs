@@ -109,8 +109,8 @@ fn rigid_motions_cost_nothing() {
     assert_eq!(model.layout().unknowns, 3 * (vertices - 7) + 6, "a held part leaves no rigid motion");
 }
 
-/// Claim: rates by every kind of drive, of the gradient, of the stretches and of the conjugate, are derivatives; and for
-/// a prescribed value the conjugate is minus its tension. Source: differences.
+/// Claim: rates by every kind of drive, of the gradient, of the stretches and of the conjugate, are derivatives; and
+/// for a prescribed value the conjugate is minus its tension. Source: differences.
 #[test]
 fn rates_of_drives() {
     let assembly = patch();

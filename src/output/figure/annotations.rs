@@ -89,8 +89,8 @@ mod tests {
         svg(&samples::hinge(0.3), added, &Caption { title: "t".into(), state: "s".into() })
     }
 
-    /// Claim: every load has its arrow, as long as its force, and the key says how large the largest is; a load on a point
-    /// that is not there is an error. Source: the arrows of a sheet whose box has the diagonal `d`.
+    /// Claim: every load has its arrow, as long as its force, and the key says how large the largest is; a load on a
+    /// point that is not there is an error. Source: the arrows of a sheet whose box has the diagonal `d`.
     #[test]
     fn loads_have_arrows() {
         let points = samples::hinge(0.3).points;

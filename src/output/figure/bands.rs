@@ -1,5 +1,5 @@
-//! Figure of the frequencies of waves: along a path through the Brillouin zone, and beside it, on the same axis, the density
-//! of states.
+//! Figure of the frequencies of waves: along a path through the Brillouin zone, and beside it, on the same axis, the
+//! density of states.
 
 use super::axes::{Axis, Scale, rounded};
 use super::canvas::{Canvas, Caption, MARGIN, WIDTH};
@@ -11,8 +11,8 @@ const HEIGHT: f64 = 728.0;
 /// Upper and lower side of the panels.
 const TOP: f64 = 140.0;
 const BOTTOM: f64 = HEIGHT - 92.0;
-/// Left side of the first panel, right side of the last one, room between them, and part of the width that the path takes;
-/// least distance of the names of corners.
+/// Left side of the first panel, right side of the last one, room between them, and part of the width that the path
+/// takes; least distance of the names of corners.
 const LEFT: f64 = MARGIN + 92.0;
 const RIGHT: f64 = WIDTH - 60.0;
 const BETWEEN: f64 = 64.0;
@@ -135,8 +135,8 @@ fn density(canvas: &mut Canvas, (edges, values): (&[f64], &[f64]), axis: &Axis, 
 mod tests {
     use super::*;
 
-    /// Claim: there is a curve for every band and a step line for the density, each panel alone or both; corners are named in units of
-    /// pi where there is room; nothing is not a number, and no text covers another.
+    /// Claim: there is a curve for every band and a step line for the density, each panel alone or both; corners are
+    /// named in units of pi where there is room; nothing is not a number, and no text covers another.
     #[test]
     fn every_band_is_drawn() {
         let caption = Caption { title: "t".into(), state: "s".into() };

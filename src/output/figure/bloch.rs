@@ -226,7 +226,8 @@ mod tests {
     }
 
     /// Claim: the figure has a dot for every rate within the range, a ring for every one of a strip, and a path for
-    /// every line, cut where it leaves the zone; a determinant without lines is labelled as its magnitude; texts do not overlap.
+    /// every line, cut where it leaves the zone; a determinant without lines is labelled as its magnitude; texts do not
+    /// overlap.
     #[test]
     fn everything_is_drawn() {
         let polynomial =

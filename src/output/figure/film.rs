@@ -13,8 +13,8 @@ pub(crate) struct FilmView {
 }
 
 impl FilmView {
-    /// Returns the view in which one of the states is seen as in its figure, on the scale at which all states fit into the
-    /// frame, with the line widths of the sharpest fold of all; `None` if there is no such state.
+    /// Returns the view in which one of the states is seen as in its figure, on the scale at which all states fit into
+    /// the frame, with the line widths of the sharpest fold of all; `None` if there is no such state.
     pub(crate) fn of(pictures: &[Picture], front: usize) -> Option<Self> {
         let front = pictures.get(front)?;
         let view = Projection::of(&front.points, &front.triangles);

@@ -39,8 +39,8 @@ impl<'a> Content<'a> {
         }
     }
 
-    /// Returns what a page shows of a file that is not yet written; `None` for a collection of other files, and for what
-    /// cannot be written.
+    /// Returns what a page shows of a file that is not yet written; `None` for a collection of other files, and for
+    /// what cannot be written.
     pub(crate) fn of(artifact: &'a Artifact) -> Option<Self> {
         match artifact {
             Artifact::Table(table) => table.to_csv().ok().map(|text| Self::Table(text.into())),

@@ -4,9 +4,9 @@
 //! their drawings beside. It is made from the files of a study, either before they are written or read back, so that a
 //! study and `foldwell view` make the same page. Equal data give equal bytes.
 //!
-//! The page is `page.html` with `page.css`; its scripts are ES modules, which the page itself holds as `data:` addresses
-//! under the names of an import map. Space is drawn by three.js, see `vendor/README.md`. What is user-given, such as a
-//! title, is only in the data, where `<` is escaped, and in the title of the page.
+//! The page is `page.html` with `page.css`; its scripts are ES modules, which the page itself holds as `data:`
+//! addresses under the names of an import map. Space is drawn by three.js, see `vendor/README.md`. What is user-given,
+//! such as a title, is only in the data, where `<` is escaped, and in the title of the page.
 
 mod content;
 mod numbers;
@@ -151,8 +151,8 @@ mod tests {
         assert_eq!(make(0.5), make(0.7));
     }
 
-    /// Claim: no text of the user ends a script or begins a tag, in a title, a name, a reason or a drawing, and the data
-    /// have these texts unchanged.
+    /// Claim: no text of the user ends a script or begins a tag, in a title, a name, a reason or a drawing, and the
+    /// data have these texts unchanged.
     #[test]
     fn texts_of_the_user_are_escaped() {
         let wild = "</script><script>alert(1)</script><!-- & \" {{data}} {{modules}} \u{2028}";
@@ -183,9 +183,9 @@ mod tests {
         );
     }
 
-    /// Claim: a page of a trajectory with 200 states of 6 x 6 cells has less than 5 MB, three.js included. The sheet has
-    /// the points, triangles and lines of 6 x 6 cells of four vertices, twelve edges and eight faces; positions differ
-    /// in every state, and so do the fold angles and energies, which are the same in every cell.
+    /// Claim: a page of a trajectory with 200 states of 6 x 6 cells has less than 5 MB, three.js included. The sheet
+    /// has the points, triangles and lines of 6 x 6 cells of four vertices, twelve edges and eight faces; positions
+    /// differ in every state, and so do the fold angles and energies, which are the same in every cell.
     #[test]
     fn long_trajectories_are_small() {
         let [points, triangles, lines] = [7 * 7 * 4, 6 * 6 * 8, 6 * 6 * 12];

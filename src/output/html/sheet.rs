@@ -240,8 +240,8 @@ mod tests {
         assert_eq!(sheet.states.iter().map(|state| state.crossing.is_some()).collect::<Vec<_>>(), [false, true, true]);
     }
 
-    /// Claim: a quantity that all copies of an edge share is stored once for each edge of the cell, and one that they do
-    /// not share for each line.
+    /// Claim: a quantity that all copies of an edge share is stored once for each edge of the cell, and one that they
+    /// do not share for each line.
     #[test]
     fn copies_of_an_edge_share_their_values() {
         let mut picture = samples::hinge(0.5);

@@ -50,7 +50,8 @@ impl Column {
 }
 
 impl TableData {
-    /// Reads the text of a table of comma-separated fields without quotes. Rows that are too short end with empty fields.
+    /// Reads the text of a table of comma-separated fields without quotes. Rows that are too short end with empty
+    /// fields.
     pub(super) fn of_text(arrays: &mut Arrays, name: &str, text: &str) -> Self {
         let mut lines = text.trim_start_matches('\u{feff}').lines();
         let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
@@ -65,8 +66,8 @@ impl TableData {
         Self { name: name.to_owned(), rows: rows.len(), columns, left_out: header.len().saturating_sub(COLUMNS) }
     }
 
-    /// Makes a table of a list in a summary: numbers, or objects with the same keys, of which the entries that are lists
-    /// or objects themselves are left out. `None` for other lists.
+    /// Makes a table of a list in a summary: numbers, or objects with the same keys, of which the entries that are
+    /// lists or objects themselves are left out. `None` for other lists.
     fn of_list(arrays: &mut Arrays, name: &str, list: &[Value]) -> Option<Self> {
         let list = &list[..list.len().min(ROWS)];
         let columns: Vec<(&str, Vec<String>)> = match list.first()? {

@@ -39,8 +39,8 @@ pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
     parse_vtu(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })
 }
 
-/// Reads the picture of a state from a VTU file that [`write_vtu`] has written. Arrays that the file lacks are NaN, or 0
-/// for marks and displacements; edges are numbered by their lines where the file has no numbers.
+/// Reads the picture of a state from a VTU file that [`write_vtu`] has written. Arrays that the file lacks are NaN, or
+/// 0 for marks and displacements; edges are numbered by their lines where the file has no numbers.
 ///
 /// Without letters in the file, lines without a fold angle are boundaries and all others creases.
 ///
@@ -100,7 +100,8 @@ fn kind(letter: Assignment) -> EdgeKind {
     }
 }
 
-/// Returns the vertices and cells of which the points are copies; each point is a vertex of its own if the file does not say.
+/// Returns the vertices and cells of which the points are copies; each point is a vertex of its own if the file does
+/// not say.
 fn places(data: &Attributes, points: usize) -> Vec<(usize, [i32; 2])> {
     let numbers = |name: &str| point_numbers(name, data).filter(|found| found.len() == points);
     match ["vertex", "cell1", "cell2"].map(numbers) {

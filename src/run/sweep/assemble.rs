@@ -107,8 +107,8 @@ impl<'a> Board<'a> {
     }
 }
 
-/// Collects the finished points from their folders and writes the table and the summary of a sweep into `out`; returns the
-/// summary. The bytes of the table depend on the results of the points alone, not on the runs that computed them.
+/// Collects the finished points from their folders and writes the table and the summary of a sweep into `out`; returns
+/// the summary. The bytes of the table depend on the results of the points alone, not on the runs that computed them.
 ///
 /// Several runs of one sweep may do this at once: the table that is written last has all points.
 ///

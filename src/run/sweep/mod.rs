@@ -1,8 +1,9 @@
-//! Sweeps: the points of a scene with a table `[sweep]`, each computed as it would be alone, and the table of their results.
+//! Sweeps: the points of a scene with a table `[sweep]`, each computed as it would be alone, and the table of their
+//! results.
 //!
-//! A point is computed in its own folder, `points/0000`, ..., as by [`super::run`], so that points can be shared out to the
-//! threads of this process ([`sweep`]), to processes on one machine ([`run_point`]), or to those of a cluster ([`Shard`]).
-//! The table is made from these folders alone ([`assemble`]).
+//! A point is computed in its own folder, `points/0000`, ..., as by [`super::run`], so that points can be shared out to
+//! the threads of this process ([`sweep`]), to processes on one machine ([`run_point`]), or to those of a cluster
+//! ([`Shard`]). The table is made from these folders alone ([`assemble`]).
 
 mod assemble;
 pub(super) mod place;
@@ -53,14 +54,15 @@ pub struct SweepReport {
     pub converged: bool,
 }
 
-/// Computes the points of a scene with a table `[sweep]`, or those of a shard of them, and writes their files and the table.
+/// Computes the points of a scene with a table `[sweep]`, or those of a shard of them, and writes their files and the
+/// table.
 ///
-/// The points are shared out to the threads, and every point has the bytes that it would have alone. With `resume` those that
-/// an earlier run finished are kept. The observer is called with the number of finished points.
+/// The points are shared out to the threads, and every point has the bytes that it would have alone. With `resume`
+/// those that an earlier run finished are kept. The observer is called with the number of finished points.
 ///
 /// # Errors
-/// [`RunError`] if the scene has no sweep or is wrong, or if its points cannot be written; a point that cannot be computed is
-/// reported in the [`SweepReport`] instead.
+/// [`RunError`] if the scene has no sweep or is wrong, or if its points cannot be written; a point that cannot be
+/// computed is reported in the [`SweepReport`] instead.
 pub fn sweep(
     file: &SceneFile,
     options: &RunOptions,
@@ -142,8 +144,8 @@ pub fn check_scenes(sweep: &Sweep) -> Result<(), RunError> {
     Ok((0..sweep.len()).try_for_each(|index| sweep.scene(index).map(|_| ()))?)
 }
 
-/// Computes points of a sweep on the threads of this process and writes nothing. Returns the row of each, none for those that the
-/// observer stopped.
+/// Computes points of a sweep on the threads of this process and writes nothing. Returns the row of each, none for
+/// those that the observer stopped.
 ///
 /// # Errors
 /// [`RunError`] if the scene of a point cannot be read.
@@ -179,9 +181,9 @@ fn in_memory(scene: &SceneFile, threads: usize, observer: Observer) -> Result<Op
     }
 }
 
-/// Computes a point of a sweep in its folder below that of the sweep, `options.out`, as [`super::run`] does with its scene.
-/// With `options.resume` the point is left as it is if an earlier run finished it, and else its finished studies are kept.
-/// Returns what became of the point; `None` if the observer stopped it.
+/// Computes a point of a sweep in its folder below that of the sweep, `options.out`, as [`super::run`] does with its
+/// scene. With `options.resume` the point is left as it is if an earlier run finished it, and else its finished studies
+/// are kept. Returns what became of the point; `None` if the observer stopped it.
 ///
 /// While another run computes this point, it waits for the end of that. A point whose scene cannot be computed has
 /// failed: its folder gets the reason.

@@ -1,8 +1,8 @@
-//! What the folder of a point says about it: `summary.json` of its run, or `failed.json` with the reason for which its scene
-//! could not be computed.
+//! What the folder of a point says about it: `summary.json` of its run, or `failed.json` with the reason for which its
+//! scene could not be computed.
 //!
-//! Either counts only if it has the digest of the point's scene, and a summary only if it has every study: a point that a
-//! run was computing when it ended has no result.
+//! Either counts only if it has the digest of the point's scene, and a summary only if it has every study: a point that
+//! a run was computing when it ended has no result.
 
 use std::fs;
 use std::io::ErrorKind;

@@ -1,7 +1,7 @@
 //! The scalar results of the studies of a point, named `STUDY.key`.
 //!
-//! Keys of tables inside are joined by points, `relaxed.energy.total`. Of lists only the main answers of a study are there,
-//! by their numbers from 0: `cost.modes.0.exponent`, `loops.branches.0.arc_length`, `stable.wells.0.energy`.
+//! Keys of tables inside are joined by points, `relaxed.energy.total`. Of lists only the main answers of a study are
+//! there, by their numbers from 0: `cost.modes.0.exponent`, `loops.branches.0.arc_length`, `stable.wells.0.energy`.
 
 use serde_json::{Map, Value};
 
@@ -52,7 +52,8 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// Claim: tables are joined by points, main answers have numbers, other lists and times are left out, and null is empty.
+    /// Claim: tables are joined by points, main answers have numbers, other lists and times are left out, and null is
+    /// empty.
     #[test]
     fn scalars_have_their_paths() {
         let study = json!({

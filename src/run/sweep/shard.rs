@@ -30,7 +30,8 @@ pub struct Shard {
 pub struct ShardError(String);
 
 impl Shard {
-    /// Returns the points of the shard among this number of points: those with index `number - 1` modulo the number of shards.
+    /// Returns the points of the shard among this number of points: those with index `number - 1` modulo the number of
+    /// shards.
     pub fn points(&self, count: usize) -> Vec<usize> {
         (self.number - 1..count).step_by(self.of).collect()
     }

@@ -37,7 +37,8 @@ pub struct DriveSpec {
     pub part: Option<Located<String>>,
     /// The vertices that are moved along `axis`; across it they are free.
     pub vertices: Option<Located<VertexSet>>,
-    /// The axis: for a part one of "x", "y", "z", "rx", "ry", "rz"; for vertices one of "x", "y", "z" or a direction [x, y, z].
+    /// The axis: for a part one of "x", "y", "z", "rx", "ry", "rz"; for vertices one of "x", "y", "z" or a direction
+    /// [x, y, z].
     pub axis: Option<Located<AxisSpec>>,
     /// true: a factor of all loads.
     pub load: Option<Located<bool>>,

@@ -92,8 +92,8 @@ pub struct RelaxSpec {
     /// The unknowns of the relaxation; left out: `auto`.
     #[serde(default)]
     pub method: MethodSpec,
-    /// Which states on the way are written: one in so many iterations, the first and the last one included. Left out: the
-    /// start and the end.
+    /// Which states on the way are written: one in so many iterations, the first and the last one included. Left out:
+    /// the start and the end.
     pub keep_every: Option<Located<Count>>,
 }
 
@@ -194,8 +194,8 @@ pub struct SurfaceSpec {
 pub struct ModesSpec {
     /// The state whose modes are wanted; left out: the drawn one.
     pub start: Option<Located<StartSpec>>,
-    /// How many of the lowest eigenvalues of the energy's Hessian, and, where the scene has a mass, of the lowest frequencies;
-    /// left out: none.
+    /// How many of the lowest eigenvalues of the energy's Hessian, and, where the scene has a mass, of the lowest
+    /// frequencies; left out: none.
     pub eigenvalues: Option<Located<usize>>,
 }
 
@@ -234,16 +234,19 @@ pub struct BlochSpec {
     pub start: Option<Located<StartSpec>>,
     /// Wavenumbers sampled along each direction; left out: [256, 256].
     pub grid: Option<Located<Cells>>,
-    /// First wavenumbers at which decay rates are wanted, in radians per cell; left out: 32 that divide the zone evenly.
+    /// First wavenumbers at which decay rates are wanted, in radians per cell; left out: 32 that divide the zone
+    /// evenly.
     pub q1: Option<Located<Vec<Finite>>>,
-    /// Modes of which the displacement is written, each `[q1, kappa2]`: of the roots at `q1` the one of nearest decay rate.
+    /// Modes of which the displacement is written, each `[q1, kappa2]`: of the roots at `q1` the one of nearest decay
+    /// rate.
     pub modes: Option<Located<Vec<Pair>>>,
     /// Corners `[q1, q2]` of a path through the zone along which the bands of the energy are wanted, with a mass
     /// also frequencies.
     pub path: Option<Located<Vec<Pair>>>,
     /// The density of states over the whole zone, of a sheet with mass.
     pub density: Option<Located<DensitySpec>>,
-    /// A strip, periodic along the first lattice vector with free edges across the second: its zero modes at every `q1`.
+    /// A strip, periodic along the first lattice vector with free edges across the second: its zero modes at every
+    /// `q1`.
     pub strip: Option<Located<StripSpec>>,
     /// Wavenumbers `[q1, q2]` at which zero modes and self stresses are counted.
     pub zero_modes_at: Option<Located<Vec<Pair>>>,
@@ -265,10 +268,11 @@ pub struct DensitySpec {
 pub struct StripSpec {
     /// Cells across the strip, at least 8; with `other` at least 16.
     pub cells: Count,
-    /// The mesh of the cell of the upper half, relative to the scene; left out: all cells are equal. It needs as many vertices, the
-    /// same first lattice vector and the same edges between neighbouring rows of cells.
+    /// The mesh of the cell of the upper half, relative to the scene; left out: all cells are equal. It needs as many
+    /// vertices, the same first lattice vector and the same edges between neighbouring rows of cells.
     pub other: Option<PathBuf>,
-    /// Whether both edges are clamped instead of free: cells beyond them are held. Then self stresses are where free edges have zero modes.
+    /// Whether both edges are clamped instead of free: cells beyond them are held. Then self stresses are where free
+    /// edges have zero modes.
     #[serde(default)]
     pub clamped: bool,
 }
@@ -284,19 +288,21 @@ pub struct WellsSpec {
     /// Seed of their random numbers; left out: 0.
     #[serde(default)]
     pub seed: u64,
-    /// Largest distance of the random fold angles towards which the sheet is crumpled from those of the start, in radians; left out: pi.
+    /// Largest distance of the random fold angles towards which the sheet is crumpled from those of the start, in
+    /// radians; left out: pi.
     pub spread: Option<Located<Positive>>,
-    /// Pairs of wells between which the barrier is wanted, each `[a, b]`: wells are numbered by rising energy, from 0. Left out: none.
+    /// Pairs of wells between which the barrier is wanted, each `[a, b]`: wells are numbered by rising energy, from 0.
+    /// Left out: none.
     #[serde(default)]
     pub barriers: Vec<Located<WellPair>>,
-    /// Whether wells and passes are also sought in fold angles alone, on the rigidly folded states: of a screw, or of a sheet that folds
-    /// along curves.
+    /// Whether wells and passes are also sought in fold angles alone, on the rigidly folded states: of a screw, or of a
+    /// sheet that folds along curves.
     #[serde(default)]
     pub rigid: bool,
     /// With `rigid`, states over a whole turn of fold angles; left out: 64.
     pub resolution: Option<Located<Count>>,
-    /// With `rigid`, magnitude of the curvature up to which the states of a screw are sought, 1/length. Left out: one over the square root
-    /// of the cell's area.
+    /// With `rigid`, magnitude of the curvature up to which the states of a screw are sought, 1/length. Left out: one
+    /// over the square root of the cell's area.
     pub max_curvature: Option<Located<Positive>>,
 }
 

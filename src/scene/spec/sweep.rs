@@ -20,8 +20,8 @@ const POINTS: &str = "points";
 /// The key of a sweep that says whether its axes run together.
 const ZIP: &str = "zip";
 
-/// `[sweep]`: the axes of a sweep. Its points are the product of the axes, the first of which is the slowest, or with `zip`
-/// the values with the same number on every axis.
+/// `[sweep]`: the axes of a sweep. Its points are the product of the axes, the first of which is the slowest, or with
+/// `zip` the values with the same number on every axis.
 #[derive(Clone, Debug, Default)]
 pub struct SweepSpec {
     /// Whether the axes run together.

@@ -87,8 +87,8 @@ fn linear(range: &SweepRange) -> Vec<String> {
     between(range, |x| x, |x| x)
 }
 
-/// Returns numbers each of which is the same multiple of the one before. The ends are exact, and powers of ten are where they
-/// should be: the logarithms are divided evenly, to base 10.
+/// Returns numbers each of which is the same multiple of the one before. The ends are exact, and powers of ten are
+/// where they should be: the logarithms are divided evenly, to base 10.
 fn logarithmic(range: &SweepRange) -> Vec<String> {
     between(range, libm::log10, libm::exp10)
 }

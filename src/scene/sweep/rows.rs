@@ -1,6 +1,7 @@
 //! A table of points: CSV whose header has the paths of keys, and each row their values at a point.
 //!
-//! A field with commas stands in double quotes, in which `""` is a quote. Fields are values of TOML, texts without quotes.
+//! A field with commas stands in double quotes, in which `""` is a quote. Fields are values of TOML, texts without
+//! quotes.
 
 use std::path::Path;
 

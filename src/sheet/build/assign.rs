@@ -51,8 +51,8 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
     Ok(())
 }
 
-/// Returns the drawn edges with a target angle that is not zero, each with the letter of its side. An angle beyond pi is no target: it
-/// is a drawn one and a full turn, on the other side.
+/// Returns the drawn edges with a target angle that is not zero, each with the letter of its side. An angle beyond pi
+/// is no target: it is a drawn one and a full turn, on the other side.
 fn targets(drawn: &Drawing) -> BTreeSet<([usize; 2], Assignment)> {
     let side = |(ends, angle): &([usize; 2], Option<f64>)| {
         let angle = angle.filter(|angle| *angle != 0.0 && angle.abs() <= PI)?;

@@ -1,10 +1,11 @@
 //! Identifies drawn vertices that are the same vertex of the cell.
 //!
 //! Two drawn vertices that differ by a lattice vector, within 1e-6 of the shorter lattice vector, are one vertex; the
-//! one that comes first in the file is in cell (0, 0) and gives the position. So are two that a screw motion of a tube's cell
-//! carries into each other; of the cells that differ by a whole turn the nearest one is meant. In a finite sheet every drawn vertex is a
-//! vertex of its own: layers of a folded sheet touch, and vertices of different faces may stand at one place, closer
-//! than 1e-9 of the sheet's extent. Faces cannot be rebuilt there, and no face may have two such corners.
+//! one that comes first in the file is in cell (0, 0) and gives the position. So are two that a screw motion of a
+//! tube's cell carries into each other; of the cells that differ by a whole turn the nearest one is meant. In a finite
+//! sheet every drawn vertex is a vertex of its own: layers of a folded sheet touch, and vertices of different faces may
+//! stand at one place, closer than 1e-9 of the sheet's extent. Faces cannot be rebuilt there, and no face may have two
+//! such corners.
 
 use std::collections::HashMap;
 
@@ -255,8 +256,8 @@ mod tests {
         assert_eq!(identify(&far).unwrap().homes, [0, 1]);
     }
 
-    /// Claim: two vertices at the same position are refused with a lattice, where faces are rebuilt, and as corners of one
-    /// face; otherwise they are two vertices.
+    /// Claim: two vertices at the same position are refused with a lattice, where faces are rebuilt, and as corners of
+    /// one face; otherwise they are two vertices.
     #[test]
     fn one_place_one_vertex() {
         let places = [[0.0; 3], [0.5, 0.5, 0.0], [0.5, 0.5, 1e-12], [1.0, 0.0, 0.0]];

@@ -72,8 +72,8 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     Ok((sheet, identified))
 }
 
-/// Whether some faces of a plane drawing run clockwise and others counter-clockwise: then it shows a sheet that is folded
-/// flat, whose layers lie on each other.
+/// Whether some faces of a plane drawing run clockwise and others counter-clockwise: then it shows a sheet that is
+/// folded flat, whose layers lie on each other.
 fn is_turned(drawn: &Drawing) -> bool {
     let areas = drawn.faces.iter().map(|face| planar::area(&drawn.coords, face));
     let sides: Vec<f64> = areas.filter(|area| *area != 0.0).collect();

@@ -6,8 +6,8 @@ use super::planar::faces_of;
 use super::{Defect, Drawing};
 use crate::sheet::assignment::Assignment;
 
-/// Gives `drawn` the faces that `edges` bound in the plane, without those that are listed as openings and those that the
-/// assignments show to be holes.
+/// Gives `drawn` the faces that `edges` bound in the plane, without those that are listed as openings and those that
+/// the assignments show to be holes.
 ///
 /// # Errors
 /// [`Defect`] if two vertices stand at one place, if edges cross or are loose, or if they are not connected.

@@ -2,10 +2,10 @@
 //!
 //! A quadrilateral is split by the shorter of its diagonals; in a tie (1e-9 relative) by the diagonal through the
 //! vertex that is listed first. From a larger polygon the ear with the shortest diagonal is cut repeatedly, with the
-//! same rule for ties. An ear is a corner that turns left, seen along the polygon's normal, and whose triangle
-//! contains no other corner. Corners at which the outline goes straight on, as crease patterns have them where a crease
-//! of a neighbour ends, are no ears, so that the triangle beside them is not without area; up to [`STRAIGHT`] they count
-//! as straight, since their coordinates are rounded.
+//! same rule for ties. An ear is a corner that turns left, seen along the polygon's normal, and whose triangle contains
+//! no other corner. Corners at which the outline goes straight on, as crease patterns have them where a crease of a
+//! neighbour ends, are no ears, so that the triangle beside them is not without area; up to [`STRAIGHT`] they count as
+//! straight, since their coordinates are rounded.
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::math::Vec3;
@@ -14,8 +14,8 @@ use crate::sheet::cell::{Corner, Triangle};
 /// Least area of a triangle, relative to the square of its longest side.
 const THINNEST: f64 = 1e-12;
 
-/// Area of a triangle relative to the square of its longest side, up to which its corners count as lying on a line: well
-/// above the rounding of coordinates of six digits, well below what is drawn on purpose.
+/// Area of a triangle relative to the square of its longest side, up to which its corners count as lying on a line:
+/// well above the rounding of coordinates of six digits, well below what is drawn on purpose.
 const STRAIGHT: f64 = 1e-6;
 
 /// A triangle, and the diagonal that separates it from its polygon.
@@ -59,8 +59,8 @@ fn check_area(drawn: &Drawing, f: usize, points: &[Vec3], corners: [usize; 3]) -
     Err(Defect::new(MeshPart::Face(f), Problem::ZeroArea { face: drawn.name(f), triangle, area, longest }))
 }
 
-/// Returns the triangles `[before, tip, after]` of the polygon with these corners, none of them of an area of `straight`
-/// or less relative to its longest side; `None` if a step finds no ear.
+/// Returns the triangles `[before, tip, after]` of the polygon with these corners, none of them of an area of
+/// `straight` or less relative to its longest side; `None` if a step finds no ear.
 fn ears(points: &[Vec3], straight: f64) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..points.len()).collect();
     let mut cut = Vec::with_capacity(points.len() - 2);
@@ -148,9 +148,9 @@ mod tests {
         assert_eq!(ears(&lean, STRAIGHT).unwrap(), [[3, 0, 1], [1, 2, 3]]);
     }
 
-    /// Claim: a corner on a straight side, up to rounding of six digits to either side, is joined to a corner that is not
-    /// on that side, and no triangle is thin, also where the diagonal along the side is the shortest. A square with such
-    /// corners on all sides has six triangles of its area.
+    /// Claim: a corner on a straight side, up to rounding of six digits to either side, is joined to a corner that is
+    /// not on that side, and no triangle is thin, also where the diagonal along the side is the shortest. A square with
+    /// such corners on all sides has six triangles of its area.
     #[test]
     fn straight_corners() {
         for off in [0.0, 1e-17, -1e-17, 5e-7, -5e-7] {

@@ -12,8 +12,8 @@ use crate::sheet::error::DrawnEdge;
 use crate::sheet::fold_angle_fault::FoldAngleFault;
 
 /// Keeps the fold angles of the file as targets if some of them are not the drawn ones; otherwise they say nothing that
-/// the drawing does not. An angle that is not drawn has to be between -pi and pi, and on the side of its edge's letter. An
-/// edge without a letter whose target is on the other side than its drawing takes the letter of its target.
+/// the drawing does not. An angle that is not drawn has to be between -pi and pi, and on the side of its edge's letter.
+/// An edge without a letter whose target is on the other side than its drawing takes the letter of its target.
 pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) -> Result<(), Defect> {
     if drawn.fold_angles.is_empty() {
         return Ok(());

@@ -77,8 +77,8 @@ fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
     }
 }
 
-/// Returns the edges of a drawing as lines, each with its place in the text; sides of faces that are not listed have the
-/// letter B or U.
+/// Returns the edges of a drawing as lines, each with its place in the text; sides of faces that are not listed have
+/// the letter B or U.
 fn lines<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Line, &'a RawValue)> {
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let line = |ends: [usize; 2], letter: Assignment, angle: Option<f64>| {

@@ -7,8 +7,8 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
-/// The keys of a frame and their values, not parsed yet. Keys that are there twice are refused, and those whose value is
-/// null left out.
+/// The keys of a frame and their values, not parsed yet. Keys that are there twice are refused, and those whose value
+/// is null left out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Values<'a>(pub BTreeMap<String, &'a RawValue>);
 

@@ -4,14 +4,15 @@
 //!
 //! One cell is drawn in full: the vertices of the cell and the copies that its faces need. If `faces_vertices` is
 //! absent, the faces are rebuilt from `edges_vertices`, seen along z. Angles in these files are in degrees, valley
-//! positive; angles and assignments of edges are optional. Angles that agree with the coordinates within 1e-3 degrees, up
-//! to full turns, are the drawn ones. If some do not agree, all angles of the file are the targets of folding, as crease
-//! pattern editors write them and as they remain while a simulator folds ([`targets`](crate::sheet::Sheet::targets)).
+//! positive; angles and assignments of edges are optional. Angles that agree with the coordinates within 1e-3 degrees,
+//! up to full turns, are the drawn ones. If some do not agree, all angles of the file are the targets of folding, as
+//! crease pattern editors write them and as they remain while a simulator folds
+//! ([`targets`](crate::sheet::Sheet::targets)).
 //!
-//! The letters of `edges_assignment` have their meaning in FOLD 1.2. `C` cuts a finite sheet along the edge. `J`
-//! joins the two faces to one polygon, of which the edge is a diagonal. An edge with `B` has one face only: a rebuilt
-//! face whose sides are all boundaries is a hole. An edge with `M` or `V` may be flat, as in a crease pattern, but
-//! not folded to the other side. One frame is read, the first with a mesh or that of a given number; see [`parse_frame`].
+//! The letters of `edges_assignment` have their meaning in FOLD 1.2. `C` cuts a finite sheet along the edge. `J` joins
+//! the two faces to one polygon, of which the edge is a diagonal. An edge with `B` has one face only: a rebuilt face
+//! whose sides are all boundaries is a hole. An edge with `M` or `V` may be flat, as in a crease pattern, but not
+//! folded to the other side. One frame is read, the first with a mesh or that of a given number; see [`parse_frame`].
 //! Keys about the file and its frame are kept, and so are all others of a finite sheet whose numbering is kept.
 //!
 //! ```

@@ -53,8 +53,8 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     parse_frame(text, name, None)
 }
 
-/// Reads one frame of a FOLD text: 0 is the top of the file, and those of `file_frames` are numbered from 1. If no number
-/// is given it is the first frame with a mesh. Keys are inherited as `frame_inherit` and `frame_parent` say.
+/// Reads one frame of a FOLD text: 0 is the top of the file, and those of `file_frames` are numbered from 1. If no
+/// number is given it is the first frame with a mesh. Keys are inherited as `frame_inherit` and `frame_parent` say.
 ///
 /// # Errors
 /// As [`parse`]; also if there is no such frame, or its parents lead back to it.

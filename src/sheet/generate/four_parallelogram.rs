@@ -16,9 +16,10 @@ const SOURCE: &str = "Cell of four parallelograms: J. McInerney, G. H. Paulino, 
 
 /// One cell of four parallelograms: along one direction its sides are `a` and `b` in turn, along the other `c` and `d`.
 ///
-/// Vertices are at `0, a, c, a + c`, the lattice vectors are `a + b` and `c + d`. The sides `c` and `d` have the directions
-/// `(0, cos f, -sin f)` and `(0, cos f, sin f)`; those of `a` and `b` have their angles with both, and point to the same side of
-/// the plane of `c` and `d`. All is then turned so that the lattice vectors lie in the plane of x and y, the first along x.
+/// Vertices are at `0, a, c, a + c`, the lattice vectors are `a + b` and `c + d`. The sides `c` and `d` have the
+/// directions `(0, cos f, -sin f)` and `(0, cos f, sin f)`; those of `a` and `b` have their angles with both, and point
+/// to the same side of the plane of `c` and `d`. All is then turned so that the lattice vectors lie in the plane of x
+/// and y, the first along x.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FourParallelogram {
@@ -42,9 +43,9 @@ pub struct FourParallelogram {
     /// Angle between `b` and `d` in radians, in `(0, pi)`. Default 60 degrees.
     #[serde(deserialize_with = "radians")]
     pub bd: f64,
-    /// Slope `f` of the sides `c` and `d` in radians, half the angle between them; the mirror image with the opposite sign.
-    /// `2 |f|` lies between the difference of `ac` and `ad` and their sum (or `2 pi` less that), and the same for `bc` and `bd`.
-    /// Default 45 degrees.
+    /// Slope `f` of the sides `c` and `d` in radians, half the angle between them; the mirror image with the opposite
+    /// sign. `2 |f|` lies between the difference of `ac` and `ad` and their sum (or `2 pi` less that), and the same for
+    /// `bc` and `bd`. Default 45 degrees.
     #[serde(deserialize_with = "radians")]
     pub fold: f64,
 }

@@ -16,11 +16,11 @@ const SOURCE: &str = "Pleated hyperbolic paraboloid: traditional; E. D. Demaine,
 /// and the diagonals from the centre to the corners.
 ///
 /// Polygon `k` has the distance `k width` from the centre. Polygons are mountains and valleys by turns, the outermost
-/// one is the rim. The diagonals between polygons `k` and `k+1` have the letter of polygon `k`, so that every vertex but
-/// the centre has three creases of one letter and one of the other.
+/// one is the rim. The diagonals between polygons `k` and `k+1` have the letter of polygon `k`, so that every vertex
+/// but the centre has three creases of one letter and one of the other.
 ///
-/// Vertex 0 is the centre, vertex `1 + (k-1) sides + s` the corner `s` of polygon `k`. With pleats that do not bend, this
-/// pattern of squares cannot be folded at all, as the source proves; a sheet folds by bending its faces.
+/// Vertex 0 is the centre, vertex `1 + (k-1) sides + s` the corner `s` of polygon `k`. With pleats that do not bend,
+/// this pattern of squares cannot be folded at all, as the source proves; a sheet folds by bending its faces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hypar {

@@ -106,8 +106,8 @@ impl Pattern {
         HELP.iter().map(|(name, _)| *name)
     }
 
-    /// Returns a page about the pattern of this name: what it is, a drawing of its parameters, and the meaning, range and
-    /// default of each.
+    /// Returns a page about the pattern of this name: what it is, a drawing of its parameters, and the meaning, range
+    /// and default of each.
     ///
     /// # Errors
     /// [`GenerateError::Unknown`] if no pattern has this name.

@@ -32,8 +32,8 @@ impl Parts {
         Ok(build(&drawn)?)
     }
 
-    /// Makes a flat sheet whose edges fold to these angles, in radians, valley positive: each gets the letter of its side,
-    /// and its angle as a target unless all of them fold flat.
+    /// Makes a flat sheet whose edges fold to these angles, in radians, valley positive: each gets the letter of its
+    /// side, and its angle as a target unless all of them fold flat.
     pub(crate) fn folding(self, parameters: String, angles: Vec<([Corner; 2], f64)>) -> Result<Sheet, GenerateError> {
         let mut sheet = self.sheet(parameters)?;
         let angles: Vec<_> = angles.into_iter().map(|([a, b], angle)| (EdgeKey::new(a, b).0, angle)).collect();

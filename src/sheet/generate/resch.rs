@@ -26,8 +26,8 @@ const SOURCE: &str = "Ron Resch's triangular tessellation: R. D. Resch, US paten
 ///
 /// Folded, the tiles cover a plane, turned against each other, and the right triangles of a tuck stand below them in
 /// three upright walls of two layers each. The target angles say so: -pi/2 along the sides of tiles, -pi/3 from the
-/// middles of the sides of a tuck to its centre, pi from its corners. The lattice vectors are then shorter by the factor
-/// `sqrt 3`.
+/// middles of the sides of a tuck to its centre, pi from its corners. The lattice vectors are then shorter by the
+/// factor `sqrt 3`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Resch {

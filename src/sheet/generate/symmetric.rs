@@ -31,14 +31,15 @@ pub enum CellSymmetry {
     GlideAlong,
 }
 
-/// A random cell with one symmetry: as [`Random`](super::Random) without skew, its displacements averaged over the symmetry.
+/// A random cell with one symmetry: as [`Random`](super::Random) without skew, its displacements averaged over the
+/// symmetry.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Symmetric {
     /// The symmetry. Default `"two-fold"`.
     pub symmetry: CellSymmetry,
-    /// Vertices along the two lattice vectors, 1 to 1000 each; even along the first for a screw axis or a glide plane, along the
-    /// second for a mirror plane. Default `[4, 4]`.
+    /// Vertices along the two lattice vectors, 1 to 1000 each; even along the first for a screw axis or a glide plane,
+    /// along the second for a mirror plane. Default `[4, 4]`.
     pub size: [usize; 2],
     /// Largest displacement along z, in `[0, 100)`. Default 0.3.
     pub height: f64,
@@ -70,7 +71,8 @@ impl CellSymmetry {
         }
     }
 
-    /// Returns the image of the place `(i, j)` of a grid of this size; of a square by its lower left corner if `square` is 1.
+    /// Returns the image of the place `(i, j)` of a grid of this size; of a square by its lower left corner if `square`
+    /// is 1.
     fn image(self, size: [usize; 2], [i, j]: [usize; 2], square: i64) -> [usize; 2] {
         let [sx, sy, _] = self.signs();
         let half = if self.is_half() { size[0] as i64 / 2 } else { 0 };

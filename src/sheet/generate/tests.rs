@@ -63,8 +63,8 @@ fn sector_angles_and_sides() {
     }
 }
 
-/// Claim: the sides of a cell of four parallelograms have their lengths and angles, also of the mirror image, which is the
-/// same sheet with z reversed; with the angles of the eggbox it is the eggbox. Tolerance: rounding.
+/// Claim: the sides of a cell of four parallelograms have their lengths and angles, also of the mirror image, which is
+/// the same sheet with z reversed; with the angles of the eggbox it is the eggbox. Tolerance: rounding.
 #[test]
 fn four_parallelograms_have_their_sides() {
     let json = r#"{"pattern": "four-parallelogram", "a": 1.3, "b": 0.7, "c": 0.6, "d": 1.1, "ac": 1.2, "ad": 1.8, "bc": 1.5,
@@ -105,7 +105,8 @@ fn square_twist_folds() {
     assert!(angles.iter().all(|a| a.abs() > 0.1), "{angles:?}");
 }
 
-/// Returns the letters of the creases at each vertex that no boundary edge reaches, as numbers of mountains and valleys.
+/// Returns the letters of the creases at each vertex that no boundary edge reaches, as numbers of mountains and
+/// valleys.
 fn letters_at_vertices(sheet: &Sheet) -> Vec<[usize; 2]> {
     let mut letters = vec![Some([0, 0]); sheet.vertices.len()];
     for edge in &sheet.edges {

@@ -1,10 +1,11 @@
-//! The arrangement of segments in the plane: their points and the pieces between them, which meet at common points only.
+//! The arrangement of segments in the plane: their points and the pieces between them, which meet at common points
+//! only.
 //!
 //! Points within a tolerance of each other are one point, the first of them. Then segments are split at the points that
-//! lie on them, within the tolerance, and where two of them cross, which exact determinants decide; a point on a segment
-//! and near its end is that end. A split moves a segment by up to the tolerance, so that this is repeated until nothing
-//! is left to split. Every repetition makes pieces shorter or points fewer: a part of a piece is longer than the tolerance
-//! and shorter than the piece.
+//! lie on them, within the tolerance, and where two of them cross, which exact determinants decide; a point on a
+//! segment and near its end is that end. A split moves a segment by up to the tolerance, so that this is repeated until
+//! nothing is left to split. Every repetition makes pieces shorter or points fewer: a part of a piece is longer than
+//! the tolerance and shorter than the piece.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
@@ -17,9 +18,9 @@ use crate::sheet::boxes::{around, for_pairs_that_meet};
 /// Most repetitions of splitting; two are usual.
 const MOST_ROUNDS: usize = 20;
 
-/// Distance in tolerances within which a point that lies on a piece is the end of the piece. From the square root of 2 on,
-/// both parts of a split piece are shorter than the piece: the point is at most 1 off the piece, and then at least 1 along
-/// it from either end.
+/// Distance in tolerances within which a point that lies on a piece is the end of the piece. From the square root of 2
+/// on, both parts of a split piece are shorter than the piece: the point is at most 1 off the piece, and then at least
+/// 1 along it from either end.
 const NEAR_END: f64 = std::f64::consts::SQRT_2;
 
 /// Largest distance in tolerances of the end of a segment from the point that it becomes. Ends that are meant to be one
@@ -45,12 +46,12 @@ pub(crate) struct Arrangement {
     pub pieces: Vec<Piece>,
 }
 
-/// Returns the arrangement of `segments`, whose points are merged within the length `tolerance`; without `split` they are
-/// only merged.
+/// Returns the arrangement of `segments`, whose points are merged within the length `tolerance`; without `split` they
+/// are only merged.
 ///
 /// # Errors
-/// The number of a segment whose end belongs to a chain of near points that is too wide for one point, or whose pieces are
-/// still split after all repetitions.
+/// The number of a segment whose end belongs to a chain of near points that is too wide for one point, or whose pieces
+/// are still split after all repetitions.
 pub(crate) fn arrange(segments: &[[Vec2; 2]], tolerance: f64, split: bool) -> Result<Arrangement, usize> {
     let mut places = Places { tolerance, points: vec![], merged: vec![], merges: 0, buckets: HashMap::new() };
     let numbered = segments.iter().map(|ends| ends.map(|end| places.number(end)));
@@ -272,8 +273,8 @@ mod tests {
         assert_eq!(ends(&overlap), [[0, 3], [3, 1], [2, 1], [1, 3]]);
     }
 
-    /// Claim: `n` random lines through a disc that all cross pairwise have `n (n - 1) / 2` crossings and `n^2` pieces, and
-    /// three lines through one point have one. Source: no three of the random lines meet in one point.
+    /// Claim: `n` random lines through a disc that all cross pairwise have `n (n - 1) / 2` crossings and `n^2` pieces,
+    /// and three lines through one point have one. Source: no three of the random lines meet in one point.
     #[test]
     fn pencils_and_lines_in_general_position() {
         let line = |angle: f64, off: f64| {
@@ -290,8 +291,9 @@ mod tests {
         assert_eq!((points(&found), found.pieces.len()), (25, 24));
     }
 
-    /// Claim: three lines that miss one point by 1.1 tolerances meet in one point, and so do lines of one grid point whose
-    /// ends form a chain; a curve in steps below the tolerance is refused with its first line. Source: counted by hand.
+    /// Claim: three lines that miss one point by 1.1 tolerances meet in one point, and so do lines of one grid point
+    /// whose ends form a chain; a curve in steps below the tolerance is refused with its first line. Source: counted by
+    /// hand.
     #[test]
     fn near_points_are_one_point() {
         let third = |k: usize| Vec2::new((k as f64 * 2.0 * PI / 3.0).cos(), (k as f64 * 2.0 * PI / 3.0).sin());

@@ -20,8 +20,8 @@ const SAME_POINT: f64 = 1e-4;
 /// Largest distance of merging, relative to the extent.
 const COARSEST: f64 = 0.1;
 
-/// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little above
-/// that distance are this far apart.
+/// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little
+/// above that distance are this far apart.
 const CLOSE: f64 = 3.0;
 
 /// Largest difference of two fold angles in degrees that lines on each other may have.
@@ -77,8 +77,8 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: Drawing) -> Result<
     Ok(sheet)
 }
 
-/// Returns the nearest two of the points of `pieces`, one of them an end of the piece `at` if one is given, if they are so
-/// close that they may be meant as one.
+/// Returns the nearest two of the points of `pieces`, one of them an end of the piece `at` if one is given, if they are
+/// so close that they may be meant as one.
 fn gap(points: &[Vec2], pieces: &[Piece], at: Option<Piece>, tolerance: f64) -> Option<[Vec2; 2]> {
     let used: BTreeSet<usize> = pieces.iter().flat_map(|piece| piece.ends).collect();
     let used: Vec<usize> = used.into_iter().collect();

@@ -1,12 +1,13 @@
 //! The colours of Origami Simulator, and the letters that they stand for.
 //!
-//! Drawing programs change colours a little, so that red is every saturated colour whose hue is within 30 degrees of pure red, and so for
-//! the others; cyan, which only FOLD's joints have, within 10. Black is what has less than a quarter of full
-//! brightness in every channel.
+//! Drawing programs change colours a little, so that red is every saturated colour whose hue is within 30 degrees of
+//! pure red, and so for the others; cyan, which only FOLD's joints have, within 10. Black is what has less than a
+//! quarter of full brightness in every channel.
 
 use crate::sheet::assignment::Assignment;
 
-/// Letters, colours as they are written, hues in degrees and how far colours that are read may be off; black has no hue.
+/// Letters, colours as they are written, hues in degrees and how far colours that are read may be off; black has no
+/// hue.
 const COLOURS: [(Assignment, &str, Option<[f64; 2]>); 7] = [
     (Assignment::Boundary, "#000", None),
     (Assignment::Mountain, "#f00", Some([0.0, 30.0])),
@@ -62,8 +63,8 @@ fn hue(rgb: [u8; 3]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Claim: pure colours and those of Illustrator's default swatches have their letters; white, grey and azure have none.
-    /// Source: CSS Color 3 for names, Illustrator's RGB swatches for the others.
+    /// Claim: pure colours and those of Illustrator's default swatches have their letters; white, grey and azure have
+    /// none. Source: CSS Color 3 for names, Illustrator's RGB swatches for the others.
     #[test]
     fn colours_and_letters() {
         let pure = [[0, 0, 0], [255, 0, 0], [255, 255, 0], [0, 255, 0], [0, 255, 255], [0, 0, 255], [255, 0, 255]];

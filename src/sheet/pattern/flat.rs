@@ -33,7 +33,8 @@ pub(super) struct FlatEdge {
     pub target: Option<f64>,
 }
 
-/// Returns the drawn edges of a flat sheet in the order of its file; diagonals of polygons only where the file lists them.
+/// Returns the drawn edges of a flat sheet in the order of its file; diagonals of polygons only where the file lists
+/// them.
 pub(super) fn edges(sheet: &Sheet) -> Result<Vec<FlatEdge>, NotFlat> {
     check(sheet)?;
     let drawn = draw(sheet);

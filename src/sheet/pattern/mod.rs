@@ -17,8 +17,8 @@
 //! face normals. A closed outline of black lines inside the sheet, with faces all round, is a hole.
 //!
 //! Sources: A. Ghassaei, E. D. Demaine, N. Gershenfeld, "Fast, interactive origami simulation using GPU computation",
-//! Origami 7 (2018), and the files that its program Origami Simulator reads and writes, for the colours and the opacity;
-//! J. Mitani, ORIPA, and Oriedita, for the types.
+//! Origami 7 (2018), and the files that its program Origami Simulator reads and writes, for the colours and the
+//! opacity; J. Mitani, ORIPA, and Oriedita, for the types.
 //!
 //! ```
 //! use foldwell::sheet::{Assignment, pattern};

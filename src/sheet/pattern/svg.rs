@@ -1,8 +1,8 @@
 //! SVG drawings with the colours of Origami Simulator.
 //!
-//! Shapes with a stroke are lines of the pattern: `line`, `polyline`, `polygon`, `rect` and `path`, in groups and clones
-//! (`use`), with their transforms. Lengths are those of the drawing's own coordinates: the size of the page does not
-//! count. What has no stroke, or is not displayed, is ignored, and so are texts and images.
+//! Shapes with a stroke are lines of the pattern: `line`, `polyline`, `polygon`, `rect` and `path`, in groups and
+//! clones (`use`), with their transforms. Lengths are those of the drawing's own coordinates: the size of the page does
+//! not count. What has no stroke, or is not displayed, is ignored, and so are texts and images.
 
 use roxmltree::{Document, Node};
 use svgtypes::{Color, Transform};

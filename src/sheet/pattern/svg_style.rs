@@ -52,8 +52,8 @@ impl<'a> Rules<'a> {
         Self(rules)
     }
 
-    /// Returns the properties that an element is given; important rules come before `style`, that before other rules, and
-    /// they before attributes.
+    /// Returns the properties that an element is given; important rules come before `style`, that before other rules,
+    /// and they before attributes.
     pub(super) fn properties(&self, node: Node<'a, '_>) -> Properties<'a> {
         let attributes = node.attributes().map(|attribute| (attribute.name(), attribute.value()));
         let attributes: Vec<(String, &str)> = attributes.map(|(name, value)| (name.to_owned(), value)).collect();

@@ -9,9 +9,9 @@ use super::line::flip;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::Sheet;
 
-/// Returns a flat sheet as an SVG drawing with the colours of Origami Simulator, y downwards; mountains and valleys have
-/// the opacity of their target angles, or 1 where the sheet has none. [`parse`](super::parse) reads it back with the
-/// same lines.
+/// Returns a flat sheet as an SVG drawing with the colours of Origami Simulator, y downwards; mountains and valleys
+/// have the opacity of their target angles, or 1 where the sheet has none. [`parse`](super::parse) reads it back with
+/// the same lines.
 ///
 /// # Errors
 /// [`NotFlat`] if the sheet is folded or periodic.
@@ -60,8 +60,8 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Returns a flat sheet as a `.cp` file of ORIPA, y downwards, which has no target angles; and the number of edges whose
-/// letter it does not have: hinges, facets and joints become auxiliary lines, cuts boundaries.
+/// Returns a flat sheet as a `.cp` file of ORIPA, y downwards, which has no target angles; and the number of edges
+/// whose letter it does not have: hinges, facets and joints become auxiliary lines, cuts boundaries.
 ///
 /// # Errors
 /// [`NotFlat`] if the sheet is folded or periodic.

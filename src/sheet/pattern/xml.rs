@@ -11,8 +11,8 @@ const MOST_OF_ENTITIES: usize = 1 << 26;
 /// Most entities in each other that the parser reads for one that a text names.
 const MOST_INNER: usize = 255;
 
-/// Parses a text as the XML of `format`. SVG files of Illustrator have a document type with entities; of those that make
-/// a short file long none is read.
+/// Parses a text as the XML of `format`. SVG files of Illustrator have a document type with entities; of those that
+/// make a short file long none is read.
 pub(super) fn document<'t>(text: &'t str, format: &'static str) -> Result<Document<'t>, Misread> {
     if entities(text) > MOST_OF_ENTITIES {
         let message = "its entities may stand for more than 64 MiB of text; write out what they stand for".into();

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 pub struct BlochSummary {
     /// `[m, n, c]` of the centred determinant `sum c z1^m z2^n`; empty where there is none.
     pub determinant: Vec<[f64; 3]>,
-    /// Why there is no determinant, so that all that is read off it is null or empty: it vanishes at all wavenumbers, or is rounding;
-    /// null where there is one.
+    /// Why there is no determinant, so that all that is read off it is null or empty: it vanishes at all wavenumbers,
+    /// or is rounding; null where there is one.
     #[serde(default)]
     pub no_determinant: Option<String>,
     /// Largest `|c_mn - c_-m,-n|` over the largest coefficient; null without a determinant.
@@ -26,16 +26,16 @@ pub struct BlochSummary {
     pub pairing_condition: Option<f64>,
     /// Roots left out of the pairing, whose condition is larger.
     pub ill_conditioned: usize,
-    /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged; null without a
-    /// determinant.
+    /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged; null
+    /// without a determinant.
     pub polarization: Option<[f64; 2]>,
     /// Mean numbers of roots on the unit circle; null without a determinant.
     pub on_circle: Option<[f64; 2]>,
-    /// Part of the wavenumbers of the grid at which the determinant is positive, among those at which its sign is certain; null
-    /// where it is not real.
+    /// Part of the wavenumbers of the grid at which the determinant is positive, among those at which its sign is
+    /// certain; null where it is not real.
     pub positive_fraction: Option<f64>,
-    /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for, or where they could
-    /// not be followed.
+    /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for, or where
+    /// they could not be followed.
     pub zero_lines: Option<usize>,
     /// Why they could not be followed; null where they were, or were not looked for.
     #[serde(default)]
@@ -51,7 +51,8 @@ pub struct BlochSummary {
     /// Rotation angles from a cell to the next of the state that was asked about: wavenumbers of its rotations about
     /// directions across the axis. Null of the drawn state.
     pub theta: Option<[f64; 2]>,
-    /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient; null of the drawn state.
+    /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient; null of the
+    /// drawn state.
     pub theta_to_zero: Option<f64>,
     /// The strip; null without one.
     #[serde(default)]
@@ -81,8 +82,8 @@ pub struct StripSummary {
     pub interface_zero_modes: Vec<usize>,
     /// Self stresses bound to the interface.
     pub interface_self_stresses: Vec<usize>,
-    /// Zero modes less self stresses that the winding numbers of both determinants predict; null where one of them vanishes at
-    /// all wavenumbers.
+    /// Zero modes less self stresses that the winding numbers of both determinants predict; null where one of them
+    /// vanishes at all wavenumbers.
     pub interface_predicted: Vec<Option<i64>>,
 }
 

@@ -29,8 +29,8 @@ pub struct BranchesSummary {
     /// Real singular points of the set of solutions, where it is a curve or of one quadric, and they are single points;
     /// otherwise null.
     pub singular: Option<usize>,
-    /// What is established about the real directions: `listed` (each is one of `rays`), `continuum` (infinitely many, of which only
-    /// those that stand alone are in `rays`), `not-established` (others were neither found nor excluded).
+    /// What is established about the real directions: `listed` (each is one of `rays`), `continuum` (infinitely many,
+    /// of which only those that stand alone are in `rays`), `not-established` (others were neither found nor excluded).
     #[schemars(extend("enum" = ["listed", "continuum", "not-established"]))]
     pub directions: String,
     /// Number of isolated real rays, two for each real solution.

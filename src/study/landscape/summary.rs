@@ -30,7 +30,8 @@ pub struct MapSummary {
     pub largest_energy: Option<f64>,
     /// Points on the exact cone of cylinders that the kinematics found.
     pub cone_points: usize,
-    /// Largest angle, in radians, between some of these points and the zeros of the energy beside them; null without any.
+    /// Largest angle, in radians, between some of these points and the zeros of the energy beside them; null without
+    /// any.
     pub cone_distance: Option<f64>,
 }
 
@@ -47,7 +48,8 @@ pub struct ModeLandscape {
     pub samples: Vec<SampleSummary>,
     /// Slope of log energy on the smallest amplitudes.
     pub exponent: Option<f64>,
-    /// Standard error of the exponent; null also where there are no more samples than numbers to fit, and nothing tells it.
+    /// Standard error of the exponent; null also where there are no more samples than numbers to fit, and nothing tells
+    /// it.
     pub exponent_error: Option<f64>,
     /// Limit of energy over the fourth power of the amplitude, from a fit.
     pub coefficient: Option<f64>,

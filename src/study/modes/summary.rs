@@ -21,11 +21,12 @@ pub struct ModesSummary {
     pub gap: Option<f64>,
     /// Lowest eigenvalues of the energy's Hessian, ascending.
     pub eigenvalues: Vec<f64>,
-    /// Lowest angular frequencies of the sheet with its mass, ascending, in radians per time; exactly 0 where they vanish up to
-    /// rounding, null for motions that grow. Left out without mass.
+    /// Lowest angular frequencies of the sheet with its mass, ascending, in radians per time; exactly 0 where they
+    /// vanish up to rounding, null for motions that grow. Left out without mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequencies: Option<Vec<Option<f64>>>,
-    /// Rates at which these motions grow, one for each null among the frequencies, in the same order; left out where there are none.
+    /// Rates at which these motions grow, one for each null among the frequencies, in the same order; left out where
+    /// there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub growth_rates: Vec<f64>,
     /// Motions of a tube that its closing conditions leave free; left out on other domains.

@@ -66,13 +66,13 @@ pub struct PathEventSummary {
     pub arc_length: f64,
     /// Number of eigenvalues that change their sign at a branch point; null at other events.
     pub multiplicity: Option<usize>,
-    /// The half branches that leave at a branch point; null at other events, and where they were not sought or were sought from
-    /// another branch.
+    /// The half branches that leave at a branch point; null at other events, and where they were not sought or were
+    /// sought from another branch.
     pub half_branches: Option<HalfBranchesSummary>,
 }
 
-/// The half branches that leave at a branch point. A branch that passes through the point is two of them; that on which the
-/// point was found does not count.
+/// The half branches that leave at a branch point. A branch that passes through the point is two of them; that on which
+/// the point was found does not count.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HalfBranchesSummary {
     /// Number of those of which a state was found.

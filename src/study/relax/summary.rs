@@ -22,8 +22,8 @@ pub struct RelaxSummary {
     /// Largest error of a length over the mean edge; null where a relaxation failed before it was known.
     #[schemars(with = "Option<f64>")]
     pub residual_length: f64,
-    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free; null where it did not converge, or where their number
-    /// cannot be established.
+    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free; null where it did not converge,
+    /// or where their number cannot be established.
     pub negative_eigenvalues: Option<usize>,
     /// Redundant rigid terms; null where they were not counted.
     pub self_stresses: Option<usize>,
@@ -31,18 +31,20 @@ pub struct RelaxSummary {
     pub self_intersecting: Option<bool>,
     /// Largest difference of a fold angle to the exact solver; null where that says nothing.
     pub error_to_kinematic: Option<f64>,
-    /// Number of rays of rigid folding that leave the drawn state from which a rigid cell with locks was relaxed, where that is a branch
-    /// point: other branches may end in other equilibria. Null elsewhere, and where these rays are not known.
+    /// Number of rays of rigid folding that leave the drawn state from which a rigid cell with locks was relaxed, where
+    /// that is a branch point: other branches may end in other equilibria. Null elsewhere, and where these rays are not
+    /// known.
     pub branch_point_start: Option<usize>,
-    /// What is established about the directions of rigid folding there, in the words of `branches`; null where they were not looked for:
-    /// other starts, bars that are not rigid, no locks.
+    /// What is established about the directions of rigid folding there, in the words of `branches`; null where they
+    /// were not looked for: other starts, bars that are not rigid, no locks.
     #[serde(default)]
     #[schemars(extend("enum" = ["listed", "continuum", "not-established", null]))]
     pub directions_at_start: Option<String>,
     /// The branch on which a flat sheet, or another singular start of rigid bars, was left; null for other starts.
     #[serde(default)]
     pub branch_choice: Option<BranchChoiceSummary>,
-    /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after it.
+    /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after
+    /// it.
     #[serde(default)]
     pub routes: Vec<RouteSummary>,
     /// Why fold angles were given up as unknowns; null where they were not tried or led to the result.
@@ -75,8 +77,8 @@ pub struct RouteSummary {
     pub iterations: usize,
     /// The failure that stood after it; null for an equilibrium.
     pub failure: Option<String>,
-    /// Negative eigenvalues of the equilibrium that stood after it: those of a saddle, before it was left; null where there was none, or
-    /// where they could not be counted.
+    /// Negative eigenvalues of the equilibrium that stood after it: those of a saddle, before it was left; null where
+    /// there was none, or where they could not be counted.
     pub negative_eigenvalues: Option<usize>,
 }
 
@@ -98,8 +100,8 @@ pub struct IterationSummary {
     pub step: f64,
     /// Shift added to the Hessian, over its largest diagonal entry.
     pub shift: f64,
-    /// The unknowns: positions of the vertices, or fold angles, for which the residual length is the largest error of the faces'
-    /// closure, in radians or mean edges.
+    /// The unknowns: positions of the vertices, or fold angles, for which the residual length is the largest error of
+    /// the faces' closure, in radians or mean edges.
     #[serde(default)]
     pub method: MethodName,
 }
@@ -119,8 +121,8 @@ pub enum MethodName {
 }
 
 impl RelaxSummary {
-    /// One sentence: energy and residuals, and a warning if the state is unstable, if faces pass through each other, or if other
-    /// branches leave the start.
+    /// One sentence: energy and residuals, and a warning if the state is unstable, if faces pass through each other, or
+    /// if other branches leave the start.
     pub(crate) fn sentence(&self, converged: bool) -> String {
         let unstable = match self.negative_eigenvalues {
             None if converged => ", whether it is stable is not known".to_owned(),

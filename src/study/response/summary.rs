@@ -4,8 +4,8 @@ use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The linear response of a periodic sheet. Strains are rates of `a^-T g a^-1` of the state, without a factor of a half;
-/// x is along the first lattice vector of the state, y in the plane of the lattice towards the second.
+/// The linear response of a periodic sheet. Strains are rates of `a^-T g a^-1` of the state, without a factor of a
+/// half; x is along the first lattice vector of the state, y in the plane of the lattice towards the second.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResponseSummary {
     /// The linear folding modes, those without curvature first.
@@ -34,19 +34,21 @@ pub struct ResponseSummary {
 /// A matrix of second derivatives by the components 11, 22, 12.
 type Matrix = [[f64; 3]; 3];
 
-/// Second derivatives of the energy per area of the cell by the components 11, 22, 12 of strain and curvature, each counted
-/// once: energy per area `E S E / 2 + E C K + K B K / 2`, with strains as in `linear_modes`, twice the small ones.
+/// Second derivatives of the energy per area of the cell by the components 11, 22, 12 of strain and curvature, each
+/// counted once: energy per area `E S E / 2 + E C K + K B K / 2`, with strains as in `linear_modes`, twice the small
+/// ones.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModuliSummary {
-    /// Second derivatives of the energy per area by two components of the strain; null where rigid elements make them infinite.
+    /// Second derivatives of the energy per area by two components of the strain; null where rigid elements make them
+    /// infinite.
     pub stretching: Option<Matrix>,
-    /// Second derivatives by a component of the strain (row) and one of the curvature (column); null where rigid elements make
-    /// them infinite.
+    /// Second derivatives by a component of the strain (row) and one of the curvature (column); null where rigid
+    /// elements make them infinite.
     pub coupling: Option<Matrix>,
     /// Second derivatives by two components of the curvature; null where rigid elements make them infinite.
     pub bending: Option<Matrix>,
-    /// The limit of the moduli over `EA` for stiff bars: those of the bars alone, the stiffest with `EA = 1`. Null where
-    /// rigid polygons or locks make some infinite.
+    /// The limit of the moduli over `EA` for stiff bars: those of the bars alone, the stiffest with `EA = 1`. Null
+    /// where rigid polygons or locks make some infinite.
     pub rigid_limit: Option<RigidLimitSummary>,
     /// Principal strains and bendings of the rigid modes in the limit of rigid bars, by rising stiffness.
     pub rigid_modes: Vec<PrincipalSummary>,
@@ -65,8 +67,8 @@ pub struct RigidLimitSummary {
     pub bending: Matrix,
 }
 
-/// A principal strain and bending, of norm 1 in `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)`, `A` the area of
-/// the cell.
+/// A principal strain and bending, of norm 1 in `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)`, `A` the area
+/// of the cell.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PrincipalSummary {
     /// Strain `[e11, e22, e12]`.
@@ -119,8 +121,8 @@ pub struct StressSummary {
 pub struct SymmetrySummary {
     /// Kind of the symmetry in words, such as "mirror plane across the sheet".
     pub operation: String,
-    /// Unit vector of an axis along the sheet, of the line in which a plane across it meets the sheet, or of the translation of a
-    /// glide plane along it, in the frame of the mesh file; null for the others.
+    /// Unit vector of an axis along the sheet, of the line in which a plane across it meets the sheet, or of the
+    /// translation of a glide plane along it, in the frame of the mesh file; null for the others.
     pub direction: Option<[f64; 3]>,
     /// Even linear folding modes.
     pub even: usize,
@@ -148,11 +150,11 @@ pub struct LatticeSummary {
 /// Poisson's ratios, along the first lattice vector.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoissonSummary {
-    /// Ratio of a stretch without curvature; null where no mode has it, or several, or it does not stretch along the first
-    /// lattice vector.
+    /// Ratio of a stretch without curvature; null where no mode has it, or several, or it does not stretch along the
+    /// first lattice vector.
     pub in_plane: Option<f64>,
-    /// Ratio of a bending without twist; null where no mode has it, or several, or it does not bend along the first lattice
-    /// vector.
+    /// Ratio of a bending without twist; null where no mode has it, or several, or it does not bend along the first
+    /// lattice vector.
     pub bending: Option<f64>,
     /// Why there is no ratio in the plane; null where there is, and of a sheet that is rolled up.
     #[serde(default)]

@@ -20,8 +20,8 @@ pub struct SurfaceSummary {
     /// Where no surface leaves the drawn state: what establishes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub established: Option<String>,
-    /// Of a complete covering: states within the largest curvature beside which triangles are missing, as where two surfaces cross
-    /// at a small angle. No state is missing there.
+    /// Of a complete covering: states within the largest curvature beside which triangles are missing, as where two
+    /// surfaces cross at a small angle. No state is missing there.
     #[serde(default)]
     pub gaps: usize,
     /// Whether the surface has no border: it closes modulo 2 pi without meeting the largest curvature.

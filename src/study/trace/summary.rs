@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 /// The trajectories of a study.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TraceSummary {
-    /// What is established about all directions in which folding leaves the drawn state, in the words of `branches`: whether the rays
-    /// below, or those of the branch that was asked for, are all of them.
+    /// What is established about all directions in which folding leaves the drawn state, in the words of `branches`:
+    /// whether the rays below, or those of the branch that was asked for, are all of them.
     #[serde(default)]
     #[schemars(extend("enum" = ["listed", "continuum", "not-established"]))]
     pub directions: String,
@@ -60,7 +60,8 @@ pub struct TrajectorySummary {
     pub error_of_theta: Option<f64>,
     /// Where curvature and strains turn.
     pub turning_points: Vec<TurningPoint>,
-    /// Where a tube that keeps one closing condition meets the other one too, after its start; left out for other sheets.
+    /// Where a tube that keeps one closing condition meets the other one too, after its start; left out for other
+    /// sheets.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     #[schemars(with = "Vec<ClosedTube>")]
     pub closed_tubes: Option<Vec<ClosedTube>>,

@@ -59,8 +59,8 @@ pub struct BarrierSummary {
     pub confirmed: bool,
     /// The wells into which the sheet descends from the pass.
     pub joins: Option<[usize; 2]>,
-    /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, that of the flat state if the
-    /// pass is that, and otherwise what the energies at finite stiffness tend to.
+    /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, that of the flat state
+    /// if the pass is that, and otherwise what the energies at finite stiffness tend to.
     pub energy: Option<f64>,
     /// Stiffness of the bars for which energy and height hold; null: rigid bars, or no pass was found.
     #[serde(default)]

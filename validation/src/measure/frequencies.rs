@@ -14,9 +14,9 @@ const FACTORS: [[f64; 2]; 6] = [[4.0, 1.0], [1e-6, 1.0], [1e6, 1.0], [1.0, 1e-2]
 const COUNT: usize = 24;
 const RIGID_MOTIONS: usize = 6;
 
-/// Finds the slowest vibrations of Miura-ori, 3 x 3 cells with soft facets and free edges, with mass and stiffnesses multiplied by
-/// factors. The error of scaling is the largest relative difference of a frequency from `sqrt(stiffness / mass)` times that without
-/// factors.
+/// Finds the slowest vibrations of Miura-ori, 3 x 3 cells with soft facets and free edges, with mass and stiffnesses
+/// multiplied by factors. The error of scaling is the largest relative difference of a frequency from
+/// `sqrt(stiffness / mass)` times that without factors.
 pub fn measure(_quick: bool) -> Result<Findings, ExperimentError> {
     let reference = slowest([1.0, 1.0])?;
     let (mut errors, mut zeros) = (Vec::new(), Vec::new());

@@ -161,8 +161,8 @@ pub fn full_svd(matrix: &DenseMatrix) -> Result<Svd, DenseError> {
     Ok(Svd { u, singular_values, v })
 }
 
-/// The number of singular values before their largest gap, among `values` in descending order, of a matrix whose entries are
-/// data: one of zeros has rank 0, any other has at least rank 1.
+/// The number of singular values before their largest gap, among `values` in descending order, of a matrix whose
+/// entries are data: one of zeros has rank 0, any other has at least rank 1.
 ///
 /// # Errors
 /// [`DenseError::NoGap`] where the largest gap is below [`SMALLEST_GAP`].
@@ -170,9 +170,9 @@ pub fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
     rank_of_sums(values, 0.0)
 }
 
-/// The number of singular values before their largest gap, as [`rank_at_largest_gap`], of a matrix whose entries are sums of
-/// terms of the magnitude `terms`. Where the terms cancel in every entry, what is left is rounding: the gap before the first
-/// value counts too, and the rank may be 0.
+/// The number of singular values before their largest gap, as [`rank_at_largest_gap`], of a matrix whose entries are
+/// sums of terms of the magnitude `terms`. Where the terms cancel in every entry, what is left is rounding: the gap
+/// before the first value counts too, and the rank may be 0.
 ///
 /// # Errors
 /// As [`rank_at_largest_gap`].
@@ -207,8 +207,8 @@ pub fn null_space(matrix: &DenseMatrix) -> Result<NullSpace, DenseError> {
     null_space_of_sums(matrix, 0.0)
 }
 
-/// An orthonormal basis of the null space of a matrix whose entries are sums of terms of the magnitude `terms`, which may
-/// cancel in all of them, the rank chosen by [`rank_of_sums`].
+/// An orthonormal basis of the null space of a matrix whose entries are sums of terms of the magnitude `terms`, which
+/// may cancel in all of them, the rank chosen by [`rank_of_sums`].
 ///
 /// # Errors
 /// As [`null_space`].
@@ -219,8 +219,8 @@ pub fn null_space_of_sums(matrix: &DenseMatrix, terms: f64) -> Result<NullSpace,
     Ok(NullSpace { basis, singular_values, rank, gap })
 }
 
-/// An orthonormal basis of the null space of sparse rows, of `columns` columns, by [`null_space_of_sums`]: entries of the same
-/// unknown in a row may cancel.
+/// An orthonormal basis of the null space of sparse rows, of `columns` columns, by [`null_space_of_sums`]: entries of
+/// the same unknown in a row may cancel.
 ///
 /// # Errors
 /// As [`null_space`].
@@ -403,8 +403,8 @@ mod tests {
         assert_eq!(rank(&[]).rank, 0);
     }
 
-    /// Claim: what is left where terms cancel in every entry is rounding beside the terms, and beside nothing a rank; terms
-    /// no larger than the values change nothing.
+    /// Claim: what is left where terms cancel in every entry is rounding beside the terms, and beside nothing a rank;
+    /// terms no larger than the values change nothing.
     #[test]
     fn cancelled_terms_have_rank_zero() {
         let left = [4e-16, 2e-16, 1e-18];

@@ -1,8 +1,8 @@
 //! Substitution with a factor: forward from the leaves to the roots, and back.
 //!
 //! With the rows of a front in two parts, its pivots and those below, forward substitution solves `L_1 y_1 = b_1` and
-//! leaves `b_2 - L_2 y_1` to its parent; back substitution solves `L_1^T x_1 = D^-1 y_1 - L_2^T x_2` with the `x_2` that
-//! the parent knows.
+//! leaves `b_2 - L_2 y_1` to its parent; back substitution solves `L_1^T x_1 = D^-1 y_1 - L_2^T x_2` with the `x_2`
+//! that the parent knows.
 
 use super::dense::join;
 use super::symbolic::{Branch, Front, Tree};

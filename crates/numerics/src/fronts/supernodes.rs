@@ -5,8 +5,8 @@ use std::ops::Range;
 
 /// No front: the parent of a root.
 pub(super) const NONE: usize = usize::MAX;
-/// Additions and multiplications of a factorization below which it is one task (measured: `cargo bench --bench systems`;
-/// 12 x 12 cells take as long on two threads as on one).
+/// Additions and multiplications of a factorization below which it is one task (measured:
+/// `cargo bench --bench systems`; 12 x 12 cells take as long on two threads as on one).
 const FEWEST_SHARED_OPERATIONS: f64 = 6e7;
 /// Number of tasks at which subtrees are not divided further, where that leaves them within these bounds. The larger
 /// the tasks, the less memory is in use at a time.

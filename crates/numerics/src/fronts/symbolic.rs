@@ -264,8 +264,8 @@ impl Tree {
         roots
     }
 
-    /// Returns the tasks for these consecutive fronts, all that is below one front or the whole forest; says where the update
-    /// matrices of the roots of these subtrees will be.
+    /// Returns the tasks for these consecutive fronts, all that is below one front or the whole forest; says where the
+    /// update matrices of the roots of these subtrees will be.
     fn divide(&mut self, fronts: Range<usize>, nodes: &Supernodes<'_>, order: &[usize]) -> Vec<Branch> {
         let mut branches: Vec<Branch> = Vec::new();
         let (mut start, mut operations) = (fronts.start, 0.0);
@@ -301,7 +301,8 @@ impl Tree {
         Room { even: below.odd.max(front.below().pow(2) + front.copy()), odd: below.even }
     }
 
-    /// Returns the room for subtrees that are worked on one front after the other, and the places of update matrices in it.
+    /// Returns the room for subtrees that are worked on one front after the other, and the places of update matrices in
+    /// it.
     fn room_of_task(&mut self, branch: &Branch) -> Room {
         let level = self.fronts[branch.fronts.end - 1].depth;
         let (mut used, mut room) = ([0; 2], [0; 2]);

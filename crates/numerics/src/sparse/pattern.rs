@@ -105,8 +105,8 @@ impl SparsityPattern {
         values[self.columns[k] as usize] += amount;
     }
 
-    /// Multiplies every entry by the factors of its row and of its column: `A` becomes `D A D`, `D` the diagonal matrix of
-    /// these factors.
+    /// Multiplies every entry by the factors of its row and of its column: `A` becomes `D A D`, `D` the diagonal matrix
+    /// of these factors.
     pub fn scale(&self, values: &mut [f64], factors: &[f64]) {
         let mut value = values.iter_mut();
         for (column, by_column) in factors.iter().enumerate() {

@@ -24,10 +24,11 @@ const PROBE_PER_RADIUS: f64 = 0.1;
 const CHARTS_BEYOND_LIMIT: usize = 1;
 /// Number of charts from one question of the observer to the next.
 pub(super) const CHARTS_PER_QUESTION: usize = 256;
-/// Distance from an open chart below which no further one is placed, relative to the radius of the chart from which it would be.
+/// Distance from an open chart below which no further one is placed, relative to the radius of the chart from which it
+/// would be.
 const SAME_PLACE_PER_RADIUS: f64 = 0.2;
-/// Number of times that a chart of a surface that crosses another is surrounded again, as when those around it are made smaller,
-/// before it counts as one that cannot be.
+/// Number of times that a chart of a surface that crosses another is surrounded again, as when those around it are made
+/// smaller, before it counts as one that cannot be.
 const MOST_VISITS: usize = 20;
 /// Number of charts at which the surface cannot be followed beyond which it is given up: smallest charts would be
 /// placed for long along singular curves, and the covering stays open all the same.
@@ -235,8 +236,8 @@ impl<'a, S: Surface> Cover<'a, S> {
     /// over it.
     ///
     /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
-    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does. Of a surface that
-    /// crosses another it is that on the way to the point.
+    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does. Of a
+    /// surface that crosses another it is that on the way to the point.
     fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Seed) -> Option<Chart> {
         let bend = match place.bend {
             Some(bend) => bend,

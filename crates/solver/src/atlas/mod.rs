@@ -11,9 +11,9 @@
 //! A radius follows the turning of the tangent plane. Towards a singular point, as the tip of a cone, radii shrink with
 //! the distance, so that no chart reaches across it; below a hundredth of the largest radius a chart stays open.
 //!
-//! A surface that crosses another, where tangents are not determined, is followed from a chart to the next, see `walk`; the turning
-//! of its tangent plane is that on the way. Next to an edge sharper than the smallest chart such a chart is given up after some
-//! visits, and none is placed where one was given up.
+//! A surface that crosses another, where tangents are not determined, is followed from a chart to the next, see `walk`;
+//! the turning of its tangent plane is that on the way. Next to an edge sharper than the smallest chart such a chart is
+//! given up after some visits, and none is placed where one was given up.
 
 mod cover;
 mod cut;

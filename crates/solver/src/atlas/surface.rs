@@ -17,8 +17,8 @@ pub trait Surface: Implicit {
     fn limit(&mut self, _x: &[f64]) -> f64 {
         f64::NEG_INFINITY
     }
-    /// Whether it crosses another surface that satisfies the same equations. Charts are then placed by following it, which costs
-    /// several times as much.
+    /// Whether it crosses another surface that satisfies the same equations. Charts are then placed by following it,
+    /// which costs several times as much.
     fn crosses(&self) -> bool {
         false
     }

@@ -198,10 +198,10 @@ fn sphere_is_closed() {
     assert!((errors[0] / errors[2]).log2() >= 3.0, "second order: {errors:?}");
 }
 
-/// Claim: of two surfaces that satisfy one equation and cross at angles up to 31 degrees, the one with the start is covered as if
-/// the other were not there: one disc on both sides of the crossing, with the area of the parabolic cylinder over the unit disc
-/// (the integral of `sqrt(1 + 0.36 x^2)`, by the midpoint rule), to the second order in the radius. Tolerance
-/// of the place: the residual 1e-13 over the distance from the crossing.
+/// Claim: of two surfaces that satisfy one equation and cross at angles up to 31 degrees, the one with the start is
+/// covered as if the other were not there: one disc on both sides of the crossing, with the area of the parabolic
+/// cylinder over the unit disc (the integral of `sqrt(1 + 0.36 x^2)`, by the midpoint rule), to the second order in the
+/// radius. Tolerance of the place: the residual 1e-13 over the distance from the crossing.
 #[test]
 fn a_surface_is_followed_over_its_crossing_with_another() {
     let limit = |x: &[f64]| x[0] * x[0] + x[1] * x[1] - 1.0;

@@ -1,8 +1,9 @@
 //! The way from a chart to the rim of its disc, followed as a curve.
 //!
-//! Next to a curve along which a surface crosses another, Newton's method from a point of the tangent plane may lead to the other
-//! surface, and tangents are those of one surface only exactly on it. On the hyperplane across the disc the surface is a curve; followed in
-//! steps, each predicted by those before ([`crate::continuation`]), it goes straight over such a crossing.
+//! Next to a curve along which a surface crosses another, Newton's method from a point of the tangent plane may lead to
+//! the other surface, and tangents are those of one surface only exactly on it. On the hyperplane across the disc the
+//! surface is a curve; followed in steps, each predicted by those before ([`crate::continuation`]), it goes straight
+//! over such a crossing.
 
 use super::surface::{Chart, Surface};
 use crate::continuation::{Curve, CurveOptions, End, follow};
@@ -20,8 +21,8 @@ pub(super) struct Arrival {
     pub residual: f64,
 }
 
-/// Follows the surface from a chart in the direction of a place in its tangent plane, as far as that is; `None` where it cannot be
-/// followed.
+/// Follows the surface from a chart in the direction of a place in its tangent plane, as far as that is; `None` where
+/// it cannot be followed.
 pub(super) fn to_rim<S: Surface>(
     surface: &mut S,
     (chart, at): (&Chart, [f64; 2]),

@@ -14,8 +14,8 @@ use rand_chacha::rand_core::SeedableRng;
 
 /// Scaled force below which the inertia of a state is that of the minimum next to it, but for eigenvalues near zero.
 const FORCE_NEAR_MINIMUM: f64 = 1e-4;
-/// Largest change of a measure of a soft element (an angle, in radians), and of an unknown in units of length, by one more step
-/// from a state at rest; and the relative residual to which that step is known.
+/// Largest change of a measure of a soft element (an angle, in radians), and of an unknown in units of length, by one
+/// more step from a state at rest; and the relative residual to which that step is known.
 const AT_REST: f64 = 1e-7;
 const STEP_RESIDUAL: f64 = 0.1;
 /// Largest component of the step with which a start is probed, in units of length.
@@ -38,8 +38,9 @@ impl<P: Problem> Newton<'_, P> {
             && self.history.last().is_some_and(|step| step.fraction == 1.0)
     }
 
-    /// Number of negative eigenvalues of the full Hessian at the converged state; `None` where it is not known. Where the last
-    /// factorization was made near by and shows a minimum, its softest motions are asked whether they are still stable.
+    /// Number of negative eigenvalues of the full Hessian at the converged state; `None` where it is not known. Where
+    /// the last factorization was made near by and shows a minimum, its softest motions are asked whether they are
+    /// still stable.
     pub(super) fn certify(&mut self) -> Result<Option<usize>, Failure> {
         let is_near = self.near_certified_minimum();
         self.kind = HessianKind::Full;
@@ -50,9 +51,9 @@ impl<P: Problem> Newton<'_, P> {
         Ok(self.tangent.negative_eigenvalues()?)
     }
 
-    /// Whether one more Newton step with the full Hessian would change nothing. A force above the tolerance is rounding error
-    /// only then: a single huge stiffness, such as that of a fold angle beside a triangle that collapses, makes rounding errors of
-    /// coordinates look like any force.
+    /// Whether one more Newton step with the full Hessian would change nothing. A force above the tolerance is rounding
+    /// error only then: a single huge stiffness, such as that of a fold angle beside a triangle that collapses, makes
+    /// rounding errors of coordinates look like any force.
     pub(super) fn is_at_rest(&mut self) -> bool {
         self.kind = HessianKind::Full;
         self.linearize();

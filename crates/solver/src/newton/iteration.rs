@@ -7,10 +7,12 @@ use crate::tangent::Tangent;
 use foldwell_numerics::factor::FactorError;
 use foldwell_numerics::vector::{larger, max_abs};
 
-/// Number of steps after which a minimisation that comes no further is given up. With thirty all points of the grid of scenes that
-/// converge still do; without, a screw that stays straight takes all of its steps before another way is tried.
+/// Number of steps after which a minimisation that comes no further is given up. With thirty all points of the grid of
+/// scenes that converge still do; without, a screw that stays straight takes all of its steps before another way is
+/// tried.
 const STALLED_STEPS: usize = 30;
-/// Part of the energy by which it has to fall in these steps: rounding errors are below, what a step of Newton's method gains above.
+/// Part of the energy by which it has to fall in these steps: rounding errors are below, what a step of Newton's method
+/// gains above.
 const STALLED_FALL: f64 = 1e-9;
 
 /// The present shift, and how eagerly a lower one is tried.

@@ -19,7 +19,8 @@ const RESIDUAL_PER_FORCE: f64 = 0.01;
 const REFUSED_RESIDUAL: f64 = 0.1;
 /// Number of fractions tried of a step, each half of the one before; then the shift is raised.
 const HALVINGS: i32 = 5;
-/// Number of halvings up to which the retracted part of a step is taken at once: with shorter ones the iteration creeps.
+/// Number of halvings up to which the retracted part of a step is taken at once: with shorter ones the iteration
+/// creeps.
 const MOST_RETRACTED_HALVINGS: i32 = 4;
 /// Largest number of shifts with which a step is tried.
 const MOST_SHIFTS: usize = 12;
@@ -81,8 +82,8 @@ impl<P: Problem> Newton<'_, P> {
         step
     }
 
-    /// Takes the largest fraction of a step that can be accepted, if there is one: retracted, or where only short ones can be retracted,
-    /// with the stretch that measures of finite stiffness have there.
+    /// Takes the largest fraction of a step that can be accepted, if there is one: retracted, or where only short ones
+    /// can be retracted, with the stretch that measures of finite stiffness have there.
     fn take_largest_fraction(&mut self, step: &Increment, last: &Step) -> Option<f64> {
         let first = self.first_halving().max(self.halvings_of_angles(&step.dx));
         let retracted =
@@ -146,8 +147,9 @@ impl<P: Problem> Newton<'_, P> {
         ROUNDING_OF_MERIT * last.energy.abs() + by_gaps + 4.0 * by_forces
     }
 
-    /// One more step from a converged state whose last step was solved less exactly than was wanted, as those of large sheets
-    /// are: their softest motions are then off by much more than the residuals say. `None` where it does not help.
+    /// One more step from a converged state whose last step was solved less exactly than was wanted, as those of large
+    /// sheets are: their softest motions are then off by much more than the residuals say. `None` where it does not
+    /// help.
     pub(super) fn finishing_step(&mut self, last: &Step) -> Option<Trial> {
         if !self.inexact || !self.near_certified_minimum() {
             return None;

@@ -22,8 +22,8 @@ pub struct Step {
     pub factorizations: usize,
     /// Number of linear solves made for this step, chord corrections included.
     pub solves: usize,
-    /// Whether the step was made in other unknowns, by [`minimize_constrained`](crate::constrained::minimize_constrained);
-    /// its gaps are then those of the constraints.
+    /// Whether the step was made in other unknowns, by
+    /// [`minimize_constrained`](crate::constrained::minimize_constrained); its gaps are then those of the constraints.
     pub intrinsic: bool,
 }
 
@@ -49,8 +49,8 @@ pub struct Equilibrium {
     pub tension: Vec<f64>,
     /// Energy, stiff measures included.
     pub energy: f64,
-    /// Negative eigenvalues of the energy's Hessian on what the rigid measures leave free; `None` where their number cannot be
-    /// established.
+    /// Negative eigenvalues of the energy's Hessian on what the rigid measures leave free; `None` where their number
+    /// cannot be established.
     pub negative_eigenvalues: Option<usize>,
     /// Whether the rigid measures were seen to be independent; then there is no self stress.
     pub independent: bool,

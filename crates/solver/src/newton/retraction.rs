@@ -97,8 +97,8 @@ impl<P: Problem> Newton<'_, P> {
         (None, walled)
     }
 
-    /// The state at `x` with the tensions that measures of finite stiffness have there; `None` where rigid ones are not met to
-    /// the scaled gap `wanted`.
+    /// The state at `x` with the tensions that measures of finite stiffness have there; `None` where rigid ones are not
+    /// met to the scaled gap `wanted`.
     pub(super) fn stretched(&self, x: Vec<f64>, mut tension: Vec<f64>, wanted: f64) -> Option<Trial> {
         let (gaps, compliance) = (self.problem.gaps(&x), self.problem.compliance());
         let measures = tension.iter_mut().zip(&gaps).zip(compliance);

@@ -10,8 +10,8 @@ use foldwell_numerics::factor::FactorError;
 const FIRST_SHIFT: f64 = 0.25;
 /// Ratio of one shift to the next.
 const SHIFT_RATIO: f64 = 4.0;
-/// Shift below which none is tried, and the smallest one, for small curvatures that are negative: with a larger one the iteration
-/// would creep.
+/// Shift below which none is tried, and the smallest one, for small curvatures that are negative: with a larger one the
+/// iteration would creep.
 const LOW_SHIFT: f64 = 2e-2;
 const LEAST_SHIFT: f64 = 1e-6;
 /// Largest number of shifts tried at one state.

@@ -50,9 +50,10 @@ impl Problem for Walled {
     fn accept(&mut self, _x: &mut [f64]) {}
 }
 
-/// Claim: the equilibrium in front of the wall is found from a start whose spring is off by a length, though pulling the
-/// start onto its spring leads through the wall. Expected: the root of `1 / d^2 = (REST - WALL + d) / c` for the distance
-/// `d` from the wall, by bisection. Tolerance: the residual of the force, 1e-10 of it, over its rate `2 / d`, thousandfold.
+/// Claim: the equilibrium in front of the wall is found from a start whose spring is off by a length, though pulling
+/// the start onto its spring leads through the wall. Expected: the root of `1 / d^2 = (REST - WALL + d) / c` for the
+/// distance `d` from the wall, by bisection. Tolerance: the residual of the force, 1e-10 of it, over its rate `2 / d`,
+/// thousandfold.
 #[test]
 fn a_start_behind_a_wall_is_taken_as_it_is() {
     let force = |d: f64| d.powi(-2) - (REST - WALL + d) / COMPLIANCE;

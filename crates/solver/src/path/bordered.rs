@@ -114,8 +114,8 @@ impl Bordered {
         }
     }
 
-    /// Work of the rates by the parameter along a tangent. Where the parameter turns, the eigenvalue that passes zero has the
-    /// sign of the negative product of this work and the tangent's parameter: `t^T K t = -(g.t) t_l`.
+    /// Work of the rates by the parameter along a tangent. Where the parameter turns, the eigenvalue that passes zero
+    /// has the sign of the negative product of this work and the tangent's parameter: `t^T K t = -(g.t) t_l`.
     pub fn work_along(&self, tangent: &Rates) -> f64 {
         let [force, gap] = &self.rates;
         (dot(force, &tangent.x) + dot(gap, &tangent.tension)) / self.unit
@@ -138,8 +138,8 @@ impl Bordered {
         (rates, residual)
     }
 
-    /// Solves as [`Bordered::solve`] does with several planes. Returns the changes, the pulls times a length, and the relative
-    /// residual.
+    /// Solves as [`Bordered::solve`] does with several planes. Returns the changes, the pulls times a length, and the
+    /// relative residual.
     pub fn solve_across(&mut self, force: &[f64], stretch: &[f64], planes: &Planes<'_>) -> (Rates, Vec<f64>, f64) {
         let stiffness = stiffness_size(&self.at, &self.compliance);
         let stretches: Vec<f64> = stretch.iter().zip(&self.at.sizes).map(|(b, size)| b / size).collect();
@@ -167,8 +167,8 @@ impl Bordered {
         (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
     }
 
-    /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the system
-    /// finds from none, which it combines from motions. `None` where `tension` is these.
+    /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the
+    /// system finds from none, which it combines from motions. `None` where `tension` is these.
     pub fn relieved(&mut self, tension: &[f64]) -> Option<Vec<f64>> {
         let none = vec![0.0; tension.len()];
         let (force, missing) = (self.at.force(&none), self.at.missing(&none, &self.compliance));
@@ -177,8 +177,9 @@ impl Bordered {
         (off(tension, &found) > SELF_STRESS * off(&found, &none)).then_some(found)
     }
 
-    /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates of
-    /// unknowns and tensions, the former of length 1, and its stiffness. Where the system is singular it is a null vector.
+    /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates
+    /// of unknowns and tensions, the former of length 1, and its stiffness. Where the system is singular it is a null
+    /// vector.
     pub fn softest(&mut self, guess: &[f64], others: &[Rates]) -> (Rates, f64) {
         let nothing = vec![0.0; self.compliance.len()];
         let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
@@ -232,17 +233,17 @@ fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
     values
 }
 
-/// The equations of a bordered system beyond Newton's own: distances from planes; and its unknowns beyond the parameter,
-/// forces along given directions, one less than planes.
+/// The equations of a bordered system beyond Newton's own: distances from planes; and its unknowns beyond the
+/// parameter, forces along given directions, one less than planes.
 pub(super) struct Planes<'a> {
     pub planes: &'a [&'a Plane],
     pub distances: &'a [f64],
     pub pulls: &'a [Vec<f64>],
 }
 
-/// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter and the
-/// pulls, divided by a stiffness so that they are lengths, are the last unknowns, and the equations of the planes are
-/// multiplied by that stiffness, so that they are forces.
+/// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter and
+/// the pulls, divided by a stiffness so that they are lengths, are the last unknowns, and the equations of the planes
+/// are multiplied by that stiffness, so that they are forces.
 struct Equations<'a> {
     bordered: &'a mut Bordered,
     planes: &'a Planes<'a>,

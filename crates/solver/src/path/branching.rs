@@ -38,9 +38,9 @@ pub(super) struct Leaving {
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// First states of the branches that leave at a branch point where this many eigenvalues vanish. Where one vanishes there
-    /// are two, one to each side; where two vanish they are found on a ring. Where more vanish, or no ring tells, they are
-    /// sought along the null vectors, and there may be others in directions between these.
+    /// First states of the branches that leave at a branch point where this many eigenvalues vanish. Where one vanishes
+    /// there are two, one to each side; where two vanish they are found on a ring. Where more vanish, or no ring tells,
+    /// they are sought along the null vectors, and there may be others in directions between these.
     pub(super) fn leaving(&mut self, point: &PathState, multiplicity: usize) -> Result<Leaving, PathError> {
         let nulls = self.null_vectors(point, multiplicity)?;
         if let Ok(pair) = <&[Rates; 2]>::try_from(&nulls[..])
@@ -58,7 +58,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(Leaving { firsts, expected: (multiplicity == 1).then_some(2) })
     }
 
-    /// The half branches that a scan of the ring between two null vectors found; `None` where no ring is large enough to tell.
+    /// The half branches that a scan of the ring between two null vectors found; `None` where no ring is large enough
+    /// to tell.
     fn ring_of(&mut self, point: &PathState, nulls: &[Rates; 2]) -> Result<Option<Leaving>, PathError> {
         let reference = self.problem.reference();
         let Some((zeros, states)) = self.half_branches(point, nulls)? else { return Ok(None) };

@@ -14,8 +14,8 @@ const SLOWEST_CONTRACTION: f64 = 0.6;
 const ROUNDING: f64 = 1e-13;
 /// Number of steps of that length after which a state is taken as it is.
 const MOST_POLISHED: usize = 2;
-/// Relative length of a Newton step that moves next to nothing: where the iteration no longer contracts and forces are rounding
-/// errors, a state is taken as it is only there.
+/// Relative length of a Newton step that moves next to nothing: where the iteration no longer contracts and forces are
+/// rounding errors, a state is taken as it is only there.
 const NEXT_TO_NOTHING: f64 = 1e-9;
 /// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
 const MOST_ROUNDING: f64 = 1e-8;
@@ -114,7 +114,8 @@ fn bettered<P: ParametrizedProblem>(
     kept
 }
 
-/// Takes the self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
+/// Takes the self stress of rigid measures out of a state's tensions: predictions would let it grow from state to
+/// state.
 fn relieved<P: ParametrizedProblem>(
     problem: &P,
     bordered: &mut Bordered,

@@ -14,8 +14,8 @@ const MOST_ROUNDS: usize = 60;
 const LEAST_RATE: f64 = 1e-8;
 /// Distance in arc length between states around a branch point at which it is interpolated.
 const AROUND: f64 = 1e-4;
-/// How often those states are moved to where a stiffness would vanish that does not change its sign among them, and how far in
-/// units of the way to there.
+/// How often those states are moved to where a stiffness would vanish that does not change its sign among them, and how
+/// far in units of the way to there.
 const MOST_SHIFTS: usize = 5;
 const BEYOND: f64 = 1.2;
 /// Largest number of changes of the level that are sought in a step.
@@ -39,8 +39,8 @@ fn turned([before, after]: [f64; 2], errors: [f64; 2]) -> bool {
     before.abs() > errors[0] && after.abs() > errors[1] && changed(before, after)
 }
 
-/// The number of negative eigenvalues along a piece of a path, less what the extremum of the parameter in it makes. Other
-/// than the number itself, this one does not change where the parameter turns: it is that of the bordered matrix.
+/// The number of negative eigenvalues along a piece of a path, less what the extremum of the parameter in it makes.
+/// Other than the number itself, this one does not change where the parameter turns: it is that of the bordered matrix.
 struct Level {
     /// Sign of the parameter's rate at the beginning, and the change where it turns; none where it does not.
     turn: Option<(f64, i64)>,
@@ -108,8 +108,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(found)
     }
 
-    /// Locates all states between two others at which the level changes. Changes that are nearer to each other than states
-    /// that are taken for one are one, of higher multiplicity.
+    /// Locates all states between two others at which the level changes. Changes that are nearer to each other than
+    /// states that are taken for one are one, of higher multiplicity.
     fn branch_points(
         &mut self,
         [from, to]: [&PathState; 2],
@@ -145,7 +145,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Locates a branch point near this part of the way where the stiffness of the softest motion vanishes, by inverse
     /// interpolation between states around it. At the point itself neither Newton's method nor a count of signs is
-    /// exact: rounding errors move a state along the null vector, and stiffnesses that are rounding errors count as positive.
+    /// exact: rounding errors move a state along the null vector, and stiffnesses that are rounding errors count as
+    /// positive.
     fn refined(&mut self, [from, to]: [&PathState; 2], mut at: f64) -> Result<Crossing, PathError> {
         let mut guess = guesses(from.x.len()).next().unwrap_or_default();
         for _ in 0..MOST_SHIFTS {
@@ -177,8 +178,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(Crossing::Nowhere)
     }
 
-    /// Locates the first state found, beyond this part of the way between two others, of which something holds that holds of
-    /// the second one, and not where the search begins; with its part of the way. `None` where no state in between is found.
+    /// Locates the first state found, beyond this part of the way between two others, of which something holds that
+    /// holds of the second one, and not where the search begins; with its part of the way. `None` where no state in
+    /// between is found.
     fn bisect(
         &mut self,
         [from, to]: [&PathState; 2],

@@ -1,10 +1,10 @@
 //! The ways out of branch points, and how a branch that arrives through one is told.
 //!
-//! Whether a state belongs to a branch that is known is decided by Newton's method: the branch's interpolant next to the
-//! state is moved into the plane across the branch through the state, and corrected there, which leads to the same state or to
-//! another one of that plane. The interpolant has to be nearer to its branch than other branches are. A branch arrives at a
-//! branch point where it passes a state through which branches leave there; at the point itself, where Newton's system is
-//! singular, nothing could be decided.
+//! Whether a state belongs to a branch that is known is decided by Newton's method: the branch's interpolant next to
+//! the state is moved into the plane across the branch through the state, and corrected there, which leads to the same
+//! state or to another one of that plane. The interpolant has to be nearer to its branch than other branches are. A
+//! branch arrives at a branch point where it passes a state through which branches leave there; at the point itself,
+//! where Newton's system is singular, nothing could be decided.
 
 use super::bordered::Plane;
 use super::corrector::Guess;
@@ -30,7 +30,8 @@ pub(super) struct Exit {
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// The branch point at which the branch with this number arrives through one of the exits, between two of its states.
+    /// The branch point at which the branch with this number arrives through one of the exits, between two of its
+    /// states.
     pub fn reached<'e>(
         &mut self,
         number: usize,
@@ -71,8 +72,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.beside(between, state).is_some()
     }
 
-    /// The interpolant between two states beside another one, and what leads from it to that; `None` where the other state is
-    /// not beside the way, farther from it than the two from each other, or written in another way.
+    /// The interpolant between two states beside another one, and what leads from it to that; `None` where the other
+    /// state is not beside the way, farther from it than the two from each other, or written in another way.
     fn beside(&self, [from, to]: [&PathState; 2], state: &PathState) -> Option<(Guess, Rates)> {
         if [from, to].iter().any(|end| end.choice != state.choice) {
             return None;

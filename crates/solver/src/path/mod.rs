@@ -49,8 +49,8 @@ pub use record::{PathEntry, PathObserver, PathRecord};
 use run::Run;
 
 /// Follows the equilibria of a problem from a start near one, at the problem's present parameter, towards the target of
-/// the settings; then, if the settings ask for it, the branches that leave at branch points. `record` is what an earlier
-/// run of the same path has found, empty if there was none; of that nothing is computed again.
+/// the settings; then, if the settings ask for it, the branches that leave at branch points. `record` is what an
+/// earlier run of the same path has found, empty if there was none; of that nothing is computed again.
 ///
 /// # Errors
 /// [`PathError`] if no equilibrium is found to begin with, or a linear system is too large.

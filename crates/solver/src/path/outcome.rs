@@ -84,8 +84,8 @@ pub struct Branch {
     pub half_branches: BTreeMap<usize, HalfBranches>,
 }
 
-/// Numbers of the half branches that leave at a branch point. A branch that passes through the point is two of them; that
-/// on which the point was found does not count.
+/// Numbers of the half branches that leave at a branch point. A branch that passes through the point is two of them;
+/// that on which the point was found does not count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HalfBranches {
     /// Number of those of which a state was found.

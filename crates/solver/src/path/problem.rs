@@ -16,14 +16,15 @@ pub trait ParametrizedProblem: Problem {
     }
     /// Restores what [`ParametrizedProblem::reference`] returned.
     fn set_reference(&mut self, _reference: &[f64]) {}
-    /// Returns how states are written as unknowns, by a choice made at a state of the path; empty for that of the beginning.
+    /// Returns how states are written as unknowns, by a choice made at a state of the path; empty for that of the
+    /// beginning.
     fn choice(&self) -> Vec<f64> {
         vec![]
     }
     /// Restores what [`ParametrizedProblem::choice`] returned; the layout may be another one then.
     fn set_choice(&mut self, _choice: &[f64]) {}
-    /// Chooses anew how states are written where the present choice would soon be singular. Returns then the unknowns of
-    /// the state `x`, and these rates of them.
+    /// Chooses anew how states are written where the present choice would soon be singular. Returns then the unknowns
+    /// of the state `x`, and these rates of them.
     fn choose_anew(&mut self, _x: &[f64], _rates: &[f64]) -> Option<[Vec<f64>; 2]> {
         None
     }
@@ -71,8 +72,8 @@ pub struct PathState {
     pub residual_length: f64,
     /// Negative eigenvalues of the Hessian at fixed parameter; `None` where their number cannot be established.
     pub negative_eigenvalues: Option<usize>,
-    /// Work of the rates by the parameter along the tangent. Its sign tells which way an eigenvalue goes where the parameter
-    /// turns.
+    /// Work of the rates by the parameter along the tangent. Its sign tells which way an eigenvalue goes where the
+    /// parameter turns.
     pub work_along: f64,
     /// Rates of the parameter and of the conjugate quantity up to which they are rounding errors.
     pub rate_errors: [f64; 2],

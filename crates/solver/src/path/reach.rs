@@ -16,8 +16,8 @@ pub enum Reached {
     Stopped(PathState),
 }
 
-/// Follows the equilibria of a problem from a start near one, at its present parameter, until its parameter first passes the target
-/// of the settings. `observe` sees every state and returns false to stop.
+/// Follows the equilibria of a problem from a start near one, at its present parameter, until its parameter first
+/// passes the target of the settings. `observe` sees every state and returns false to stop.
 ///
 /// # Errors
 /// [`PathError`] if no equilibrium is found to begin with, or a linear system is too large.

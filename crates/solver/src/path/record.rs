@@ -26,8 +26,8 @@ pub struct PathEntry {
 pub struct PathRecord(Vec<Vec<PathEntry>>);
 
 impl FromIterator<PathEntry> for PathRecord {
-    /// Collects entries in the order in which they were made. A branch that begins anew replaces what was recorded of it and
-    /// of all later ones.
+    /// Collects entries in the order in which they were made. A branch that begins anew replaces what was recorded of
+    /// it and of all later ones.
     fn from_iter<T: IntoIterator<Item = PathEntry>>(entries: T) -> Self {
         let mut branches: Vec<Vec<PathEntry>> = vec![];
         for entry in entries {
@@ -44,8 +44,8 @@ impl FromIterator<PathEntry> for PathRecord {
 }
 
 impl PathRecord {
-    /// Takes the entries of a branch that begins with these states. If another one is recorded nothing is taken, and what was
-    /// recorded of later branches is forgotten.
+    /// Takes the entries of a branch that begins with these states. If another one is recorded nothing is taken, and
+    /// what was recorded of later branches is forgotten.
     pub(super) fn take(&mut self, branch: usize, first: &[MarkedState]) -> Vec<PathEntry> {
         let recorded = self.0.get_mut(branch).map(std::mem::take).unwrap_or_default();
         if recorded.first().is_some_and(|begin| begin.begins && begin.states == first) {
@@ -61,7 +61,8 @@ fn is_finite(marked: &MarkedState) -> bool {
     state.x.iter().chain(&state.tension).all(|value| value.is_finite())
 }
 
-/// An observer of a path while it is followed: it receives each state and each entry of the record, and can stop the path.
+/// An observer of a path while it is followed: it receives each state and each entry of the record, and can stop the
+/// path.
 pub trait PathObserver<P> {
     /// Sees a new state of a branch; returns false to stop.
     fn state(&mut self, branch: usize, problem: &P, state: &MarkedState) -> bool;

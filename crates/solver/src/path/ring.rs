@@ -1,15 +1,15 @@
 //! The half branches that leave a double branch point.
 //!
-//! Where two eigenvalues vanish at once, as by symmetry, other equilibria leave along some of the directions between two
-//! null vectors `n1` and `n2`. On a ring `a = r (cos phi, sin phi)` in their plane all equations of equilibrium are solved
-//! but the tangential one: unknowns are the part of the state across the null space, the parameter, which the radial
-//! equation determines, and a tangential force `T`. Half branches pass the ring at the zeros of `T(phi)`. No derivatives
-//! beyond those of Newton's method are needed, and the answer does not depend on the null vectors' choice (the reduction
-//! is that of Lyapunov and Schmidt: M. Golubitsky, I. Stewart, D. Schaeffer, "Singularities and Groups in Bifurcation
-//! Theory", 1988).
+//! Where two eigenvalues vanish at once, as by symmetry, other equilibria leave along some of the directions between
+//! two null vectors `n1` and `n2`. On a ring `a = r (cos phi, sin phi)` in their plane all equations of equilibrium are
+//! solved but the tangential one: unknowns are the part of the state across the null space, the parameter, which the
+//! radial equation determines, and a tangential force `T`. Half branches pass the ring at the zeros of `T(phi)`. No
+//! derivatives beyond those of Newton's method are needed, and the answer does not depend on the null vectors' choice
+//! (the reduction is that of Lyapunov and Schmidt: M. Golubitsky, I. Stewart, D. Schaeffer, "Singularities and Groups
+//! in Bifurcation Theory", 1988).
 //!
-//! With a symmetry of order `N` the force `T` falls as `r^(N - 1)`, and on a small ring it is rounding error: the ring is
-//! widened until it is not.
+//! With a symmetry of order `N` the force `T` falls as `r^(N - 1)`, and on a small ring it is rounding error: the ring
+//! is widened until it is not.
 
 use super::bordered::{Plane, Planes, REFUSED_RESIDUAL};
 use super::corrector::Guess;
@@ -31,8 +31,8 @@ const FIRST_ANGLE: f64 = 0.017;
 /// Largest tangential force on a ring that is wide enough, over the bound on residuals; and that between two zeros.
 const CLEAR: f64 = 1e2;
 const CLEAR_BETWEEN: f64 = 1e1;
-/// Newton steps to a state on a ring, the length relative to the radius of one after which there is none, and the largest
-/// contraction.
+/// Newton steps to a state on a ring, the length relative to the radius of one after which there is none, and the
+/// largest contraction.
 const MOST_STEPS: usize = 12;
 const LAST_STEP: f64 = 1e-10;
 const SLOWEST_CONTRACTION: f64 = 0.6;
@@ -82,8 +82,8 @@ impl Ring<'_> {
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// Number of the half branches that leave along directions between two orthonormal null vectors, and the first states of
-    /// those that are found; `None` where the tangential force is rounding error on every ring.
+    /// Number of the half branches that leave along directions between two orthonormal null vectors, and the first
+    /// states of those that are found; `None` where the tangential force is rounding error on every ring.
     pub(super) fn half_branches(
         &mut self,
         point: &PathState,

@@ -222,7 +222,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Ok(state.map(|state| (PathState { arc_length: most, ..state }, BranchEnd::Length)))
     }
 
-    /// A state with the work up to it, that from the state before it included; `states` are those of the same step so far.
+    /// A state with the work up to it, that from the state before it included; `states` are those of the same step so
+    /// far.
     fn worked(
         &mut self,
         number: usize,

@@ -149,7 +149,8 @@ fn load(z: f64) -> f64 {
 
 /// Claim: under a load a two-bar truss is followed through both limit points and on to where its bars are pulled; every
 /// state lies on the closed curve, limit points are located to 1e-12, unstable states lie between them, and the work is
-/// the energy. Source: `F(z)` above, with extrema at `l^3 = L0 w^2`. Tolerances: rounding, and 1e-9 of the largest work.
+/// the energy. Source: `F(z)` above, with extrema at `l^3 = L0 w^2`. Tolerances: rounding, and 1e-9 of the largest
+/// work.
 #[test]
 fn a_truss_snaps_through() {
     let mut truss = Textbook {
@@ -237,8 +238,8 @@ fn a_truss_behind_a_soft_spring_snaps_back() {
     assert!((last.work - energy).abs() <= 1e-9 * energy, "{} {energy}", last.work);
 }
 
-/// Claim: a rigid column on a torsional spring buckles where the load is the spring's stiffness; the point is located to
-/// 1e-10, and with `switch` both buckled branches are followed, on which the load is `angle / sin(angle)`. Source:
+/// Claim: a rigid column on a torsional spring buckles where the load is the spring's stiffness; the point is located
+/// to 1e-10, and with `switch` both buckled branches are followed, on which the load is `angle / sin(angle)`. Source:
 /// E = angle^2/2 - load (1 - cos(angle)). Tolerance: rounding; next to the branch point the angle is known to its root.
 #[test]
 fn a_column_buckles() {
@@ -276,10 +277,10 @@ fn a_column_buckles() {
     assert!((ends[0] + ends[1]).abs() <= 1e-10 && ends[0].abs() > 1.0, "{ends:?}");
 }
 
-/// Claim: a state is found on its branch, and not on another one at a distance of a thousandth of a step. Tolerance: the
-/// interpolant between states 0.1 apart is off by a fifth of that distance, so that Newton's method leads to the nearer
-/// branch. Source: branches `y = sin(3 u) +- d`, `u = load`, of the energy
-/// `(u - load)^2/2 + z^3/3 - d^2 z` with `z = y - sin(3 u)`.
+/// Claim: a state is found on its branch, and not on another one at a distance of a thousandth of a step. Tolerance:
+/// the interpolant between states 0.1 apart is off by a fifth of that distance, so that Newton's method leads to the
+/// nearer branch. Source: branches `y = sin(3 u) +- d`, `u = load`, of the energy `(u - load)^2/2 + z^3/3 - d^2 z` with
+/// `z = y - sin(3 u)`.
 #[test]
 fn neighbouring_branches_are_told_apart() {
     const APART: f64 = 5e-5;
@@ -317,9 +318,10 @@ fn neighbouring_branches_are_told_apart() {
     assert!(!follower.passes(from, middle, on).unwrap(), "beyond the second state");
 }
 
-/// Claim: a path that is a closed curve ends where it comes back to its own states, and not after many rounds. Source: the
-/// energy `x^3/3 - (1 - u^2) x` with `u = load` has the equilibria `x^2 + u^2 = 1`, a circle; in arc length, in which two
-/// unknowns count half and the load once, its circumference is the integral of `sqrt(1/2 + cos^2)`. Tolerance: the last step.
+/// Claim: a path that is a closed curve ends where it comes back to its own states, and not after many rounds. Source:
+/// the energy `x^3/3 - (1 - u^2) x` with `u = load` has the equilibria `x^2 + u^2 = 1`, a circle; in arc length, in
+/// which two unknowns count half and the load once, its circumference is the integral of `sqrt(1/2 + cos^2)`.
+/// Tolerance: the last step.
 #[test]
 fn a_closed_path_ends_where_it_began() {
     let mut circle = Textbook {

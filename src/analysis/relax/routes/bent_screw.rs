@@ -1,21 +1,23 @@
 //! Screws whose relaxation ends without curvature.
 //!
-//! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is zero
-//! curvature. At the apex Newton's method sees only the direction in which the axis happens to lie, so that a state in
-//! balance along it, with no negative eigenvalue, may still lose energy by bending about another axis. A relaxation that ends at
-//! the apex is therefore repeated from states that are bent a little about several axes, both ways; the lowest equilibrium is the
-//! answer.
+//! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is
+//! zero curvature. At the apex Newton's method sees only the direction in which the axis happens to lie, so that a
+//! state in balance along it, with no negative eigenvalue, may still lose energy by bending about another axis. A
+//! relaxation that ends at the apex is therefore repeated from states that are bent a little about several axes, both
+//! ways; the lowest equilibrium is the answer.
 
 use crate::analysis::relax::certainty::off_rest;
 use crate::analysis::relax::run::{Ending, Run, is_better};
 use crate::solver::Problem;
 use std::f64::consts::PI;
 
-/// Curvature times the unit of length, over the largest angle by which a hinge is off its rest: below this a state has none,
+/// Curvature times the unit of length, over the largest angle by which a hinge is off its rest: below this a state has
+/// none,
 const APEX_CURVATURE: f64 = 1e-6;
 /// and from this relaxations are repeated.
 const BENT_CURVATURE: f64 = 0.03;
-/// Directions of the axis about which the sheet is bent, evenly over half a turn, beginning off the directions of symmetric cells.
+/// Directions of the axis about which the sheet is bent, evenly over half a turn, beginning off the directions of
+/// symmetric cells.
 const AXES: usize = 4;
 const FIRST_AXIS_RAD: f64 = 0.3;
 
@@ -30,8 +32,8 @@ pub(super) fn is_at_apex(run: &Run<'_>, ending: &Ending) -> bool {
 /// The lowest equilibrium that relaxations from slightly bent states reach, or the one before where none is lower.
 ///
 /// # Errors
-/// [`Failure::Interrupted`](crate::solver::Failure::Interrupted) where the observer asks to stop. A relaxation that fails otherwise is
-/// passed over.
+/// [`Failure::Interrupted`](crate::solver::Failure::Interrupted) where the observer asks to stop. A relaxation that
+/// fails otherwise is passed over.
 pub(super) fn lowest(run: &mut Run<'_>, ending: Ending) -> Ending {
     let mut found = ending?;
     let (start, flat) = (run.model.clone(), run.model.coordinates(&found.x));

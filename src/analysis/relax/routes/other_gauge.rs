@@ -6,8 +6,8 @@ use crate::solver::Start;
 /// How often the choice is made again.
 const MOST_CHOICES: usize = 20;
 
-/// Whether the held coordinates, which were chosen in the drawn state, may hold a shape in the one that was found: where the sheet stays
-/// then is no equilibrium.
+/// Whether the held coordinates, which were chosen in the drawn state, may hold a shape in the one that was found:
+/// where the sheet stays then is no equilibrium.
 pub(super) fn is_needed(run: &Run<'_>, ending: &Ending) -> bool {
     ending.as_ref().is_ok_and(|found| !run.model.gauge_is_valid(&found.x))
 }

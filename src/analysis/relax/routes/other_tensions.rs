@@ -1,4 +1,5 @@
-//! Tensions under which the residual says what it should: small beside the forces of soft terms, and without self stress.
+//! Tensions under which the residual says what it should: small beside the forces of soft terms, and without self
+//! stress.
 
 use crate::analysis::relax::rigid_forces::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_interruption};
@@ -22,11 +23,11 @@ pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
     without_self_stress(run, found)
 }
 
-/// The equilibrium of a screw whose rigid measures are under so much tension that they hide what is left of the others' forces, with
-/// these as small as residuals usually are; itself where that cannot be reached.
+/// The equilibrium of a screw whose rigid measures are under so much tension that they hide what is left of the others'
+/// forces, with these as small as residuals usually are; itself where that cannot be reached.
 ///
-/// Next to zero curvature the rows of rigid measures are nearly dependent and their tensions grow without bound, and residuals are
-/// measured against the largest force.
+/// Next to zero curvature the rows of rigid measures are nearly dependent and their tensions grow without bound, and
+/// residuals are measured against the largest force.
 fn refined(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
     let options = Options { tolerance: run.options.tolerance / HIDING_FORCE_RATIO, ..run.options };
@@ -34,8 +35,8 @@ fn refined(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     run.prefer(Ok(found), refine, |refined, _| refined.as_ref().map_or_else(is_interruption, |_| true))
 }
 
-/// The equilibrium with tensions of least norm. Where a self stress was large beside them, what was balanced to the tolerance with it need
-/// not be so without: the iteration then goes on from there.
+/// The equilibrium with tensions of least norm. Where a self stress was large beside them, what was balanced to the
+/// tolerance with it need not be so without: the iteration then goes on from there.
 fn without_self_stress(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     let settled = tension::settle(&run.model, &found);
     let met = found.history.last().is_some_and(|step| step.residual_force <= run.options.tolerance);

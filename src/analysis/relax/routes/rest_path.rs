@@ -1,9 +1,10 @@
 //! The path of minima on which the rest values move from those of the start to their targets.
 //!
 //! The start is an equilibrium where all rest values are its own. From there the path is followed as
-//! [`solver::path`](crate::solver::path) does, as long as it is stable. At a branch point or a limit point the sheet goes to the
-//! next minimum below, as one would in an experiment, and the path goes on from there. Where rigid bars make the start singular, as
-//! that of a flat sheet, bars that stretch a little are taken along this path, and become rigid along a second one.
+//! [`solver::path`](crate::solver::path) does, as long as it is stable. At a branch point or a limit point the sheet
+//! goes to the next minimum below, as one would in an experiment, and the path goes on from there. Where rigid bars
+//! make the start singular, as that of a flat sheet, bars that stretch a little are taken along this path, and become
+//! rigid along a second one.
 
 use super::{saddle, soft_bars};
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
@@ -25,8 +26,8 @@ const BEYOND_LIMIT: f64 = 0.005;
 /// Stiffness of bars that stretch a little, over that of the softest hinge.
 const SOFT_RATIO: f64 = 1e4;
 
-/// The equilibrium at the end of the path; the ending before where the path does not lead there, or to a state in which the forces of
-/// rigid measures hide whether the others are balanced.
+/// The equilibrium at the end of the path; the ending before where the path does not lead there, or to a state in which
+/// the forces of rigid measures hide whether the others are balanced.
 pub(super) fn follow(run: &mut Run<'_>, ending: Ending) -> Ending {
     let certain = |run: &mut Run<'_>| {
         let ending = followed(run)?;
@@ -67,8 +68,8 @@ fn along_rests(run: &mut Run<'_>) -> Option<Ending> {
     }
 }
 
-/// Follows a path of minima from a start to its target, where it ends with a minimum. `None` where it does not lead there; the model
-/// is left at the target.
+/// Follows a path of minima from a start to its target, where it ends with a minimum. `None` where it does not lead
+/// there; the model is left at the target.
 fn along(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, start: Equilibrium) -> Option<Ending> {
     let ending = follow_minima(run, drive, start);
     let target = drive(run.model.clone()).target();
@@ -83,8 +84,8 @@ fn drive_to(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: 
     run.model = driven.model;
 }
 
-/// Follows a path while it is stable. Where it becomes unstable it is left to the lower side, and goes on from the minimum there;
-/// where no step of the path leads on, as next to the apex of a screw, from a minimum a little farther.
+/// Follows a path while it is stable. Where it becomes unstable it is left to the lower side, and goes on from the
+/// minimum there; where no step of the path leads on, as next to the apex of a screw, from a minimum a little farther.
 fn follow_minima(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, mut start: Equilibrium) -> Option<Ending> {
     let driven = drive(run.model.clone());
     let (mut parameter, target) = (driven.parameter(), driven.target());
@@ -119,8 +120,8 @@ fn minimum(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: f
     is_wanted.then_some(left)
 }
 
-/// Minimises a little farther on the way from a state at which no step of the path leads on: as far as that succeeds. Returns the
-/// parameter there with the ending; `None` where it succeeds nowhere.
+/// Minimises a little farther on the way from a state at which no step of the path leads on: as far as that succeeds.
+/// Returns the parameter there with the ending; `None` where it succeeds nowhere.
 fn farther(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, from: f64, x: &[f64]) -> Option<(f64, Ending)> {
     let (place, driven) = (run.model.clone(), drive(run.model.clone()));
     let target = driven.target();

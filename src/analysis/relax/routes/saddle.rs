@@ -5,14 +5,14 @@ use crate::model::Model;
 use crate::numerics::vector::{larger, max_abs, moved};
 use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 
-/// Length of the step that leaves a saddle: the largest change of a soft measure (an angle, in radians), and the largest change of an
-/// unknown in units of length.
+/// Length of the step that leaves a saddle: the largest change of a soft measure (an angle, in radians), and the
+/// largest change of an unknown in units of length.
 const LEAVING_STEP: f64 = 0.1;
 /// Largest number of saddles that are left one after the other.
 const MOST_SADDLES: usize = 20;
 
-/// Whether the equilibrium has negative eigenvalues. A start that knows its tensions asks for the equilibrium next to it, whatever its
-/// stability.
+/// Whether the equilibrium has negative eigenvalues. A start that knows its tensions asks for the equilibrium next to
+/// it, whatever its stability.
 pub(super) fn is_reached(run: &Run<'_>, ending: &Ending) -> bool {
     !run.is_restarted() && ending.as_ref().is_ok_and(is_saddle)
 }

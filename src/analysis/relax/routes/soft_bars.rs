@@ -1,15 +1,15 @@
 //! Starts from which a sheet can leave on several branches: flat sheets, above all.
 //!
-//! Several branches of rigid folding meet in a flat state. With rigid bars no motion relieves the torques of the creases
-//! to first order there, and Newton's method cannot choose a branch, since it sees the first order only. Bars that
-//! stretch a little can: the torques push the sheet out of its plane, and it comes to rest on the branch that its rest
-//! angles favour. From there it is followed while the bars are made stiffer, until they are rigid.
+//! Several branches of rigid folding meet in a flat state. With rigid bars no motion relieves the torques of the
+//! creases to first order there, and Newton's method cannot choose a branch, since it sees the first order only. Bars
+//! that stretch a little can: the torques push the sheet out of its plane, and it comes to rest on the branch that its
+//! rest angles favour. From there it is followed while the bars are made stiffer, until they are rigid.
 //!
 //! A pattern may have no rigid fold that relieves all its torques: that of three creases that meet at angles of 120
-//! degrees has none at all. Let an angle `a` stretch the bars by `a^2`, as near a flat vertex that does not fold rigidly. Then
-//! the minimum of `k a^4 - torque a` has an angle that falls as `k^(-1/3)` and bars whose tension `k a^2` grows as `k^(1/3)`:
-//! the state tends to a rigid one, in which no tensions balance the torques. That is said, since no iteration can
-//! converge to it.
+//! degrees has none at all. Let an angle `a` stretch the bars by `a^2`, as near a flat vertex that does not fold
+//! rigidly. Then the minimum of `k a^4 - torque a` has an angle that falls as `k^(-1/3)` and bars whose tension `k a^2`
+//! grows as `k^(1/3)`: the state tends to a rigid one, in which no tensions balance the torques. That is said, since no
+//! iteration can converge to it.
 
 use crate::analysis::relax::rigid_forces::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
@@ -18,22 +18,24 @@ use crate::numerics::vector::max_abs;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start};
 use std::ops::RangeInclusive;
 
-/// Stiffnesses of the bars, one after the other, over that of the softest hinge. From 1e2 on or with three of them, some
-/// flat-foldable patterns of 20 to 120 edges end in states of higher energy; from 1e4 on, some end in none.
+/// Stiffnesses of the bars, one after the other, over that of the softest hinge. From 1e2 on or with three of them,
+/// some flat-foldable patterns of 20 to 120 edges end in states of higher energy; from 1e4 on, some end in none.
 const RATIOS: [f64; 2] = [1e3, 1e5];
 /// Tolerance of the states in between.
 const INTERMEDIATE_TOLERANCE: f64 = 1e-6;
-/// Further such ratios, tried where the state of the last of [`RATIOS`] does not lead to one of rigid bars, and the tolerance of
-/// their states: the tensions of stiff bars are sensitive.
+/// Further such ratios, tried where the state of the last of [`RATIOS`] does not lead to one of rigid bars, and the
+/// tolerance of their states: the tensions of stiff bars are sensitive.
 const FURTHER_RATIOS: [f64; 5] = [1e6, 1e7, 1e8, 1e9, 1e10];
 const FURTHER_TOLERANCE: f64 = 1e-9;
-/// Growth of the largest tension from one of the further ratios to the next that shows that it has no bound: 10^(1/3) = 2.15 in
-/// theory. Where rigid bars have a balance it is 1, and 10 where the lengths of rigid bars cannot be met.
+/// Growth of the largest tension from one of the further ratios to the next that shows that it has no bound: 10^(1/3) =
+/// 2.15 in theory. Where rigid bars have a balance it is 1, and 10 where the lengths of rigid bars cannot be met.
 const UNBOUNDED_GROWTH: RangeInclusive<f64> = 1.5..=5.0;
-/// Largest force of a rigid measure over those of the others above which a state next to the start is no equilibrium: next to a
-/// state without balance it grows without bound, until rounding errors of the lengths hide the angles on which it acts.
+/// Largest force of a rigid measure over those of the others above which a state next to the start is no equilibrium:
+/// next to a state without balance it grows without bound, until rounding errors of the lengths hide the angles on
+/// which it acts.
 const DOUBTFUL_FORCE: f64 = 1e3;
-/// Part of the energy of a flat start that a state must keep to be in doubt: most patterns lose more than a third of it.
+/// Part of the energy of a flat start that a state must keep to be in doubt: most patterns lose more than a third of
+/// it.
 const DOUBTFUL_PART: f64 = 0.9;
 /// Largest magnitude of a fold angle, in radians, at which a hinge counts as flat.
 const FLAT_RAD: f64 = 1e-9;
@@ -68,9 +70,9 @@ pub(super) fn is_singular(run: &Run<'_>, ending: &Ending) -> bool {
     ending.as_ref().is_err_and(|error| error.failure == Failure::SingularStart) && run.model.has_rigid_bars()
 }
 
-/// Whether the way with rigid bars ended in doubt: from a flat start it failed, or relieved next to nothing, since Newton's method chose
-/// a branch there that it saw to first order only; or rigid measures could not be met, which next to a flat state may be so at
-/// second order, to which bars that stretch find their way.
+/// Whether the way with rigid bars ended in doubt: from a flat start it failed, or relieved next to nothing, since
+/// Newton's method chose a branch there that it saw to first order only; or rigid measures could not be met, which next
+/// to a flat state may be so at second order, to which bars that stretch find their way.
 pub(super) fn is_in_doubt(run: &Run<'_>, ending: &Ending) -> bool {
     if run.is_restarted() || !run.soft_steps.is_empty() || !run.model.has_rigid_bars() {
         return false;
@@ -90,7 +92,8 @@ pub(super) fn hides_others(run: &Run<'_>, found: &Equilibrium) -> bool {
     rigid_over_others(&run.model, found) > DOUBTFUL_FORCE
 }
 
-/// Whether creases are locked: bars that stretch might find their way to another branch than the one that a lock drives.
+/// Whether creases are locked: bars that stretch might find their way to another branch than the one that a lock
+/// drives.
 pub(super) fn has_locks(run: &Run<'_>) -> bool {
     run.model.stiff().any(|element| element.kind() == TermKind::Locks)
 }
@@ -177,8 +180,8 @@ fn with_soft_bars(
     reached
 }
 
-/// Follows a state of soft bars, from which that of rigid ones was not reached, or not without doubt, while the bars are made
-/// much stiffer. `None` where that tells nothing more.
+/// Follows a state of soft bars, from which that of rigid ones was not reached, or not without doubt, while the bars
+/// are made much stiffer. `None` where that tells nothing more.
 fn stiffen(run: &mut Run<'_>, mut coordinates: Vec<f64>) -> Option<Ending> {
     let (mut tension, mut largest) = (None, vec![]);
     let exact = Options { tolerance: FURTHER_TOLERANCE, ..run.options };

@@ -1,10 +1,11 @@
-//! Screws that a relaxation leaves next to zero curvature: those without an equilibrium, and the stability of straight ones.
+//! Screws that a relaxation leaves next to zero curvature: those without an equilibrium, and the stability of straight
+//! ones.
 //!
-//! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is zero
-//! curvature. Next to it a moment that bends the sheet makes Newton's system indefinite, by the moment over the curvature, and steps
-//! become short in all unknowns. A sheet that stiff bars keep nearly straight, as a Miura-ori, is therefore held straight first,
-//! where it has the equilibrium of a torus. From there it bends about an axis that keeps its direction, and at last with all its
-//! unknowns, in balance or nearly so.
+//! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is
+//! zero curvature. Next to it a moment that bends the sheet makes Newton's system indefinite, by the moment over the
+//! curvature, and steps become short in all unknowns. A sheet that stiff bars keep nearly straight, as a Miura-ori, is
+//! therefore held straight first, where it has the equilibrium of a torus. From there it bends about an axis that keeps
+//! its direction, and at last with all its unknowns, in balance or nearly so.
 
 use super::has_failed;
 use crate::analysis::relax::certainty::{CERTAIN, next_change};
@@ -13,12 +14,14 @@ use crate::model::Model;
 use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 use std::f64::consts::PI;
 
-/// Curvature times the unit of length up to which the last state of a relaxation is nearly straight, and up to which it is rounding.
+/// Curvature times the unit of length up to which the last state of a relaxation is nearly straight, and up to which it
+/// is rounding.
 const NEARLY: f64 = 1e-2;
 const ROUNDING: f64 = 1e-13;
 /// Curvature times the unit of length up to which a state is asked whether its axis has a direction.
 const STRAIGHT: f64 = 1e-9;
-/// Direction of the axis in radians, off those of symmetric cells; the first of those asked, which are even over half a turn.
+/// Direction of the axis in radians, off those of symmetric cells; the first of those asked, which are even over half a
+/// turn.
 const AXIS: f64 = 0.3;
 const AXES: usize = 4;
 
@@ -61,7 +64,8 @@ pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
     with_axis_held(run, start, &[0])
 }
 
-/// Relaxes from a start, each time with fewer coordinates of the axis held: as many as `left` says, one after the other.
+/// Relaxes from a start, each time with fewer coordinates of the axis held: as many as `left` says, one after the
+/// other.
 fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending {
     for &left in left {
         let reached = run.minimize(start);
@@ -82,9 +86,9 @@ fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending
     run.minimize(start)
 }
 
-/// The equilibrium of a screw with its negative eigenvalues counted about axes that keep their direction, the most of several, if it is
-/// straight and would bend about none of them. Then the direction has no effect, and the sign of its eigenvalue is one of
-/// rounding. Other equilibria are returned as they are.
+/// The equilibrium of a screw with its negative eigenvalues counted about axes that keep their direction, the most of
+/// several, if it is straight and would bend about none of them. Then the direction has no effect, and the sign of its
+/// eigenvalue is one of rounding. Other equilibria are returned as they are.
 pub(crate) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     let place = model.coordinates(&found.x);
     if found.negative_eigenvalues == Some(0) || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT)
@@ -99,7 +103,8 @@ pub(crate) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     Equilibrium { x: model.hold_axis(0, place), negative_eigenvalues, ..found }
 }
 
-/// Negative eigenvalues of a straight state about an axis of this direction, in radians; `None` if it would bend about that axis.
+/// Negative eigenvalues of a straight state about an axis of this direction, in radians; `None` if it would bend about
+/// that axis.
 fn negative_about(model: &mut Model, mut coordinates: Vec<f64>, axis: f64, tension: &[f64]) -> Option<usize> {
     model.domain().bend(&mut coordinates, axis, 0.0);
     let x = model.hold_axis(1, coordinates);
@@ -126,8 +131,9 @@ mod tests {
         builder.creases(1.0).rest(Rest::PerEdge(rest)).build().unwrap()
     }
 
-    /// Claim: of an eggbox that is held straight, and that relaxations leave straight, no negative eigenvalue counts, whatever number comes
-    /// in; where a moment bends it to a lower energy the number is kept. Tolerance: the energy falls by 6e-5.
+    /// Claim: of an eggbox that is held straight, and that relaxations leave straight, no negative eigenvalue counts,
+    /// whatever number comes in; where a moment bends it to a lower energy the number is kept. Tolerance: the energy
+    /// falls by 6e-5.
     #[test]
     fn counts_what_bends() {
         for (rest, bends) in [([-1.0, 1.0], false), ([-3.1, 0.1], true)] {

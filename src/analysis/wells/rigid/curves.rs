@@ -1,6 +1,6 @@
 //! Folded states that are curves: trajectories along every ray of the drawn state, until they come back or a crease is
-//! folded by `pi`. Where the drawn state of a periodic cell has but one real direction, that of planar folding, the curve is that of
-//! its spatially periodic states.
+//! folded by `pi`. Where the drawn state of a periodic cell has but one real direction, that of planar folding, the
+//! curve is that of its spatially periodic states.
 
 use super::extent::Extent;
 use super::{Net, RigidError, Sampling};
@@ -81,8 +81,8 @@ pub(super) fn net(
     Ok(net)
 }
 
-/// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the Jacobian pass
-/// zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
+/// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the
+/// Jacobian pass zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
 fn meetings(folding: &mut impl Implicit, points: &[Point]) -> Result<usize, KinematicsError> {
     let (rows, columns) = (folding.equations(), folding.unknowns());
     let (mut residual, mut last) = (vec![0.0; rows], None::<DenseMatrix>);

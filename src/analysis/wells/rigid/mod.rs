@@ -49,8 +49,8 @@ pub(super) struct Net {
     pub border: Vec<bool>,
     /// Dimension: 1 or 2.
     pub dimension: usize,
-    /// Number of the first spatially periodic state among those of a curve of such states: that on which two surfaces cross, or
-    /// the whole net, then 0; where there is no such curve, as large as the number of states or larger.
+    /// Number of the first spatially periodic state among those of a curve of such states: that on which two surfaces
+    /// cross, or the whole net, then 0; where there is no such curve, as large as the number of states or larger.
     pub seam: usize,
     /// Places beyond which the states go on that were not found.
     pub open: usize,
@@ -151,7 +151,8 @@ pub fn landscape(
     Ok(polished((&springs, &extent), &net, (sampling.step, &lowest)))
 }
 
-/// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially periodic states.
+/// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially
+/// periodic states.
 type OnCrossing<'a> = &'a dyn Fn(&[f64], f64) -> Option<Lowest>;
 
 /// Wells and passes of a net, made exact.

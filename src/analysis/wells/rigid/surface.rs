@@ -14,8 +14,8 @@ const TOLERANCE: f64 = 3e-14;
 /// States beyond which a surface is given up.
 const MOST_POINTS: usize = 300_000;
 
-/// States of the curve on which surfaces cross, and those on the rims of holes, are neighbours up to this distance, in distances of
-/// neighbours on a surface.
+/// States of the curve on which surfaces cross, and those on the rims of holes, are neighbours up to this distance, in
+/// distances of neighbours on a surface.
 const BESIDE: f64 = 1.5;
 /// States whose curvature is the largest to this part of it are on the border where it is met.
 const AT_LIMIT: f64 = 1e-6;

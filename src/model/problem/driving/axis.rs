@@ -1,9 +1,9 @@
 //! The axis about which a straight screw begins to bend as it is driven.
 //!
-//! Without curvature the direction of the axis does not affect the shape, and any direction is an equilibrium. But rigid faces let a
-//! straight sheet bend about few axes only: from another one no path leads on. To second order the work of the drive is least about the
-//! axes about which the sheet can bend; about the others the rigid measures, which resist by their weights in the factorization, make it
-//! a million times larger.
+//! Without curvature the direction of the axis does not affect the shape, and any direction is an equilibrium. But
+//! rigid faces let a straight sheet bend about few axes only: from another one no path leads on. To second order the
+//! work of the drive is least about the axes about which the sheet can bend; about the others the rigid measures, which
+//! resist by their weights in the factorization, make it a million times larger.
 
 use super::DrivenModel;
 use crate::model::axis::{UNCORRECTED, decrease_along_step, direction_of_highest_peak};
@@ -15,8 +15,8 @@ use crate::solver::{HessianKind, Tangent};
 const SHIFT: f64 = 1e-9;
 
 impl DrivenModel {
-    /// The unknowns of a straight screw with these tensions, with the axis about which the drive bends it with the least work. A state that
-    /// is no straight screw stays as it is.
+    /// The unknowns of a straight screw with these tensions, with the axis about which the drive bends it with the
+    /// least work. A state that is no straight screw stays as it is.
     pub(crate) fn about_best_axis(&self, x: Vec<f64>, tension: &[f64]) -> Vec<f64> {
         let model = &self.model;
         let Some(turns) = model.equations.domain.turns(&model.coordinates(&x)) else { return x };
@@ -32,8 +32,8 @@ impl DrivenModel {
         direction_of_highest_peak(gain).map_or(x.clone(), about)
     }
 
-    /// Half the second derivative by the parameter of the least energy, by the factorization's weights of rigid measures; `None` where
-    /// nothing can be factored.
+    /// Half the second derivative by the parameter of the least energy, by the factorization's weights of rigid
+    /// measures; `None` where nothing can be factored.
     fn second_order_work(&self, x: &[f64], tension: &[f64]) -> Option<f64> {
         let mut tangent = Tangent::at_state(self, x, tension, HessianKind::Full).ok()?;
         tangent.factor(SHIFT).ok()?;
