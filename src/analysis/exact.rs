@@ -27,6 +27,8 @@ const KNOWN: f64 = 1e-10;
 /// Largest difference of a rest length from the drawn length, relative to the positions of its ends, at which the bar
 /// is at rest as drawn.
 const SAME_LENGTH: f64 = 1e-12;
+/// Largest difference of a fold angle to an exact state that is still near by: half a turn.
+const FARTHEST_RAD: f64 = std::f64::consts::PI;
 /// Largest change of an angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
@@ -79,7 +81,7 @@ pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles:
     let springs = Springs::new(sheet, tiling, model, angles)?;
     let exact = springs.stationary(&springs.start).filter(|exact| exact.is_near && exact.error <= KNOWN)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
-    worst(known.map(|(exact, angle)| (exact - angle).abs()))
+    worst(known.map(|(exact, angle)| (exact - angle).abs())).filter(|error| *error <= FARTHEST_RAD)
 }
 
 /// Whether the bars of a model are at rest at their drawn lengths, which exact folding keeps.
