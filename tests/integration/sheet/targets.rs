@@ -12,9 +12,9 @@ use foldwell::{Assembly, Rest};
 use std::ops::ControlFlow;
 
 /// A half-folded sheet as Origami Simulator exports it: drawn at 109.84 degrees with 6 digits, target 180.
-pub(crate) const HALF_FOLDED: &str = include_str!("../cases/fold/simulator-half-folded.fold");
+pub(crate) const HALF_FOLDED: &str = include_str!("../../cases/fold/simulator-half-folded.fold");
 /// A waterbomb base as Origami Simulator exports it before folding, in the plane y = 0.
-pub(crate) const FLAT: &str = include_str!("../cases/fold/simulator-flat.fold");
+pub(crate) const FLAT: &str = include_str!("../../cases/fold/simulator-flat.fold");
 
 /// Returns two triangles with the crease [0, 1] between them, folded by `degrees`; the edges [0, 1] and [1, 2], their
 /// letters and their angles are on lines 4, 5 and 6. The second edge has one face.

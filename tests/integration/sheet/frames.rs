@@ -10,8 +10,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const FRAMES: &str = include_str!("../cases/fold/frames.fold");
-const BELOW: &str = include_str!("../cases/fold/frames-below.fold");
+const FRAMES: &str = include_str!("../../cases/fold/frames.fold");
+const BELOW: &str = include_str!("../../cases/fold/frames-below.fold");
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/fold").join(name)

@@ -220,7 +220,7 @@ fn pushed(sheet: &Sheet, cells: [usize; 2], boundary: Boundary, push: f64) -> Ca
 /// all sides, or the one in the middle. The faces include some that cross the rim of a cell.
 #[test]
 fn cells_are_held_against_their_neighbours() {
-    let sheet = fold::parse(include_str!("../cases/open-star.fold"), "open-star.fold").unwrap();
+    let sheet = fold::parse(include_str!("../../cases/open-star.fold"), "open-star.fold").unwrap();
     for push in [0.0, 0.2, 0.5] {
         let marks = |cells: [usize; 2], boundary: Boundary| {
             let mut case = pushed(&sheet, cells, boundary, push);

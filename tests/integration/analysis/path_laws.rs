@@ -167,7 +167,7 @@ fn a_relaxation_finds_the_end_of_a_path() {
 /// exactly rigid bars. Tolerance: 1e-9 of the energy, and 1e-8 rad, as both are relaxed to 1e-12.
 #[test]
 fn stiffness_leads_to_the_rigid_limit() {
-    let sheet = fold::parse(include_str!("../../meshes/open-star.fold"), "open-star.fold").unwrap();
+    let sheet = fold::parse(include_str!("../../../meshes/open-star.fold"), "open-star.fold").unwrap();
     let rates = folding_modes(&sheet).unwrap().named([0.05, 0.05, 0.0]).unwrap();
     let bare = Assembly::patch(sheet.clone(), [4, 4]).build().unwrap();
     let drawn = bare.tiling().edges.iter().zip(bare.drawn_angles());

@@ -10,7 +10,7 @@ use foldwell::sheet::{EdgeKey, Sheet};
 use foldwell::solver::continuation::End;
 use serde_json::Value;
 
-const REFERENCE: &str = include_str!("../cases/open-star.json");
+const REFERENCE: &str = include_str!("../../cases/open-star.json");
 
 fn edge(sheet: &Sheet, [i, j, n1, n2]: [i64; 4]) -> usize {
     let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1 as i32, n2 as i32] };

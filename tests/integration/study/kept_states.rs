@@ -13,7 +13,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::Command;
 
-use super::targets::FLAT as WATERBOMB;
+use crate::sheet::targets::FLAT as WATERBOMB;
 
 fn relaxed(model: &Model, method: Method, keep_every: Option<usize>) -> Relaxed {
     let keep_every = keep_every.and_then(NonZeroUsize::new);

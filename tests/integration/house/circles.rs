@@ -5,7 +5,7 @@
 //! item, so that a file with only re-exports connects nothing. `mod x;` is not an import, and test modules do not
 //! count.
 
-use crate::floors::{root, sources, words};
+use crate::house::floors::{root, sources, words};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;

@@ -9,7 +9,7 @@ use foldwell::solver::Failure;
 use foldwell::{Assembly, RIGID, Rest, relax};
 use std::fs;
 
-use super::random_patterns::Family;
+use crate::sheet::random_patterns::Family;
 
 /// The part of the flat fold that is asked for.
 const PART: f64 = 0.2;

@@ -127,8 +127,8 @@ fn patterns() -> Vec<Creases> {
         Creases::on_square("waterbomb base", [7, 12], &cross),
         Creases::on_square("preliminary base", [9, 14], &preliminary),
         Creases::on_square("fish base", [8, 15], &fish),
-        of_file("bird base", include_str!("../cases/fold/bird-base.fold"), [17, 40]),
-        of_file("square twist", include_str!("../cases/fold/square-twist.fold"), [16, 24]),
+        of_file("bird base", include_str!("../../cases/fold/bird-base.fold"), [17, 40]),
+        of_file("square twist", include_str!("../../cases/fold/square-twist.fold"), [16, 24]),
         pleats(5),
         miura(3, 2),
         miura(6, 6),
@@ -497,7 +497,7 @@ fn fold_files_are_merged_and_split() {
         true,
         "lie on each other, one with B and one with M and -90 degrees",
     );
-    let folded = include_str!("../cases/fold/simulator-half-folded.fold");
+    let folded = include_str!("../../cases/fold/simulator-half-folded.fold");
     refused(folded, 1e-3, true, "this frame is a folded form");
     refused(&fold::write(&generate(&Pattern::named("miura").unwrap()).unwrap()), 1e-3, true, "this sheet is periodic");
 }
@@ -645,7 +645,7 @@ fn the_program_reads_patterns() {
 /// folded flat in two dimensions with `faceOrders`, as Flat-Folder writes it; they go to no file of lines.
 #[test]
 fn folded_states_are_read_and_not_drawn_as_lines() {
-    let half = fold::parse(include_str!("../cases/fold/simulator-half-folded.fold"), "half.fold").unwrap();
+    let half = fold::parse(include_str!("../../cases/fold/simulator-half-folded.fold"), "half.fold").unwrap();
     assert_eq!((half.vertices.len(), half.targets_not_drawn()), (6, 1));
     let state = r#"{"file_spec": 1.1, "file_creator": "flat-folder", "file_classes": ["singleModel"],
         "frame_classes": ["foldedForm"], "vertices_coords": [[1,0],[0,0],[1,0],[1,1],[0,1],[1,1]],

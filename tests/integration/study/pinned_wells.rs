@@ -24,7 +24,7 @@ const HEIGHT: f64 = 0.3;
 const SHALLOW: f64 = 2.4e-3;
 
 /// A pyramid without its base: four triangles around an apex, vertex 0, over a square.
-const PYRAMID: &str = include_str!("../cases/pyramid.fold");
+const PYRAMID: &str = include_str!("../../cases/pyramid.fold");
 
 fn parse(text: &str) -> Sheet {
     fold::parse(text, "sheet.fold").unwrap()

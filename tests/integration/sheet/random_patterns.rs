@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::common::Numbers;
+use crate::common::Numbers;
 
 /// Distance below which two points are one.
 const SAME_POINT: f64 = 1e-9;

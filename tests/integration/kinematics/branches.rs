@@ -61,7 +61,7 @@ fn special(sheet: &Sheet, lock: usize) -> bool {
 #[test]
 fn one_lock_on_the_flat_reference_cell() {
     let sheet = mesh("open-flat");
-    let reference: Value = serde_json::from_str(include_str!("../cases/open-flat.json")).unwrap();
+    let reference: Value = serde_json::from_str(include_str!("../../cases/open-flat.json")).unwrap();
     let table = reference["one_lock"].as_array().unwrap();
     assert_eq!(table.len(), 12);
     for row in table {
@@ -220,7 +220,7 @@ fn corrected(closure: &Closure, drawn: &[f64], start: &[f64]) -> Vec<f64> {
 /// each.
 fn rays_of_open_star() -> Vec<(Vec<f64>, f64)> {
     let sheet = mesh("open-star");
-    let case: Value = serde_json::from_str(include_str!("../cases/open-star.json")).unwrap();
+    let case: Value = serde_json::from_str(include_str!("../../cases/open-star.json")).unwrap();
     let names: Vec<[i32; 4]> = serde_json::from_value(case["edge_list"].clone()).unwrap();
     let place = |key: &EdgeKey| [key.i as i32, key.j as i32, key.shift[0], key.shift[1]];
     let at = |key: &EdgeKey| names.iter().position(|name| *name == place(key)).unwrap();

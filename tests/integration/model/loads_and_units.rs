@@ -93,7 +93,7 @@ fn locked_in(unit: f64, angle: f64) -> RelaxSummary {
     let folder = tempfile::tempdir().unwrap();
     let mesh = fold::write(&common::scaled(common::mesh("open-star"), unit));
     std::fs::write(folder.path().join("star.fold"), mesh).unwrap();
-    std::fs::write(folder.path().join("rest.csv"), include_str!("../cases/star-rest.csv")).unwrap();
+    std::fs::write(folder.path().join("rest.csv"), include_str!("../../cases/star-rest.csv")).unwrap();
     let scene = format!(
         "[sheet]\nmesh = \"star.fold\"\ndomain = \"screw\"\n[energy]\nbars = {{ stiffness = inf }}\n\
          creases = {{ stiffness = 1.0, rest = {{ file = \"rest.csv\" }} }}\n\

@@ -109,7 +109,7 @@ fn null_spaces_of_flat_cells() {
 
 /// Claim: along every folding of a flat sheet both chords become shorter (a chord is shorter than the path on the
 /// sheet); near the flat state these cells also have `strain22 < 0`, which on an oblique lattice is not the strain of a
-/// length and can be positive elsewhere (`tests/integration/folding_theory.rs`); and the mirror image has the same
+/// length and can be positive elsewhere (`tests/integration/kinematics/folding_theory.rs`); and the mirror image has the same
 /// strain and the opposite curvature. States: those to which Newton's method converges from random angles. Tolerance of
 /// the mirror image: rounding errors.
 #[test]
@@ -277,7 +277,7 @@ fn eggbox_along_the_whole_fold() {
 
 /// Returns the loops of `tests/cases/open-star.json`, found by an independent program: first direction and arc length.
 fn reference_loops(folding: &Folding) -> Vec<(Vec<f64>, f64)> {
-    let text = include_str!("../cases/open-star.json");
+    let text = include_str!("../../cases/open-star.json");
     let reference: serde_json::Value = serde_json::from_str(text).unwrap();
     let list = reference["edge_list"].as_array().unwrap();
     let place = |&edge: &usize| {

@@ -154,7 +154,7 @@ fn bars_of_two_sorts_and_a_load() {
 /// base. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces.
 #[test]
 fn a_held_part_is_pinned() {
-    let pyramid = include_str!("../cases/pyramid.fold");
+    let pyramid = include_str!("../../cases/pyramid.fold");
     let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-4 }\n";
     let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 30\nbarriers = [[0, 1]]\n";
     let held =
@@ -174,7 +174,7 @@ fn a_held_part_is_pinned() {
 /// Tolerance: as above; positions are rounded when they are turned.
 #[test]
 fn guides_are_pins_that_are_turned() {
-    let pyramid: serde_json::Value = serde_json::from_str(include_str!("../cases/pyramid.fold")).unwrap();
+    let pyramid: serde_json::Value = serde_json::from_str(include_str!("../../cases/pyramid.fold")).unwrap();
     let (sin, cos) = 0.4f64.sin_cos();
     let mut turned = pyramid.clone();
     for point in turned["vertices_coords"].as_array_mut().unwrap() {
@@ -333,7 +333,7 @@ fn rigid_wells_know_no_parts() {
     let cases = ["[[part]]\nname = \"p\"\nvertices = [0, 1, 2]\n", "[[pin]]\nvertex = 0\nnormal = [0, 1, 1]\n"];
     for held in cases {
         let scene = |folder: &Path| {
-            fs::write(folder.join("mesh.fold"), include_str!("../cases/pyramid.fold")).unwrap();
+            fs::write(folder.join("mesh.fold"), include_str!("../../cases/pyramid.fold")).unwrap();
             let energy = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0 }\n";
             let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nrigid = true\n";
             fs::write(folder.join("s.toml"), format!("[sheet]\nmesh = \"mesh.fold\"\n{energy}{held}{study}")).unwrap();

@@ -276,7 +276,7 @@ fn a_rigid_well_behind_another_periodic_state() {
     let case = on(mesh("open-star"), [1, 1], Boundary::Screw);
     let sampling = Sampling { step: TAU / 20.0, max_curvature: 0.5 };
     for turns in [0.0, TAU] {
-        let mut rest = crate::surface::BEHIND[1].to_vec();
+        let mut rest = crate::analysis::surface::BEHIND[1].to_vec();
         rest[0] += turns;
         let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest.clone());
         let found = landscape(&case.with_terms(terms), &sampling, &mut || true).unwrap();

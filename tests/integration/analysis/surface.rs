@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-const REFERENCE: &str = include_str!("../cases/open-star.json");
+const REFERENCE: &str = include_str!("../../cases/open-star.json");
 
 /// Radius of the charts and largest curvature of a surface.
 #[derive(Clone, Copy)]

@@ -9,12 +9,12 @@ use std::fmt::Write;
 use std::fs;
 use std::ops::ControlFlow;
 
-use super::targets::FLAT as WATERBOMB;
+use crate::sheet::targets::FLAT as WATERBOMB;
 
-const BIRD_BASE: &str = include_str!("../cases/fold/bird-base.fold");
-const CRANE: &str = include_str!("../../meshes/crane.fold");
-const TWIST: &str = include_str!("../cases/fold/square-twist.fold");
-const RIGID_TWIST: &str = include_str!("../cases/fold/square-twist-rigid.fold");
+const BIRD_BASE: &str = include_str!("../../cases/fold/bird-base.fold");
+const CRANE: &str = include_str!("../../../meshes/crane.fold");
+const TWIST: &str = include_str!("../../cases/fold/square-twist.fold");
+const RIGID_TWIST: &str = include_str!("../../cases/fold/square-twist-rigid.fold");
 
 /// Returns the crease pattern of `n x n` parallelograms of Miura-ori, without faces: rows of zigzags alternate, and the
 /// straight lines change their letter at every vertex.

@@ -383,7 +383,7 @@ fn several_cells_respond_like_one() {
 
 /// Returns the stored cylinders of `tests/cases/open-star.json` as fold angles of all edges.
 fn cylinders(sheet: &Sheet) -> Vec<Vec<f64>> {
-    let case: Value = serde_json::from_str(include_str!("../cases/open-star.json")).unwrap();
+    let case: Value = serde_json::from_str(include_str!("../../cases/open-star.json")).unwrap();
     let keys: Vec<Vec<i64>> = serde_json::from_value(case["edge_list"].clone()).unwrap();
     let name = |key: &Vec<i64>| {
         let corner = |vertex: i64, shift: [i64; 2]| Corner { vertex: vertex as usize, shift: shift.map(|n| n as i32) };

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use super::targets::FLAT as WATERBOMB;
+use crate::sheet::targets::FLAT as WATERBOMB;
 
 fn miura(fold: f64) -> Sheet {
     generate(&Pattern::MiuraPatch(MiuraPatch { fold, cells: [3, 2], ..MiuraPatch::default() })).unwrap()

@@ -94,7 +94,7 @@ fn contradictions_are_refused() {
 /// of this side, or with fold angles that say what is meant, nothing is turned.
 #[test]
 fn letters_of_the_other_side_turn_the_sheet_over() {
-    let valleys = include_str!("../cases/fold/box.fold");
+    let valleys = include_str!("../../cases/fold/box.fold");
     let mountains = valleys.replace("\"V\"", "\"M\"").replace("edges_foldAngle", "old:foldAngle");
     let [before, after] = [valleys, &mountains].map(|text| fold::parse(text, "box.fold").unwrap());
     let [before_info, after_info] = [&before, &after].map(Info::new);

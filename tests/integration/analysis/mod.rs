@@ -1,0 +1,35 @@
+//! Questions about states, asked through the library: relaxations, modes, paths, wells, landscapes, trajectories.
+
+mod bloch;
+mod cell_drawings;
+mod certificates;
+mod drawings;
+mod drawn_tube_traces;
+mod drum_branches;
+mod engines;
+mod flat_patterns;
+mod intersections;
+mod intrinsic;
+mod invariance;
+mod landscape;
+mod landscape_map;
+mod landscape_torus;
+mod path_events;
+mod path_laws;
+mod planar_curves;
+mod random_folds;
+mod response;
+mod response_moduli;
+mod restarts;
+mod routes;
+mod screw_cells;
+mod self_intersection;
+mod slipping_tubes;
+mod started_states;
+mod straight_screws;
+mod stressed_bands;
+pub(crate) mod surface;
+mod trace;
+mod tube_scenes;
+mod vibrations;
+mod wells;

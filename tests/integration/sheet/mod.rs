@@ -1,0 +1,12 @@
+//! Meshes, crease patterns and their files.
+
+mod assignments;
+mod bad_meshes;
+mod corpus;
+mod flattening;
+mod frames;
+mod mesh_files;
+pub(crate) mod random_patterns;
+mod symmetry_types;
+pub(crate) mod targets;
+mod thin;

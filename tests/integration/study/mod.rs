@@ -1,0 +1,17 @@
+//! Studies of one kind, from their scene to their summary and tables.
+
+mod barriers;
+mod bloch_runs;
+mod empty_answers;
+mod gallery_paths;
+mod kept_states;
+mod landscape_runs;
+mod laws;
+mod paths;
+mod periodic_paths;
+mod pinned_wells;
+mod reasons;
+mod response_runs;
+mod touching;
+mod waterbomb_base;
+mod wells_of_parts;
