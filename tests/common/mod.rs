@@ -1,20 +1,23 @@
 //! Shared helpers of the tests: sheets with boundary conditions, terms with random rest angles, and dense matrices.
 #![allow(dead_code)] // each test file uses a part
 
+mod run;
+
+#[allow(unused_imports)] // each test file uses a part
+pub use run::{Files, Folder, Ran, Said, Scene, Table, case_folder, signal};
+
 use foldwell::analysis::modes::{Modes, ModesError, modes};
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Model, Terms};
 use foldwell::numerics::{DenseMatrix, dense};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::generate::FourParallelogram;
 use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use foldwell::solver::{HessianKind, Linearization, Options, Problem};
 use nalgebra::Matrix3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A generator of random numbers, which are the same on every machine.
 pub struct Numbers(ChaCha8Rng);
@@ -178,16 +181,6 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()).fold(0.0, f64::max)
 }
 
-/// Checks that a scene in a folder of its own is refused with this message and status 2, and that nothing is written.
-pub fn assert_refused(scene: impl Fn(&Path) -> PathBuf, expected: &str) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (scene, out) = (scene(folder.path()), folder.path().join("out"));
-    let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
-    let error = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).expect_err("a refusal");
-    assert!(error.to_string().contains(expected), "{expected}: {error}");
-    assert!(error.exit_status() == 2 && !out.exists());
-}
-
 /// Force and energy along a path, from its table.
 pub struct ForceCurve {
     /// Drive, reaction and energy of every state of the first branch.
@@ -196,16 +189,12 @@ pub struct ForceCurve {
 
 impl ForceCurve {
     /// Reads the table of a path.
-    pub fn read(table: &Path) -> Self {
-        let text = std::fs::read_to_string(table).expect("the path has a table");
-        let header: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
-        let columns = ["drive", "reaction", "energy_total"].map(|name| header.iter().position(|found| *found == name));
-        let row = |line: &str| {
-            let fields: Vec<&str> = line.split(',').collect();
-            (fields[0] == "0")
-                .then(|| columns.map(|k| fields[k.expect("a column of every path")].parse().expect("a number")))
-        };
-        Self { states: text.lines().skip(1).filter_map(row).collect() }
+    pub fn of(table: &Table) -> Self {
+        let rows = (0..table.len()).filter(|&row| table.rows[row][0] == "0");
+        let states = rows.map(|row| ["drive", "reaction", "energy_total"].map(|column| table.at(row, column)));
+        let states: Vec<[f64; 3]> = states.collect();
+        assert!(states.iter().flatten().all(|number| !number.is_nan()), "{states:?}");
+        Self { states }
     }
 
     /// Returns the energy where the drive has this value, by a cubic whose slopes are the reactions.

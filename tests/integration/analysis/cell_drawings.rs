@@ -6,21 +6,18 @@
 //! lattice with raised hexagons (p6m); seven, the snub hexagonal tiling 3.3.3.3.6 with raised hexagons (p6). Beside them snub squares
 //! with raised squares (p4g), pyramids on squares, and an eggbox.
 
-use crate::common::{Numbers, mesh};
+use crate::common::{Numbers, Scene, mesh};
 use foldwell::analysis::bloch::{BlochError, Decay, Determinant, Rigidity, SurveyOptions, survey};
 use foldwell::analysis::branches::branches;
 use foldwell::analysis::modes::modes;
 use foldwell::analysis::response::{NoRatio, Response, response};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::{Assembly, RIGID};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::Eggbox;
 use foldwell::sheet::{Pattern, Sheet, fold, generate};
-use foldwell::study::StudyResult;
 use foldwell::study::bloch::BlochSummary;
 use std::f64::consts::{FRAC_PI_4, PI};
-use std::ops::ControlFlow;
 
 /// Triangles of points, and the vectors that repeat them.
 #[derive(Clone)]
@@ -351,24 +348,15 @@ fn kagome_roots_are_double() {
 
 /// Runs a study `bloch` of a cell with these further keys.
 fn bloch(cell: &Cell, keys: &str) -> (BlochSummary, [usize; 3]) {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("cell.fold"), fold::write(&cell.drawn(&changes()[2]))).unwrap();
     let mass = if keys.contains("path") { "mass = { vertex = 1.0 }\n" } else { "" };
     let scene = format!(
         "{mass}[sheet]\nmesh = \"cell.fold\"\ndomain = \"torus\"\n[energy]\nbars = {{ stiffness = 50.0 }}\n\
          creases = {{ stiffness = 1.0 }}\n[[study]]\nname = \"b\"\nkind = \"bloch\"\n{keys}\n"
     );
-    let (path, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
-    std::fs::write(&path, scene).unwrap();
-    let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
-    let report = run_scene(&path, &options, &|_| ControlFlow::Continue(())).unwrap();
-    assert!(report.summary.converged(), "{:?}", report.summary.studies[0].reason);
-    let rows = |name: &str| std::fs::read_to_string(out.join(name)).map_or(0, |text| text.lines().count());
-    let tables = ["b-modes.csv", "b_bands.csv", "b-strip.csv"].map(rows);
-    match &report.summary.studies[0].result {
-        Some(StudyResult::Bloch(found)) => ((**found).clone(), tables),
-        other => panic!("{other:?}"),
-    }
+    let scene = Scene::new(scene).with("cell.fold", fold::write(&cell.drawn(&changes()[2])));
+    let ran = scene.converged();
+    let rows = |name: &str| if ran.out.has(name) { ran.out.text(name).lines().count() } else { 0 };
+    (ran.bloch("b").clone(), ["b-modes.csv", "b_bands.csv", "b-strip.csv"].map(rows))
 }
 
 /// Claim: where the determinant vanishes at all wavenumbers, bands, counts of zero modes and the zero modes of a strip, which need

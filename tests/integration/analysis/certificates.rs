@@ -12,14 +12,10 @@ use foldwell::sheet::{self, Corner, Sheet, fold};
 use foldwell::solver::{Failure, Options, Problem};
 use foldwell::{Pattern, generate, relax};
 use std::f64::consts::PI;
-use std::fs;
 
 /// The sheet of a FOLD file with this text.
 fn read(text: &str) -> Sheet {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("sheet.fold");
-    fs::write(&file, text).unwrap();
-    fold::read(&file).unwrap()
+    fold::parse(text, "sheet.fold").unwrap()
 }
 
 /// A strip of rectangles, 0.5 long and 1 wide, in the plane.

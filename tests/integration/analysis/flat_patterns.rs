@@ -1,14 +1,12 @@
 //! Flat crease patterns, folded by their letters from the exactly flat state in which they are drawn.
 
 use foldwell::analysis::relax::{RelaxError, Relaxed};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{Assignment, EdgeKind, Sheet, fold};
 use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
 use std::f64::consts::PI;
 use std::fmt::Write;
-use std::fs;
-use std::ops::ControlFlow;
 
+use crate::common::Scene;
 use crate::sheet::targets::FLAT as WATERBOMB;
 
 const BIRD_BASE: &str = include_str!("../../cases/fold/bird-base.fold");
@@ -124,30 +122,21 @@ fn other_patterns_fold_as_far_as_they_can() {
 /// bars that stretch are marked. A start that is not flat has no such choice.
 #[test]
 fn the_branch_is_said() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.fold"), WATERBOMB).unwrap();
     let scene = "[sheet]\nmesh = \"a.fold\"\n[energy]\nbars = { stiffness = inf }\n\
                  creases = { stiffness = 1.0, rest = \"assigned\", fraction = 0.2 }\n\
                  [[study]]\nname = \"a\"\nkind = \"relax\"\n[[study]]\nname = \"b\"\nkind = \"relax\"\nstart = \"a\"\n";
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    run_scene(&folder.path().join("s.toml"), &options, &|_| ControlFlow::Continue(())).unwrap();
-    let text = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let said = Scene::new(scene).with("a.fold", WATERBOMB).program("").well();
+    let studies = said.folder.studies();
     let choice = serde_json::json!({ "hinges": 6, "on_rest_side": 6, "soft_bars": true });
-    let studies = &summary["studies"];
     assert_eq!((&studies[0]["branch_choice"], &studies[1]["branch_choice"]), (&choice, &serde_json::Value::Null));
     let methods: Vec<_> = studies[0]["history"].as_array().unwrap().iter().map(|row| &row["method"]).collect();
     assert!(
         methods.first().is_some_and(|method| *method == "soft-bars")
             && methods.last().is_some_and(|m| *m == "vertices")
     );
-    let binary = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    let said = { binary }.current_dir(&folder).args(["run", "s.toml"]).output().unwrap();
-    let said = String::from_utf8(said.stdout).unwrap();
     assert!(
-        said.contains("the start was left with 6 of 6 hinges on the side of their rest angles, by bars that"),
-        "{said}"
+        said.out.contains("the start was left with 6 of 6 hinges on the side of their rest angles, by bars that"),
+        "{said:?}"
     );
 }
 

@@ -1,15 +1,13 @@
 //! Relaxation in fold angles against relaxation in the positions of the vertices, which shares no equation with it but
 //! the springs.
 
-use crate::common::{Testing, distance, mesh, patch};
+use crate::common::{Scene, Testing, distance, mesh, patch};
 use foldwell::analysis::relax::{IntrinsicFailure, Method, RelaxError, RelaxOptions, Relaxed, relax_from};
 use foldwell::kinematics::folding_modes;
 use foldwell::model::intrinsic::Unsupported;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};
 use foldwell::numerics::parallel::Threads;
 use serde_json::Value;
-use std::fs;
-use std::process::Command;
 
 fn relaxed(assembly: &Assembly, terms: &Terms, method: Method) -> Result<Relaxed, Box<RelaxError>> {
     let model = assembly.model_of(terms, Gauge::Held);
@@ -158,20 +156,13 @@ fn same_bits_for_any_number_of_threads() {
 /// stands still.
 #[test]
 fn scenes_name_the_method() {
-    let folder = tempfile::tempdir().unwrap();
     let scene = |cells: usize, studies: &str| {
-        let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/open-star.fold");
-        let text = format!(
-            "sheet = {{ mesh = {mesh:?}, cells = [{cells}, {cells}] }}\n\
+        let scene = format!(
+            "sheet = {{ mesh = \"open-star.fold\", cells = [{cells}, {cells}] }}\n\
              [energy]\nbars = {{ stiffness = inf }}\n\
              creases = {{ stiffness = 1.0, rest = {{ mode = [0.0, 0.05, 0.0], amplitude = 1.0 }} }}\n{studies}"
         );
-        fs::write(folder.path().join("scene.toml"), text).unwrap();
-        let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-        let status = program.current_dir(folder.path()).args(["run", "scene.toml", "--quiet"]).status().unwrap();
-        assert!(status.success());
-        let summary = fs::read_to_string(folder.path().join("scene/summary.json")).unwrap();
-        serde_json::from_str::<Value>(&summary).unwrap()["studies"].as_array().unwrap().clone()
+        Scene::new(scene).program("--quiet").well().folder.studies()
     };
     let study = |name: &str, keys: &str| format!("[[study]]\nname = {name:?}\nkind = \"relax\"\ndraw = []\n{keys}\n");
     let small = scene(4, &[study("auto", ""), study("named", "method = \"intrinsic\"")].concat());

@@ -1,48 +1,16 @@
 //! Results do not depend on the number of threads, and nothing is computed that a scene does not need.
 
-use crate::common::{self, Testing, on, patch};
-use assert_cmd::Command;
+use crate::common::{self, Scene, Testing, on, patch};
 use foldwell::analysis::relax::relax_from;
 use foldwell::model::Gauge;
 use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
 use foldwell::solver::Options;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Runs a scene with `open-star`; returns the path below the folder and the bytes of each file written.
-fn run(folder: &Path, sheet: &str, energy: &str, studies: &str, words: &[&str]) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    std::fs::copy(mesh, folder.join("star.fold")).unwrap();
-    let text = format!("[sheet]\nmesh = \"star.fold\"\n{sheet}\n[energy]\n{energy}\n{studies}");
-    std::fs::write(folder.join("scene.toml"), text).unwrap();
-    let out = folder.join("out");
-    let mut command = Command::cargo_bin("foldwell").unwrap();
-    command.current_dir(folder).args(["run", "scene.toml", "--out", "out", "--quiet"]).args(words).assert().success();
-    let mut files = BTreeMap::new();
-    collect(&out, &out, &mut files);
-    std::fs::remove_dir_all(&out).unwrap();
-    files
-}
-
-fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
-    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
-        let path = entry.path();
-        if path.is_dir() {
-            collect(root, &path, files);
-        } else {
-            files.insert(path.strip_prefix(root).unwrap().to_owned(), std::fs::read(&path).unwrap());
-        }
-    }
-}
-
-/// Returns the summary without its times.
-fn summary(files: &BTreeMap<PathBuf, Vec<u8>>) -> serde_json::Value {
-    let mut summary: serde_json::Value = serde_json::from_slice(&files[Path::new("summary.json")]).unwrap();
-    for study in summary["studies"].as_array_mut().unwrap() {
-        assert!(study["seconds"].take().as_f64().unwrap() >= 0.0);
-    }
-    summary
+/// Returns a scene with `open-star`.
+fn scene(sheet: &str, energy: &str, studies: &str) -> Scene {
+    Scene::on(&format!("mesh = \"open-star.fold\"\n{sheet}"), &format!("[energy]\n{energy}\n{studies}"))
 }
 
 const RELAX: &str = "[[study]]\nname = \"a\"\nkind = \"relax\"";
@@ -56,7 +24,6 @@ const SHALLOW: &str = "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, 
 /// except for its times.
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
-    let folder = tempfile::tempdir().unwrap();
     let case = patch("open-star", [16, 16]);
     assert!(case.edges() > FEWEST_SHARED_ELEMENTS, "the case is too small to show anything");
     let sheet = "domain = \"patch\"\ncells = [16, 16]";
@@ -66,35 +33,30 @@ fn the_same_bits_for_any_number_of_threads() {
         let (key, angle) = (edge.key, case.sheet().drawn_angle(edge).unwrap() + numbers.within(0.1));
         table += &format!("{},{},{},{},{angle:e}\n", key.i, key.j, key.shift[0], key.shift[1]);
     }
-    std::fs::write(folder.path().join("rest.csv"), table).unwrap();
     let studies = format!("{RELAX}\n[[study]]\nname = \"b\"\nkind = \"modes\"\neigenvalues = 8\n");
-    let runs: Vec<_> = ["1", "2", "3"].map(|n| run(folder.path(), sheet, SHALLOW, &studies, &["--threads", n])).into();
-    let names: Vec<String> = runs[0].keys().map(|path| path.display().to_string()).collect();
+    let scene = scene(sheet, SHALLOW, &studies).with("rest.csv", table);
+    let runs = ["1", "2", "3"].map(|n| scene.clone().out(n).program(&format!("--quiet --threads {n}")).well().folder);
     for wanted in ["a.csv", "a.pvd", "a.svg", "b.csv", "b.pvd", "b.svg", "summary.json"] {
-        assert!(names.iter().any(|name| name == wanted), "{wanted} is not among {names:?}");
+        assert!(runs[0].has(wanted), "{wanted} is not among {:?}", runs[0].names());
     }
-    assert!(names.iter().filter(|name| name.ends_with(".vtu")).count() >= 10, "{names:?}");
-    for other in &runs[1..] {
-        assert_eq!(summary(&runs[0]), summary(other));
-        assert!(runs[0].keys().eq(other.keys()));
-        for (path, bytes) in &runs[0] {
-            assert!(path.ends_with("summary.json") || bytes == &other[path], "{} differs", path.display());
-        }
-    }
+    let pictures = runs[0].files().into_keys().filter(|path| path.extension().is_some_and(|ending| ending == "vtu"));
+    assert!(pictures.count() >= 10, "{:?}", runs[0].names());
+    runs[1..].iter().for_each(|other| other.assert_same(&runs[0], "threads"));
 }
 
 /// Claim: `draw = []` writes tables only, and changes neither the relaxation nor its table.
 #[test]
 fn nothing_is_drawn_where_nothing_is_wanted() {
-    let folder = tempfile::tempdir().unwrap();
-    let sheet = "domain = \"patch\"\ncells = [3, 3]";
-    let drawn = run(folder.path(), sheet, BENT, RELAX, &[]);
-    let bare = run(folder.path(), sheet, BENT, &format!("{RELAX}\ndraw = []"), &[]);
+    let run = |draw: &str| {
+        let scene = scene("domain = \"patch\"\ncells = [3, 3]", BENT, &format!("{RELAX}\n{draw}"));
+        scene.program("--quiet").well().folder.files()
+    };
+    let (drawn, bare) = (run(""), run("draw = []"));
     let names: Vec<_> = bare.keys().map(|path| path.to_str().unwrap()).collect();
     assert_eq!(names, ["a.csv", "summary.json"]);
     assert!(drawn.len() > 4);
     assert_eq!(bare[Path::new("a.csv")], drawn[Path::new("a.csv")]);
-    let only = run(folder.path(), sheet, BENT, &format!("{RELAX}\ndraw = [\"svg\"]"), &[]);
+    let only = run("draw = [\"svg\"]");
     assert!(only.keys().all(|path| ["csv", "json", "svg"].contains(&path.extension().unwrap().to_str().unwrap())));
 }
 
@@ -152,11 +114,9 @@ fn only_what_is_asked_for_is_built() {
 /// Claim: the terms that a scene leaves out are reported, each with the reason, and so are the terms that are built.
 #[test]
 fn what_is_left_out_is_said() {
-    let folder = tempfile::tempdir().unwrap();
     let sheet = "domain = \"torus\"\ncells = [2, 2]";
-    let files =
-        run(folder.path(), sheet, "bars = { stiffness = 1e3 }", "[[study]]\nname = \"m\"\nkind = \"modes\"", &[]);
-    let found = summary(&files);
+    let scene = scene(sheet, "bars = { stiffness = 1e3 }", "[[study]]\nname = \"m\"\nkind = \"modes\"");
+    let found = scene.program("--quiet").well().folder.json("summary.json");
     assert_eq!(found["terms"], serde_json::json!(["bars"]));
     let left_out: Vec<&str> = found["left_out"].as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
     for part in ["creases: not in [energy]", "facets: every face is a triangle", "locks", "pins", "loads"] {

@@ -5,7 +5,7 @@
 //! where the stiffness of the apex across the axis vanishes: `(1 - l0/l) + l0/l / (2 l^2) = 0` for bars of lengths `l` and `l0`,
 //! whatever N; by the symmetry of the polygon half branches leave along its 2N half axes of reflection.
 
-use crate::common::turned;
+use crate::common::{case_folder, turned};
 use foldwell::analysis::path::{
     HalfBranches, PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStop, follow_path,
 };
@@ -15,7 +15,6 @@ use foldwell::sheet::{Sheet, fold};
 use foldwell::{Assembly, RIGID, Rest, relax};
 use nalgebra::{Rotation3, Vector3};
 use std::f64::consts::{PI, TAU};
-use std::path::PathBuf;
 
 const APEX_HEIGHT: f64 = 2.5;
 /// How far the apex of a pyramid is pressed where it can move to the side, from the root of `l^3 - l0 l^2 + l0/2` in 40 digits.
@@ -24,10 +23,7 @@ const DOUBLE_POINT: f64 = -0.238_938_539_819;
 /// A sheet of these vertices and faces.
 fn sheet(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Sheet {
     let mesh = serde_json::json!({ "file_spec": 1.2, "vertices_coords": vertices, "faces_vertices": faces });
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("s.fold");
-    std::fs::write(&path, mesh.to_string()).unwrap();
-    fold::read(&path).unwrap()
+    fold::parse(&mesh.to_string(), "s.fold").unwrap()
 }
 
 /// A pyramid on pinned vertices, turned about its axis by this angle; bars alone.
@@ -253,7 +249,7 @@ fn a_free_sheet_follows_the_path_of_a_pinned_one() {
 /// stiffnesses are per drawn length; it begins with the energy of that state. Tolerance: rounding.
 #[test]
 fn a_stiffness_is_driven_from_a_relaxed_state() {
-    let cell = fold::read(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases/open-star.fold")).unwrap();
+    let cell = fold::read(&case_folder().join("open-star.fold")).unwrap();
     let assembly = Assembly::torus(cell, [1, 1]).bars(30.0).creases(1.0).rest(Rest::Angle(0.3)).build().unwrap();
     let relaxed = relax(&assembly).unwrap();
     assert!(relaxed.state.energy_bars > 1e-3, "bars are strained: {}", relaxed.state.energy_bars);

@@ -7,8 +7,8 @@ use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::sheet::{Edge, Sheet, fold};
 use foldwell::solver::Failure;
 use foldwell::{Assembly, RIGID, Rest, relax};
-use std::fs;
 
+use crate::common::Scene;
 use crate::sheet::random_patterns::Family;
 
 /// The part of the flat fold that is asked for.
@@ -152,23 +152,17 @@ fn a_pattern_without_rigid_folds_says_so() {
 /// Claim: the program says this too, with an exit status other than 0.
 #[test]
 fn the_program_says_that_nothing_balances() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("three.fold"), THREE_VALLEYS).unwrap();
     let scene = "[sheet]\nmesh = \"three.fold\"\n[energy]\nbars = { stiffness = inf }\n\
                  creases = { stiffness = 1.0, rest = \"assigned\", fraction = 0.2 }\n\
                  [[study]]\nname = \"a\"\nkind = \"relax\"\n";
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
-    let binary = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    let said = { binary }.current_dir(&folder).args(["run", "s.toml", "--out", "out"]).output().unwrap();
-    assert_eq!(said.status.code(), Some(1));
-    let text = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let reason = summary["studies"][0]["reason"].as_str().unwrap();
+    let said = Scene::new(scene).with("three.fold", THREE_VALLEYS).program("").ends(1);
+    let studies = said.folder.studies();
+    let reason = studies[0]["reason"].as_str().unwrap();
     assert!(
         reason.starts_with("with rigid bars the forces cannot balance") && reason.contains("a factor of 2.1"),
         "{reason}"
     );
-    let history = summary["studies"][0]["history"].as_array().unwrap();
+    let history = studies[0]["history"].as_array().unwrap();
     assert!(history.iter().all(|row| row["method"] == "soft-bars"));
 }
 

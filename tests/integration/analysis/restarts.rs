@@ -1,6 +1,6 @@
 //! Relaxations that start from an earlier result, and modes at the limits of possible requests.
 
-use crate::common::{Testing, patch};
+use crate::common::{Folder, Scene, Testing, patch};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::modes::{SPARSE_EIGENVALUES, decomposed_dense};
 use foldwell::analysis::restored;
@@ -9,36 +9,12 @@ use foldwell::model::Terms;
 use foldwell::model::{Configuration, Gauge};
 use foldwell::solver::Problem;
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
-fn run(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
-}
-
-/// Runs a scene; returns its studies.
-fn studies(folder: &Path, name: &str, scene: &str) -> Vec<Value> {
-    fs::write(folder.join(format!("{name}.toml")), scene).unwrap();
-    let said = run(folder, &["run", &format!("{name}.toml")]);
-    assert_eq!(
-        said.status.code(),
-        Some(0),
-        "{scene}: {}",
-        String::from_utf8_lossy(&[said.stdout, said.stderr].concat())
-    );
-    let summary = fs::read_to_string(folder.join(name).join("summary.json")).unwrap();
-    serde_json::from_str::<Value>(&summary).unwrap()["studies"].as_array().unwrap().clone()
-}
-
-/// Returns the first row of a table of states, by column names.
-fn first_row(path: &Path) -> BTreeMap<String, f64> {
-    let text = fs::read_to_string(path).unwrap();
-    let lines: Vec<&str> = text.lines().collect();
-    let values = lines[1].split(',').map(|field| field.parse().unwrap_or(f64::NAN));
-    lines[0].split(',').map(str::to_owned).zip(values).collect()
+/// Runs a scene into a folder of this name; returns its studies.
+fn studies(folder: &Folder, name: &str, scene: &str) -> Vec<Value> {
+    folder.scene(scene).named(name).out(name).program("").well().folder.studies()
 }
 
 fn relaxation(name: &str, start: &str) -> String {
@@ -47,23 +23,22 @@ fn relaxation(name: &str, start: &str) -> String {
 
 /// Returns a scene with a mesh of the repository.
 fn scene(mesh: &str, sheet: &str, rest: &str, study: &str) -> String {
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join(mesh);
-    format!("[sheet]\nmesh = {:?}\n{sheet}\n{rest}\n{study}", mesh.display().to_string())
+    format!("[sheet]\nmesh = \"{mesh}\"\n{sheet}\n{rest}\n{study}")
 }
 
 /// Checks that the second relaxation is the first one again, without a step, and that its table begins with it.
-fn stands_still(folder: &Path, name: &str, (first, second): (&Value, &Value)) {
+fn stands_still(folder: &Folder, name: &str, (first, second): (&Value, &Value)) {
     assert!(first["iterations"].as_u64().unwrap() > 0, "{name}: there was nothing to relax");
     assert_eq!(second["iterations"], 0, "{name}: {second}");
     assert_eq!(second["negative_eigenvalues"], first["negative_eigenvalues"], "{name}");
     assert_eq!(second["history"].as_array().unwrap().len(), 1, "{name}");
-    let row = first_row(&folder.join(format!("{name}/{}.csv", second["name"].as_str().unwrap())));
+    let table = folder.table(&format!("{name}/{}.csv", second["name"].as_str().unwrap()));
     for term in ["bars", "creases", "facets", "total"] {
         let Some(energy) = first["energy"][term].as_f64() else { continue };
         let scale = first["energy"]["total"].as_f64().unwrap();
         let again = second["energy"][term].as_f64().unwrap();
         assert_abs_diff_eq!(again, energy, epsilon = 1e-11 * scale);
-        assert_abs_diff_eq!(row[&format!("energy_{term}")], energy, epsilon = 1e-11 * scale);
+        assert_abs_diff_eq!(table.at(0, &format!("energy_{term}")), energy, epsilon = 1e-11 * scale);
     }
     let [force, length] = ["residual_force", "residual_length"].map(|key| second[key].as_f64().unwrap());
     assert!(force <= 1e-12 && length <= 1e-12, "{name}: {force:e} {length:e}");
@@ -71,7 +46,7 @@ fn stands_still(folder: &Path, name: &str, (first, second): (&Value, &Value)) {
 
 /// Returns the cases to relax: mesh, domain and energy.
 fn cases() -> Vec<(&'static str, &'static str, String)> {
-    let star = "meshes/open-star.fold";
+    let star = "open-star.fold";
     let energy = |bars: &str, creases: &str, more: &str| {
         format!(
             "[energy]\nbars = {{ stiffness = {bars} }}\n\
@@ -96,16 +71,8 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
         (star, "domain = \"screw\"", energy("inf", "1.0", "")),
         (star, "domain = \"screw\"", energy("1e3", "1.0", "")),
         // rigid polygons, with finite and with rigid bars
-        (
-            "meshes/quad-cell.fold",
-            patch,
-            energy("1e3", "1.0", "").replace("{ mode = [0, 0.06, 0], amplitude = 1 }", "0.2"),
-        ),
-        (
-            "meshes/quad-cell.fold",
-            patch,
-            energy("inf", "1.0", "").replace("{ mode = [0, 0.06, 0], amplitude = 1 }", "0.2"),
-        ),
+        ("quad-cell.fold", patch, energy("1e3", "1.0", "").replace("{ mode = [0, 0.06, 0], amplitude = 1 }", "0.2")),
+        ("quad-cell.fold", patch, energy("inf", "1.0", "").replace("{ mode = [0, 0.06, 0], amplitude = 1 }", "0.2")),
     ]
 }
 
@@ -114,41 +81,39 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
 /// locks and rigid polygons. Tolerance: energies to 1e-11 of the total; the residuals allow 1e-12 of the forces.
 #[test]
 fn a_restarted_equilibrium_takes_no_step() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     for (k, (mesh, sheet, rest)) in cases().iter().enumerate() {
         let both = relaxation("a", "\"drawn\"") + &relaxation("b", "\"a\"");
-        let found = studies(folder.path(), &format!("s{k}"), &scene(mesh, sheet, rest, &both));
-        stands_still(folder.path(), &format!("s{k}"), (&found[0], &found[1]));
+        let found = studies(&folder, &format!("s{k}"), &scene(mesh, sheet, rest, &both));
+        stands_still(&folder, &format!("s{k}"), (&found[0], &found[1]));
     }
 }
 
 /// Claim: the same from a VTU file of the earlier run if the points determine the state: on patches.
 #[test]
 fn a_restart_from_a_file_takes_no_step() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     for (k, (mesh, sheet, rest)) in cases().iter().enumerate().filter(|(_, case)| case.1.starts_with("cells")) {
-        let first = studies(folder.path(), &format!("v{k}"), &scene(mesh, sheet, rest, &relaxation("a", "\"drawn\"")));
+        let first = studies(&folder, &format!("v{k}"), &scene(mesh, sheet, rest, &relaxation("a", "\"drawn\"")));
         let file = format!("\"v{k}/a/a_0001.vtu\"");
-        let second = studies(folder.path(), &format!("w{k}"), &scene(mesh, sheet, rest, &relaxation("b", &file)));
-        stands_still(folder.path(), &format!("w{k}"), (&first[0], &second[0]));
+        let second = studies(&folder, &format!("w{k}"), &scene(mesh, sheet, rest, &relaxation("b", &file)));
+        stands_still(&folder, &format!("w{k}"), (&first[0], &second[0]));
     }
 }
 
 /// Claim: a resumed run starts a later study as the whole run would have: its table is the same to the last byte.
 #[test]
 fn a_resumed_restart_is_the_same() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let (mesh, sheet, rest) = &cases()[2];
     let both = relaxation("a", "\"drawn\"") + &relaxation("b", "\"a\"");
-    studies(folder.path(), "r", &scene(mesh, sheet, rest, &both));
-    let table = folder.path().join("r/b.csv");
-    let whole = fs::read(&table).unwrap();
-    fs::remove_file(&table).unwrap();
-    let said = run(folder.path(), &["run", "r.toml", "--resume"]);
-    let said = String::from_utf8_lossy(&said.stdout).into_owned();
+    studies(&folder, "r", &scene(mesh, sheet, rest, &both));
+    let whole = folder.bytes("r/b.csv");
+    fs::remove_file(folder.file("r/b.csv")).unwrap();
+    let said = folder.foldwell("run r.toml --resume").out;
     assert_eq!(said.matches("(kept)").count(), 1, "{said}");
     assert!(said.contains("0 iterations"), "{said}");
-    assert!(fs::read(&table).unwrap() == whole, "another table");
+    assert!(folder.bytes("r/b.csv") == whole, "another table");
 }
 
 /// Claim: a saddle from a file without forces is found again: no step, one negative eigenvalue, and the energy of its
@@ -156,15 +121,14 @@ fn a_resumed_restart_is_the_same() {
 /// by their lengths only.
 #[test]
 fn a_saddle_stays_where_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    let start = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/drum-pass.vtu");
+    let folder = Folder::new();
     let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-6 }";
-    let study = relaxation("r", &format!("{:?}", start.display().to_string()));
-    let found = &studies(folder.path(), "p", &scene("tests/cases/drum.fold", "", energy, &study))[0];
+    let study = relaxation("r", "\"cases/drum-pass.vtu\"");
+    let found = &studies(&folder, "p", &scene("cases/drum.fold", "", energy, &study))[0];
     assert_eq!((&found["iterations"], &found["negative_eigenvalues"]), (&0.into(), &1.into()), "{found}");
-    let row = first_row(&folder.path().join("p/r.csv"));
-    assert_relative_eq!(row["energy_bars"], 8.085e-5, max_relative = 1e-4);
-    assert_relative_eq!(row["energy_total"], found["energy"]["total"].as_f64().unwrap(), max_relative = 1e-12);
+    let table = folder.table("p/r.csv");
+    assert_relative_eq!(table.at(0, "energy_bars"), 8.085e-5, max_relative = 1e-4);
+    assert_relative_eq!(table.at(0, "energy_total"), found["energy"]["total"].as_f64().unwrap(), max_relative = 1e-12);
 }
 
 /// Claim: fold angles beyond pi are restored from a file, and angles that the file does not have are left unchanged.
@@ -203,16 +167,16 @@ fn all_terms_are_in_the_total() {
 /// motions, and every one of its 3 bars a self stress.
 #[test]
 fn rank_zero_is_an_answer() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let modes = "[[study]]\nname = \"m\"\nkind = \"modes\"\neigenvalues = 2\n";
     let pins: String = (0..4).map(|vertex| format!("[[pin]]\nvertex = {vertex}\n")).collect();
     let energy = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1 }";
-    let held = scene("meshes/open-star.fold", "", &format!("{energy}\n{pins}"), modes);
-    let found = &studies(folder.path(), "held", &held)[0];
+    let held = scene("open-star.fold", "", &format!("{energy}\n{pins}"), modes);
+    let found = &studies(&folder, "held", &held)[0];
     assert_eq!((&found["zero_modes"], &found["rigid_motions"]), (&0.into(), &0.into()));
     assert!(found["gap"].is_null() && found["error"].is_null() && found["converged"] == true, "{found}");
     let one = "[sheet]\ngenerate = { pattern = \"random\", size = [1, 1], seed = 4 }\ndomain = \"torus\"\nlattice = \"fixed\"\n";
-    let found = &studies(folder.path(), "one", &format!("{one}{energy}\n{modes}"))[0];
+    let found = &studies(&folder, "one", &format!("{one}{energy}\n{modes}"))[0];
     assert_eq!((&found["zero_modes"], &found["self_stresses"]), (&3.into(), &3.into()));
     assert!(found["gap"].is_null() && found["converged"] == true, "{found}");
 }
@@ -228,40 +192,32 @@ fn too_many_eigenvalues() {
     assert_eq!(found.eigenvalues.len(), found.zero_modes);
     assert!(decomposed_dense(1320, 3000, 3000).unwrap() && !decomposed_dense(1320, 24, 1320).unwrap());
     assert!(!decomposed_dense(4800, SPARSE_EIGENVALUES, 4800).unwrap());
-    let folder = tempfile::tempdir().unwrap();
     let modes = "[[study]]\nname = \"m\"\nkind = \"modes\"\neigenvalues = 1000\n";
     let energy = "[energy]\nbars = { stiffness = 1e3 }\ncreases = { stiffness = 1 }";
-    fs::write(folder.path().join("a.toml"), scene("meshes/open-star.fold", "cells = [20, 20]", energy, modes)).unwrap();
-    let said = run(folder.path(), &["run", "a.toml"]);
-    let message = String::from_utf8_lossy(&said.stderr).into_owned();
-    assert_eq!(said.status.code(), Some(2), "{message}");
-    assert!(
-        message.contains("1000 eigenvalues") && message.contains("256") && message.contains("a.toml:"),
-        "{message}"
-    );
-    assert!(!folder.path().join("a").exists());
+    let said = Scene::new(scene("open-star.fold", "cells = [20, 20]", energy, modes)).program("");
+    let said = said.refused("1000 eigenvalues").refused("256").refused("scene.toml:");
+    assert!(!said.folder.path().exists());
 }
 
 /// Claim: a sheet in two pieces has the rigid motions of both, and its bars and its vertices agree about the rest.
 /// Source: two copies of a pair of triangles, far apart: each has 6 rigid motions and one fold.
 #[test]
 fn a_sheet_in_two_pieces() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let square = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.1]];
     let coordinates = [square(0.0), square(5.0)].concat();
     let mesh = serde_json::json!({
         "file_spec": 1.2, "vertices_coords": coordinates,
         "faces_vertices": [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]],
     });
-    fs::write(folder.path().join("two.fold"), mesh.to_string()).unwrap();
+    folder.write("two.fold", mesh.to_string());
     let scene = "[sheet]\nmesh = \"two.fold\"\n[[study]]\nname = \"m\"\nkind = \"modes\"\n";
-    let found = &studies(folder.path(), "two", scene)[0];
+    let found = &studies(&folder, "two", scene)[0];
     let counts =
         ["zero_modes", "rigid_motions", "folding_modes", "self_stresses"].map(|key| found[key].as_u64().unwrap());
     assert_eq!(counts, [14, 12, 2, 0]);
-    let said = run(folder.path(), &["run", "two.toml"]);
-    let said = String::from_utf8_lossy(&said.stdout).into_owned();
-    let info = run(folder.path(), &["info", "two.fold"]);
-    assert!(String::from_utf8_lossy(&info.stdout).contains("pieces                 2\n"), "info counts the pieces");
+    let said = folder.foldwell("run two.toml").out;
+    let info = folder.foldwell("info two.fold").out;
+    assert!(info.contains("pieces                 2\n"), "info counts the pieces");
     assert!(said.contains("14 zero modes, of which 12 are rigid; 0 self stresses; 2 folding modes"), "{said}");
 }

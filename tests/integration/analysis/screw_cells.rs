@@ -1,16 +1,13 @@
 //! Tubes that a file draws as one cell, repeated by screw motions about the z axis.
 
-use crate::common::mesh;
+use crate::common::{Scene, mesh};
 use foldwell::analysis::modes::modes;
 use foldwell::analysis::relax::relax;
 use foldwell::model::{AssemblyError, RestLengths, RollError, Stiffness};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::generate::Kresling;
 use foldwell::sheet::{Corner, EdgeKind, Info, SeamKept, Sheet, fold};
 use foldwell::{Assembly, Pattern, RIGID, Rest, Roll, generate};
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 /// Sides of the hexagons, and storeys of the ring.
 const SIDES: usize = 6;
@@ -158,18 +155,10 @@ fn what_a_screw_cell_is_not() {
 /// its cells is refused or ends with an answer or a reason.
 #[test]
 fn scenes_of_screw_cells() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/kresling-cell.fold");
-    let energy = "[energy]\nbars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0 }\n";
-    let go = |keys: &str, study: &str| {
-        let scene = folder.path().join("scene.toml");
-        let text = format!(
-            "[sheet]\nmesh = '{}'\n{keys}\n{energy}[[study]]\nname = \"a\"\ndraw = []\n{study}\n",
-            path.display()
-        );
-        std::fs::write(&scene, text).unwrap();
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-        run_scene(&scene, &options, &|_| ControlFlow::Continue(()))
+    let scene = |keys: &str, study: &str| {
+        let energy = "[energy]\nbars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0 }\n";
+        let study = format!("{energy}[[study]]\nname = \"a\"\ndraw = []\n{study}");
+        Scene::on(&format!("mesh = \"kresling-cell.fold\"\n{keys}"), &study)
     };
     for (keys, expected) in [
         ("domain = \"torus\"", "drawn as a tube"),
@@ -179,14 +168,12 @@ fn scenes_of_screw_cells() {
         ("domain = \"tube\"\nseam = [6, 1]", "rises by 0.8"),
         ("domain = \"tube\"\nseam = [6, 0]\ninwards = true", "`inwards`"),
     ] {
-        let error = go(keys, "kind = \"modes\"").unwrap_err();
-        assert!(error.exit_status() == 2 && error.to_string().contains(expected), "{error}");
-        assert!(!folder.path().join("out").exists());
+        scene(keys, "kind = \"modes\"").refused(expected);
     }
     for kind in ["relax", "modes", "branches", "surface", "landscape", "bloch", "wells", "response", "trace"] {
-        match go("cells = [3, 2]", &format!("kind = \"{kind}\"")) {
-            Ok(report) => {
-                let study = &report.summary.studies[0];
+        match scene("cells = [3, 2]", &format!("kind = \"{kind}\"")).tried() {
+            Ok(ran) => {
+                let study = ran.study("a");
                 assert!(study.converged == study.reason.is_none(), "{kind}: {study:?}");
                 println!("{kind}: {:?}", study.reason);
             }
@@ -195,6 +182,5 @@ fn scenes_of_screw_cells() {
                 println!("{kind}: {error}");
             }
         }
-        let _ = std::fs::remove_dir_all(folder.path().join("out"));
     }
 }

@@ -1,6 +1,6 @@
 //! Trajectories of tubes: the seam that slips, the tube that opens, and the closed tube that does not move.
 
-use crate::common::mesh;
+use crate::common::{Scene, mesh};
 use foldwell::analysis::along::relax_along;
 use foldwell::analysis::modes::modes;
 use foldwell::analysis::relax::relax;
@@ -8,7 +8,6 @@ use foldwell::analysis::trace::{Stop, TraceError, TraceOptions, Traced, trace};
 use foldwell::kinematics::tube::Condition;
 use foldwell::kinematics::{Closure, Embedding, KinematicsError, Shape, Tube};
 use foldwell::math::Vec3;
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Corner, Seam, SeamKept, Sheet};
 use foldwell::solver::Options;
@@ -16,8 +15,6 @@ use foldwell::solver::continuation::End;
 use foldwell::{Assembly, Pattern, RIGID, Roll, generate, rolled_up};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 const TURN: SeamKept = SeamKept { turn: true, rise: false };
 const RISE: SeamKept = SeamKept { turn: false, rise: true };
@@ -182,18 +179,9 @@ fn rigid_tubes_and_tubes_with_two_motions() {
 /// kept, also on a tube that its mesh draws; Poisson's ratios and a lock at another angle are refused with the reason.
 #[test]
 fn scenes_of_slipping_tubes() {
-    let folder = tempfile::tempdir().unwrap();
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    let go = |mesh: &str, sheet: &str, study: &str| {
-        let scene = folder.path().join("scene.toml");
-        let mesh = meshes.join(mesh);
-        let text = format!(
-            "[sheet]\nmesh = '{}'\ndomain = \"tube\"\n{sheet}\n[[study]]\nname = \"a\"\nkind = \"trace\"\ndraw = []\n{study}\n",
-            mesh.display()
-        );
-        std::fs::write(&scene, text).unwrap();
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-        run_scene(&scene, &options, &|_| ControlFlow::Continue(()))
+    let scene = |mesh: &str, sheet: &str, study: &str| {
+        let study = format!("[[study]]\nname = \"a\"\nkind = \"trace\"\ndraw = []\n{study}");
+        Scene::on(&format!("mesh = \"{mesh}\"\ndomain = \"tube\"\n{sheet}"), &study)
     };
     let star = "seam = [0, 7]\nclosing = \"turn\"";
     let stop = "stop = { arc_length = 0.2 }";
@@ -201,23 +189,14 @@ fn scenes_of_slipping_tubes() {
         ("open-star.fold", star, "response = \"bending\"", "rolled up are not known"),
         ("open-star.fold", star, "[[lock]]\ncrease = [0, 1, 0, 0]\nangle = 0.5", "a lock holds a crease at 0.5"),
     ] {
-        let error = go(mesh, sheet, study).unwrap_err();
-        assert!(error.exit_status() == 2 && error.to_string().contains(expected), "{error}");
-        assert!(!folder.path().join("out").exists());
+        scene(mesh, sheet, study).refused(expected);
     }
-    let closed = serde_json::to_value(go("open-star.fold", "seam = [0, 7]", "").unwrap().summary).unwrap();
+    let closed = scene("open-star.fold", "seam = [0, 7]", "").converged().json();
     assert!(closed.to_string().contains("no-real-branch"), "{closed}");
-    assert_eq!(closed["studies"][0]["converged"], true);
     for (mesh, sheet) in [("open-star.fold", star), ("kresling-cell.fold", "seam = [6, 0]\nclosing = \"turn\"")] {
-        let slipped = go(mesh, sheet, stop).unwrap().summary;
-        assert!(slipped.studies[0].converged, "{:?}", slipped.studies[0].reason);
-        let table = std::fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
-        let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-        let header = rows.next().unwrap();
-        let column = header.iter().position(|name| *name == "seam_turn").unwrap();
-        assert_eq!(header[column + 1], "seam_rise");
-        assert!(rows.all(|row| (row[column].parse::<f64>().unwrap() - TAU).abs() <= 1e-12));
-        std::fs::remove_dir_all(folder.path().join("out")).unwrap();
+        let table = scene(mesh, sheet, stop).converged().out.table("a.csv");
+        assert_eq!(table.header[table.place("seam_turn") + 1], "seam_rise");
+        assert!(table.column("seam_turn").iter().all(|turn| (turn - TAU).abs() <= 1e-12));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Modes and wells of states other than the drawn one: spectra with the geometric stiffness of tensions, counts at saddle
 //! points, and starts that stay where they are.
 
-use crate::common::{self, Testing, eigenvalues, jacobian, linearized, on, patch};
+use crate::common::{self, Folder, Scene, Testing, eigenvalues, jacobian, linearized, on, patch};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::modes::{DENSE_LIMIT, modes_at};
 use foldwell::analysis::wells::barrier::barrier;
@@ -9,31 +9,20 @@ use foldwell::analysis::wells::merge::{Comparison, wells};
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all, relax_around};
 use foldwell::model::{Assembly, Boundary, Configuration, Gauge, Model, Terms};
 use foldwell::numerics::DenseMatrix;
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::solver::{Options, Problem};
 use serde_json::Value;
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 /// The energy of the drum: its creases have a millionth of the stiffness of its bars.
 const DRUM_ENERGY: &str = "bars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-6 }";
 
 /// Returns a scene of the closed drum of `tests/cases`, two hexagons and twelve triangles, with these studies.
-fn drum(energy: &str, studies: &str) -> String {
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/drum.fold");
-    format!("[sheet]\nmesh = {:?}\n[energy]\n{energy}\n{studies}", mesh.display().to_string())
+fn drum(studies: &str) -> Scene {
+    Scene::on("mesh = \"cases/drum.fold\"", &format!("[energy]\n{DRUM_ENERGY}\n{studies}"))
 }
 
-/// Runs a scene into a folder of this name; returns its studies.
-fn studies(folder: &Path, name: &str, scene: &str) -> Vec<Value> {
-    let path = folder.join(format!("{name}.toml"));
-    fs::write(&path, scene).unwrap();
-    let options = RunOptions { out: Some(folder.join(name)), ..RunOptions::default() };
-    let summary = run_scene(&path, &options, &|_| ControlFlow::Continue(())).unwrap().summary;
-    let found: Vec<Value> = summary.studies.iter().map(|study| serde_json::to_value(study).unwrap()).collect();
-    assert!(found.iter().all(|study| study["converged"] == true), "{scene}: {found:?}");
-    found
+/// Runs the drum into a folder of this name; returns its studies.
+fn studies(folder: &Folder, name: &str, studies: &str) -> Value {
+    drum(studies).within(folder).named(name).out(name).converged().json()
 }
 
 /// Returns the first minimum that a random start near the drawn state reaches.
@@ -167,9 +156,9 @@ fn counts(modes: &Value) -> (usize, Value, Value) {
 /// from the same file. The drum is closed and rigid as drawn: 6 motions in every state.
 #[test]
 fn wells_write_what_starts_need() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let asked = study("w", "wells", "starts = 40\nseed = 11\nbarriers = [[0, 1]]");
-    let found = studies(folder.path(), "first", &drum(DRUM_ENERGY, &asked))[0].clone();
+    let found = studies(&folder, "first", &asked)[0].clone();
     let energies = [&found["wells"][0], &found["wells"][1], &found["barriers"][0]].map(|one| one["energy"].clone());
     for (k, energy) in energies.iter().enumerate() {
         let start = format!("start = \"first/w/w_{k:04}.vtu\"");
@@ -177,7 +166,7 @@ fn wells_write_what_starts_need() {
         let asked = study("r", "relax", &start)
             + &study("m", "modes", &modes)
             + &study("n", "modes", "start = \"r\"\neigenvalues = 12");
-        let again = studies(folder.path(), &format!("again{k}"), &drum(DRUM_ENERGY, &asked));
+        let again = studies(&folder, &format!("again{k}"), &asked);
         let saddle = usize::from(k == 2);
         assert_eq!((&again[0]["iterations"], &again[0]["negative_eigenvalues"]), (&0.into(), &saddle.into()), "{k}");
         let [energy, relaxed] = [energy, &again[0]["energy"]["total"]].map(|value| value.as_f64().unwrap());
@@ -192,13 +181,13 @@ fn wells_write_what_starts_need() {
 /// the study names a pass, from which it then has to leave. From the pass both states are reached.
 #[test]
 fn wells_around_a_state() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let asked = study("w", "wells", "starts = 40\nseed = 11\nbarriers = [[0, 1]]");
-    let found = studies(folder.path(), "first", &drum(DRUM_ENERGY, &asked))[0].clone();
+    let found = studies(&folder, "first", &asked)[0].clone();
     let energy = |wells: &Value, k: usize| wells["wells"][k]["energy"].as_f64().unwrap();
     let around = |k: usize| {
         let keys = format!("start = \"first/w/w_{k:04}.vtu\"\nstarts = 12\nspread = 0.05");
-        studies(folder.path(), &format!("around{k}"), &drum(DRUM_ENERGY, &study("w", "wells", &keys)))[0].clone()
+        studies(&folder, &format!("around{k}"), &study("w", "wells", &keys))[0].clone()
     };
     for k in [0, 1] {
         let near = around(k);
@@ -224,23 +213,16 @@ fn the_first_start_is_the_state() {
 #[test]
 fn unknown_starts_are_refused() {
     for kind in ["modes", "wells"] {
-        common::assert_refused(
-            |folder: &Path| {
-                let path = folder.join("a.toml");
-                fs::write(&path, drum(DRUM_ENERGY, &study("w", kind, "start = \"nobody\""))).unwrap();
-                path
-            },
-            "no earlier study is called `nobody`",
-        );
+        drum(&study("w", kind, "start = \"nobody\"")).refused("no earlier study is called `nobody`");
     }
 }
 
 /// Claim: modes of the drawn state are unchanged by naming it.
 #[test]
 fn drawn_is_the_default() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let modes = study("a", "modes", "eigenvalues = 8") + &study("b", "modes", "start = \"drawn\"\neigenvalues = 8");
-    let found = studies(folder.path(), "d", &drum(DRUM_ENERGY, &modes));
+    let found = studies(&folder, "d", &modes);
     assert_eq!(found[0]["eigenvalues"], found[1]["eigenvalues"]);
     let first = found[0]["eigenvalues"][6].as_f64().unwrap();
     assert_relative_eq!(first, found[1]["eigenvalues"][6].as_f64().unwrap());

@@ -1,7 +1,7 @@
 //! Surfaces of folded states compared with linear algebra, with trajectories of an independent program, and with
 //! themselves at another resolution; and the files of a run.
 
-use crate::common::{self, on};
+use crate::common::{self, Scene, on};
 use foldwell::analysis::surface::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, surface};
 use foldwell::analysis::trace::{Stop, TraceOptions, trace};
 use foldwell::kinematics::{Closure, drawn_fold_angles};
@@ -496,38 +496,23 @@ fn an_interrupted_surface_is_kept() {
 /// The energy is that of the creases: zero in the state of rest.
 #[test]
 fn a_run_writes_its_surface() {
-    let out = tempfile::tempdir().unwrap();
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    let scene = std::fs::read_to_string(meshes.join("star-surface.toml")).unwrap();
-    let mesh = format!("{:?}", meshes.join("open-star.fold").display().to_string());
-    let scene = scene.replace("\"open-star.fold\"", &mesh).replace("max_curvature = 0.5", "max_curvature = 0.1");
-    assert!(scene.contains("resolution = 40") && scene.contains("[[lock]]"));
-    std::fs::write(out.path().join("s.toml"), scene).unwrap();
-    let run = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"))
-        .current_dir(out.path())
-        .args(["run", "s.toml", "--quiet"])
-        .status();
-    assert!(run.unwrap().success());
-    let text = |name: &str| std::fs::read_to_string(out.path().join("s").join(name)).unwrap();
-    let summary: Value = serde_json::from_str(&text("summary.json")).unwrap();
+    let scene = Scene::of("star-surface").replaced("max_curvature = 0.5", "max_curvature = 0.1");
+    let out = scene.saying("resolution = 40").saying("[[lock]]").program("--quiet").well().folder;
+    let summary = out.json("summary.json");
     let study = &summary["studies"][1];
     assert_eq!((&study["coverage"], &study["converged"]), (&Value::from("complete"), &Value::from(true)));
     assert!(study["max_residual"].as_f64().unwrap() <= 1e-12);
     let left_out = summary["left_out"].as_array().unwrap();
     assert!(left_out.iter().any(|what| what.as_str().unwrap().contains("`surface`")), "{left_out:?}");
-    let table = text("surface.csv");
-    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    let column = |name: &str| -> Vec<f64> {
-        let place = header.iter().position(|column| *column == name).unwrap();
-        table.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap_or(f64::NAN)).collect()
-    };
+    let table = out.table("surface.csv");
+    let column = |name: &str| table.column(name);
     let points = study["points"].as_u64().unwrap() as usize;
     assert_eq!(column("step"), (0..points).map(|k| k as f64).collect::<Vec<_>>());
     let signs: HashSet<i64> = column("sign").iter().map(|sign| *sign as i64).collect();
     assert_eq!(signs, HashSet::from([1, -1]));
-    check_vtp(&out.path().join("s/surface/surface_0000.vtp"), study, &column);
-    assert!(text("surface.pvd").contains("surface/surface_0000.vtp"));
-    let svg = text("surface.svg");
+    check_vtp(&out.file("surface/surface_0000.vtp"), study, &column);
+    assert!(out.text("surface.pvd").contains("surface/surface_0000.vtp"));
+    let svg = out.text("surface.svg");
     assert!(svg.contains("strain12") && svg.contains("stroke-width=\"2.4\""), "axes, and the paths of the trace");
     let lowest = column("energy_total").into_iter().fold(f64::INFINITY, f64::min);
     assert!(lowest.abs() <= 1e-20, "{lowest:e}: the drawn state is at rest");

@@ -1,6 +1,6 @@
 //! Tubes as domains of the model: closed, rigid or with the motions that theory counts, relaxed and shown.
 
-use crate::common::mesh;
+use crate::common::{Scene, mesh};
 use foldwell::analysis::intersections::SelfIntersection;
 use foldwell::analysis::modes::modes;
 use foldwell::analysis::relax::relax;
@@ -167,15 +167,9 @@ fn rolls_close() {
 /// Claim: `run` says how many motions the closing conditions of a tube leave, which it has counted, and not that they are unknown.
 #[test]
 fn motions_of_a_tube_are_printed() {
-    let folder = tempfile::tempdir().unwrap();
-    let meshes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
     let scene = "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"tube\"\nseam = [1, 8]\n[energy]\nbars = { stiffness = inf }\n\
                  [[study]]\nname = \"motions\"\nkind = \"modes\"\n";
-    let scene = scene.replace("open-star.fold", meshes.join("open-star.fold").to_str().unwrap());
-    std::fs::write(folder.path().join("tube.toml"), scene).unwrap();
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    let output = command.current_dir(folder.path()).args(["run", "tube.toml"]).output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = Scene::new(scene).program("").out;
     let motions = "0 folding modes of the closed tube, 1 if the seam may slip, 1 if it may open, 2 without conditions";
     assert!(text.contains(motions), "{text}");
 }

@@ -1,7 +1,7 @@
 //! Frequencies: mass and stiffness scale them, zeros stay zeros, and the generalized eigenvalues are those of another
 //! library and of closed forms.
 
-use crate::common::{Testing, assert_refused, eigenvalues, energy_hessian, mesh};
+use crate::common::{Scene, Testing, eigenvalues, energy_hessian, mesh};
 use approx::assert_abs_diff_eq;
 use foldwell::analysis::bloch::Density;
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
@@ -9,15 +9,9 @@ use foldwell::analysis::modes::{DENSE_LIMIT, Vibrations, modes, modes_at};
 use foldwell::model::Configuration;
 use foldwell::model::{AssemblyError, Builder, Gauge, Mass};
 use foldwell::numerics::DenseMatrix;
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::fold;
 use foldwell::sheet::generate::{Miura, MiuraPatch, Pattern, Random};
-use foldwell::study::StudyResult;
-use foldwell::study::modes::ModesSummary;
 use foldwell::{Assembly, RIGID, Rest, Sheet, generate, relax};
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 fn miura_patch() -> Sheet {
     generate(&Pattern::MiuraPatch(MiuraPatch { cells: [3, 3], ..MiuraPatch::default() })).unwrap()
@@ -287,119 +281,80 @@ fn density_of_states_against_a_histogram() {
     assert_eq!(matrix.on_grid(grid, |step| step < 5).unwrap(), None);
 }
 
-/// Runs a scene of `meshes`, with changes, into a folder; returns its only study.
-fn run(folder: &Path, name: &str, change: impl Fn(String) -> String, resume: bool) -> ModesSummary {
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/miura-frequencies.toml")).unwrap();
-    let scene = folder.join(format!("{name}.toml"));
-    fs::write(&scene, change(text)).unwrap();
-    let options = RunOptions { out: Some(folder.join(name)), resume, ..RunOptions::default() };
-    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
-    assert_eq!(report.kept.len(), usize::from(resume));
-    match &report.summary.studies[0].result {
-        Some(StudyResult::Modes(modes)) => modes.clone(),
-        other => panic!("{other:?}"),
-    }
-}
-
 /// Claim: the scene of frequencies writes six zeros and the others into its summary and its table, and a picture of every
 /// vibration; its eigenvalues are those without mass. With one mass 4 for all vertices the frequencies are `sqrt(lambda / 4)` with
 /// the eigenvalues `lambda` of a published program. A study that is kept has the same frequencies.
 #[test]
 fn a_scene_with_mass() {
-    let folder = tempfile::tempdir().unwrap();
-    let found = run(folder.path(), "area", |text| text, false);
+    let scene = Scene::of("miura-frequencies");
+    let ran = scene.converged();
+    let found = ran.modes("spectrum");
     let frequencies = found.frequencies.clone().unwrap();
     assert_eq!((frequencies.len(), &frequencies[..6], found.growth_rates.len()), (12, &[Some(0.0); 6][..], 0));
-    let table = fs::read_to_string(folder.path().join("area/spectrum-frequencies.csv")).unwrap();
+    let table = ran.out.text("spectrum-frequencies.csv");
     let mut lines = table.lines();
     assert_eq!(lines.next(), Some("mode,frequency,growth_rate"));
     for (k, (line, frequency)) in lines.zip(&frequencies).enumerate() {
         assert_eq!(line, format!("{k},{:?},", frequency.unwrap()));
     }
     for file in ["spectrum-vibrations.pvd", "spectrum/spectrum_vibration_0011.vtu", "spectrum/spectrum_0011.vtu"] {
-        assert!(folder.path().join("area").join(file).exists(), "{file}");
+        assert!(ran.out.has(file), "{file}");
     }
-    let picture = fs::read_to_string(folder.path().join("area/spectrum.svg")).unwrap();
+    let picture = ran.out.text("spectrum.svg");
     assert!(picture.contains("vibration 6, frequency 0.1676"), "the picture is that of the slowest vibration");
-    assert_eq!(run(folder.path(), "area", |text| text, true), found);
+    let again = scene.clone().resumed().ran();
+    assert_eq!((again.report.kept.len(), again.modes("spectrum")), (1, found));
 
-    let vertex = run(folder.path(), "vertex", |text| text.replace("area = 0.1", "vertex = 4.0"), false);
+    let vertex = scene.clone().replaced("area = 0.1", "vertex = 4.0").out("vertex").ran();
+    let vertex = vertex.modes("spectrum");
     assert_eq!(vertex.eigenvalues, found.eigenvalues);
     let published = [5.97381064e-3, 6.94778873e-3, 2.88042394e-2, 4.28524374e-2f64];
-    for (frequency, published) in vertex.frequencies.unwrap()[6..].iter().zip(published) {
+    for (frequency, published) in vertex.frequencies.as_ref().unwrap()[6..].iter().zip(published) {
         assert_abs_diff_eq!(frequency.unwrap() / (published / 4.0).sqrt(), 1.0, epsilon = 1e-8);
     }
-    let without = run(folder.path(), "without", |text| text.replace("mass = { area = 0.1 }", ""), false);
+    let without = scene.replaced("mass = { area = 0.1 }", "").out("without").ran();
+    assert!(!without.out.has("spectrum-frequencies.csv"));
+    let without = without.modes("spectrum");
     assert_eq!((&without.frequencies, &without.eigenvalues), (&None, &found.eigenvalues));
-    assert!(!folder.path().join("without/spectrum-frequencies.csv").exists());
 }
 
 /// Claim: a study of bands of a sheet with mass adds columns of frequencies to its table, whose columns without mass stay what they
 /// are, a density of states with as many states as bands, and a picture of both.
 #[test]
 fn a_scene_of_waves_with_mass() {
-    let folder = tempfile::tempdir().unwrap();
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    let text = fs::read_to_string(meshes.join("star-waves.toml")).unwrap();
-    let text = text.replace("open-star.fold", &meshes.join("open-star.fold").display().to_string());
-    let run = |name: &str, text: &str| {
-        let scene = folder.path().join(format!("{name}.toml"));
-        fs::write(&scene, text).unwrap();
-        let options = RunOptions { out: Some(folder.path().join(name)), ..RunOptions::default() };
-        assert!(run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.converged());
-    };
-    run("with", &text);
-    let without = text.replace("mass = ", "# ").replace("density = ", "# ");
-    run("without", &without);
-    let table = |path: &str| -> Vec<Vec<String>> {
-        let text = fs::read_to_string(folder.path().join(path)).unwrap();
-        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
-    };
-    let (with, bare) = (table("with/waves_bands.csv"), table("without/waves_bands.csv"));
-    assert_eq!((with.len(), with[0].len(), bare[0].len()), (bare.len(), 3 + 12 + 12, 3 + 12));
-    assert!(with.iter().zip(&bare).all(|(with, bare)| with[..15] == bare[..]));
-    assert_eq!((with[0][15].as_str(), with[1][15].as_str(), with[1][17].as_str()), ("frequency_0", "0.0", "0.0"));
-    let density = table("with/waves-density.csv");
-    let states: f64 = density[density.len() - 1][3].parse().unwrap();
-    assert_abs_diff_eq!(states, 12.0, epsilon = 1e-12);
-    assert!(
-        folder.path().join("with/waves-bands.svg").exists() && !folder.path().join("without/waves-bands.svg").exists()
-    );
+    let scene = Scene::of("star-waves");
+    let with = scene.converged().out;
+    let without = scene.replaced("mass = ", "# ").replaced("density = ", "# ").out("without").converged().out;
+    let [table, bare] = [&with, &without].map(|out| out.table("waves_bands.csv"));
+    assert_eq!((table.len(), table.header.len(), bare.header.len()), (bare.len(), 3 + 12 + 12, 3 + 12));
+    assert!(table.header[..15] == bare.header && table.rows.iter().zip(&bare.rows).all(|(a, b)| a[..15] == b[..]));
+    let first = (table.header[15].as_str(), table.rows[0][15].as_str(), table.rows[0][17].as_str());
+    assert_eq!(first, ("frequency_0", "0.0", "0.0"));
+    let density = with.table("waves-density.csv");
+    assert_abs_diff_eq!(density.numbers()[density.len() - 1][3], 12.0, epsilon = 1e-12);
+    assert!(with.has("waves-bands.svg") && !without.has("waves-bands.svg"));
 }
 
 /// Claim: a density of states without a mass, a mass that no study reads, or that not every coordinate has, is refused with its place and what would be right.
 #[test]
 fn scenes_whose_mass_means_nothing() {
     let scene = |sheet: &str, study: &str| {
-        let text = format!(
+        Scene::new(format!(
             "mass = {{ area = 0.1 }}\n[sheet]\n{sheet}\n[energy]\nbars = {{ stiffness = 1e3 }}\ncreases = {{ stiffness = 1.0 }}\n\
              [[study]]\nname = \"a\"\n{study}\n"
-        );
-        move |folder: &Path| {
-            fs::write(folder.join("s.toml"), &text).unwrap();
-            folder.join("s.toml")
-        }
+        ))
     };
     let star = |domain: &str| format!("generate = {{ pattern = \"random\" }}\ndomain = \"{domain}\"");
     let modes = "kind = \"modes\"\neigenvalues = 3";
-    let kirigami = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/kirigami.fold");
     for (sheet, study, said) in [
-        (star("patch"), "kind = \"relax\"", "s.toml:1:8: no study of this scene reads the mass"),
+        (star("patch"), "kind = \"relax\"", "scene.toml:1:8: no study of this scene reads the mass"),
         (star("patch"), "kind = \"modes\"", "no study of this scene reads the mass"),
         (star("patch"), "kind = \"bloch\"", "no study of this scene reads the mass"),
-        (
-            format!("mesh = {:?}", kirigami.display().to_string()),
-            "kind = \"bloch\"\ndensity = {}",
-            "bands need an energy of springs",
-        ),
-        (star("torus"), modes, "s.toml:1:8: frequencies are those of vertices: the vectors of a free lattice"),
+        ("mesh = \"kirigami.fold\"".to_owned(), "kind = \"bloch\"\ndensity = {}", "bands need an energy of springs"),
+        (star("torus"), modes, "scene.toml:1:8: frequencies are those of vertices: the vectors of a free lattice"),
         (star("screw"), modes, "the turns of a cylinder have no mass"),
-        (
-            format!("mesh = {:?}\ncells = [2, 2]", kirigami.display().to_string()),
-            modes,
-            "vertex 8 of cell [1, 1] belongs to no face",
-        ),
+        ("mesh = \"kirigami.fold\"\ncells = [2, 2]".to_owned(), modes, "vertex 8 of cell [1, 1] belongs to no face"),
     ] {
-        assert_refused(scene(&sheet, study), said);
+        scene(&sheet, study).refused(said);
     }
 }

@@ -1,7 +1,7 @@
 //! Wells and barriers: vertices of degree four with as many stable states as in the literature, and passes by strings
 //! of bars compared with passes in fold angles only.
 
-use crate::common::{self, Numbers, Testing, mesh, on, patch};
+use crate::common::{self, Numbers, Scene, Testing, mesh, on, patch};
 use approx::assert_abs_diff_eq;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::wells::barrier::{Barrier, barrier};
@@ -16,17 +16,10 @@ use foldwell::model::{Assembly, Boundary, Hinges, Terms};
 use foldwell::model::{Configuration, Gauge};
 use foldwell::numerics::dense::null_space;
 use foldwell::numerics::parallel::Threads;
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKey, Sheet, fold};
 use foldwell::solver::Options;
-use foldwell::study::wells::WellsSummary;
-use foldwell::study::{StudyResult, StudySummary};
 use nalgebra::DVector;
 use std::f64::consts::{PI, TAU};
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Sampling of curves.
 const SAMPLING: Sampling = Sampling { step: 0.1, max_curvature: 0.5 };
@@ -443,14 +436,9 @@ fn the_rigid_limit_is_extrapolated() {
     assert_eq!(rigid_limit(&energies(&|_| 1.0)), None);
 }
 
-fn scene(folder: &Path, sheet: &str, energy: &str, study: &str) -> PathBuf {
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    for mesh in ["open-star.fold", "near-cross.fold", "near-cross-rest.csv"] {
-        fs::copy(meshes.join(mesh), folder.join(mesh)).unwrap();
-    }
-    let text = format!("[sheet]\n{sheet}\n[energy]\n{energy}\n[[study]]\nname = \"a\"\nkind = \"wells\"\n{study}\n");
-    fs::write(folder.join("scene.toml"), text).unwrap();
-    folder.join("scene.toml")
+fn scene(sheet: &str, energy: &str, study: &str) -> Scene {
+    let study = format!("[energy]\n{energy}\n[[study]]\nname = \"a\"\nkind = \"wells\"\n{study}");
+    Scene::on(sheet, &study).threads(1)
 }
 
 const CROSS: &str = "mesh = \"near-cross.fold\"";
@@ -459,31 +447,14 @@ const RIGID: &str =
     "bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = { file = \"near-cross-rest.csv\" } }";
 const DRAWN: &str = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0 }";
 
-fn run(scene: &Path, out: &Path, threads: usize, most_steps: usize) -> (StudySummary, Option<WellsSummary>) {
-    let options = RunOptions { out: Some(out.into()), threads: Some(threads), ..RunOptions::default() };
-    let seen = AtomicUsize::new(0);
-    let observer = |_: &_| {
-        let go_on = seen.fetch_add(1, Ordering::Relaxed) < most_steps;
-        if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    };
-    let study = run_scene(scene, &options, &observer).unwrap().summary.studies.remove(0);
-    let wells = match &study.result {
-        Some(StudyResult::Wells(wells)) => Some(wells.clone()),
-        _ => None,
-    };
-    (study, wells)
-}
-
 /// Claim: a run distinguishes wells and passes and writes all of them, with the same bytes for one thread and for two;
 /// a barrier between wells that do not exist, and an interrupted run, are failures with a reason.
 #[test]
 fn runs_write_wells_and_passes() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = scene(folder.path(), CROSS, RIGID, "starts = 32\nseed = 1\nrigid = true\nbarriers = [[0, 1]]");
-    let [one, two] = [1, 2].map(|threads| folder.path().join(threads.to_string()));
-    let (study, wells) = run(&path, &one, 1, usize::MAX);
-    let wells = wells.unwrap();
-    assert!(study.converged && study.error.unwrap() <= 1e-10, "{study:?}");
+    let asked = scene(CROSS, RIGID, "starts = 32\nseed = 1\nrigid = true\nbarriers = [[0, 1]]");
+    let one = asked.converged();
+    let (study, wells) = (one.study("a"), one.wells("a"));
+    assert!(study.error.unwrap() <= 1e-10, "{study:?}");
     let barrier = &wells.barriers[0];
     assert!(barrier.confirmed && barrier.singular && barrier.joins.is_some() && barrier.residual.is_some());
     assert!(
@@ -491,19 +462,20 @@ fn runs_write_wells_and_passes() {
             && barrier.height.unwrap().iter().all(|h| *h > 0.1)
     );
     assert_eq!(wells.wells[..2].iter().map(|well| well.rigid).collect::<Vec<_>>(), [Some(0), Some(1)]);
-    let rows = |file: &str| fs::read_to_string(one.join(file)).unwrap().lines().count() - 1;
+    let rows = |file: &str| one.out.table(file).len();
     assert_eq!((rows("a.csv"), rows("a-barriers.csv")), (wells.wells.len() + 1, barrier.heights.len()));
-    assert!(run(&path, &two, 2, usize::MAX).0.converged);
+    let two = asked.clone().out("two").threads(2).converged();
     let last = format!("a/a_{:04}.vtu", wells.wells.len());
     for file in ["a.csv", "a-barriers.csv", "a.svg", "a.pvd", &last] {
-        assert_eq!(fs::read(one.join(file)).unwrap(), fs::read(two.join(file)).unwrap(), "{file}");
+        assert_eq!(one.out.bytes(file), two.out.bytes(file), "{file}");
     }
-    let (interrupted, _) = run(&path, &folder.path().join("cut"), 1, 5);
+    let cut = asked.out("cut").stopped_after(5).ran();
+    let interrupted = cut.study("a");
     assert!(!interrupted.converged && interrupted.reason.as_deref() == Some("interrupted"), "{interrupted:?}");
-    let path = scene(folder.path(), CROSS, RIGID, "starts = 8\nbarriers = [[0, 90]]");
-    let (missing, wells) = run(&path, &folder.path().join("missing"), 1, usize::MAX);
-    assert!(!missing.converged && missing.reason.unwrap().contains("between wells [0, 90], but there are"));
-    assert!(!wells.unwrap().wells.is_empty());
+    let ran = scene(CROSS, RIGID, "starts = 8\nbarriers = [[0, 90]]").ran();
+    let (missing, wells) = (ran.study("a"), ran.wells("a"));
+    assert!(!missing.converged && missing.reason.as_ref().unwrap().contains("between wells [0, 90], but there are"));
+    assert!(!wells.wells.is_empty());
 }
 
 /// Claim: wells of a sheet without energy of bars or creases, and meaningless keys are refused with their reason before
@@ -521,7 +493,7 @@ fn refusals() {
         (CROSS, RIGID, "images = 10", "unknown"),
     ];
     for (sheet, energy, study, expected) in cases {
-        common::assert_refused(|folder| scene(folder, sheet, energy, study), expected);
+        scene(sheet, energy, study).refused(expected);
     }
 }
 
@@ -529,10 +501,8 @@ fn refusals() {
 /// no rigid landscape.
 #[test]
 fn rigid_states_of_other_dimensions() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = scene(folder.path(), STAR, DRAWN, "starts = 2\nspread = 0.1\nrigid = true\ndraw = []");
-    let (study, wells) = run(&path, &folder.path().join("out"), 1, usize::MAX);
-    let wells = wells.unwrap();
+    let ran = scene(STAR, DRAWN, "starts = 2\nspread = 0.1\nrigid = true\ndraw = []").ran();
+    let (study, wells) = (ran.study("a"), ran.wells("a"));
     assert!(!study.converged && study.reason.as_ref().unwrap().contains("dimensions"), "{study:?}");
     assert!(wells.rigid.is_none() && wells.wells.len() == 1 && wells.wells[0].energy <= 1e-20, "{wells:?}");
 }

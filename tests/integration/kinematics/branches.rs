@@ -1,6 +1,6 @@
 //! The branches of flat and folded cells: counted with multiplicity, continued to finite folds, or refused.
 
-use crate::common::{Numbers, mesh, on};
+use crate::common::{Numbers, Scene, mesh, on};
 use foldwell::analysis::trace::{self, TraceOptions};
 use foldwell::kinematics::{Closure, Ray, Rays, RealDirections, SecondOrder, drawn_fold_angles};
 use foldwell::model::Boundary;
@@ -237,18 +237,10 @@ fn rays_of_open_star() -> Vec<(Vec<f64>, f64)> {
 #[test]
 fn the_study() {
     let run = |domain: &str, mesh: &str, lock: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(mesh);
-        let scene = format!(
-            "[sheet]\nmesh = {:?}\ndomain = \"{domain}\"\n[[lock]]\n{lock}\n[[study]]\nname = \"b\"\nkind = \"branches\"\n",
-            path.display().to_string()
-        );
-        std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
-        let words = ["run", "scene.toml", "--out", "out", "--json"];
-        let output =
-            assert_cmd::Command::cargo_bin("foldwell").unwrap().current_dir(&folder).args(words).output().unwrap();
-        let table = std::fs::read_to_string(folder.path().join("out/b.csv")).unwrap_or_default();
-        (output.status.code(), serde_json::from_slice::<Value>(&output.stdout).unwrap_or_default(), table)
+        let study = format!("[[lock]]\n{lock}\n[[study]]\nname = \"b\"\nkind = \"branches\"\n");
+        let said = Scene::on(&format!("mesh = \"{mesh}\"\ndomain = \"{domain}\""), &study).program("--json");
+        let table = if said.folder.has("b.csv") { said.folder.text("b.csv") } else { String::new() };
+        (said.status, serde_json::from_str::<Value>(&said.out).unwrap_or_default(), table)
     };
     let (status, summary, table) = run("screw", "open-flat.fold", "crease = [0, 1, 0, 0]");
     let study = &summary["studies"][0];

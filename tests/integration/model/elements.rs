@@ -1,26 +1,20 @@
 //! Stiffnesses and rest angles of single creases, facets and bars: from lists, tables, letters and the mesh.
 
-use crate::common::{Numbers, distance, mesh};
+use crate::common::{Numbers, Scene, distance, mesh};
 use foldwell::analysis::branches::branches;
 use foldwell::analysis::modes::modes;
 use foldwell::model::{Hinges, RestLengths, Stiffness, Terms};
-use foldwell::scene::{build, parse};
 use foldwell::sheet::fold;
 use foldwell::sheet::generate::{Miura, Pattern};
 use foldwell::{Assembly, RIGID, Rest, Sheet, generate, relax};
 use nalgebra::Vector3;
-use std::fs;
-use std::path::Path;
 
 /// Builds the assembly of a scene in a folder with these files.
 fn assembly(scene: &str, files: &[(&str, &str)]) -> Result<Assembly, String> {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, text) in files {
-        fs::write(folder.path().join(name), text).unwrap();
-    }
-    let plain = |text: String| text.replace(&format!("{}/", folder.path().display()), "");
-    let file = parse(scene, folder.path().join("s.toml")).map_err(|error| plain(error.to_string()))?;
-    build::assembly(&file).map_err(|error| plain(error.to_string()))
+    let scene = files.iter().fold(Scene::new(scene).named("s"), |scene, (name, text)| scene.with(name, text));
+    let folder = format!("{}/", scene.written().parent().unwrap().display());
+    let assembled = scene.assembled().map_err(|error| error.to_string().replace(&folder, ""));
+    assembled.map(|(_, assembly)| assembly)
 }
 
 const MIURA: &str = "[sheet]\ngenerate = { pattern = \"miura\", fold = 0.5 }\ncells = [3, 2]\n[energy]\n";
@@ -231,8 +225,6 @@ fn tables_of_cells_and_patches() {
         assert_eq!(each.of(k), if edge == first { RIGID } else { (edge - first) as f64 });
     }
     assert_eq!(found.rigid_facets_of_cell(), [first]);
-    let star = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    let text = fs::read_to_string(star).unwrap();
     let sheet = mesh("open-star");
     let bare = Assembly::patch(sheet.clone(), [2, 1]).build().unwrap();
     let mut table = "cell1,cell2,i,j,n1,n2,stiffness\n".to_owned();
@@ -242,8 +234,9 @@ fn tables_of_cells_and_patches() {
         let [d1, d2] = [c1 as i32 + key.shift[0], c2 as i32 + key.shift[1]];
         table += &format!("{d1},{d2},{},{},{},{},{}\n", key.j, key.i, -key.shift[0], -key.shift[1], k + 1);
     }
-    let scene = "[sheet]\nmesh = \"s.fold\"\ncells = [2, 1]\n[energy]\nbars = { stiffness = { file = \"k.csv\" } }\n";
-    let found = assembly(scene, &[("s.fold", &text), ("k.csv", &table)]).unwrap();
+    let scene =
+        "[sheet]\nmesh = \"open-star.fold\"\ncells = [2, 1]\n[energy]\nbars = { stiffness = { file = \"k.csv\" } }\n";
+    let found = assembly(scene, &[("k.csv", &table)]).unwrap();
     let bars = &found.terms().bars.as_ref().unwrap().stiffness;
     assert!((0..found.edges()).all(|k| bars.of(k) == (k + 1) as f64));
 }

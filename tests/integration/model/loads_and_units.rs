@@ -1,15 +1,12 @@
 //! Loads without effect, sheets far from the origin, and locks in any unit of length do not change the results.
 
-use crate::common::{self, Testing, on, patch};
+use crate::common::{self, Scene, Testing, on, patch};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::relax::Relaxed;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Terms};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::fold;
-use foldwell::study::StudyResult;
 use foldwell::study::relax::RelaxSummary;
-use std::ops::ControlFlow;
 
 /// Returns four cells of `open-star` with rigid bars and rest angles within 0.1 rad of the drawn angles.
 fn four_cells() -> (Assembly, Terms) {
@@ -90,23 +87,13 @@ fn far_from_the_origin() {
 
 /// Relaxes a rigid cell on a screw with a crease locked away from its drawn angle, from a scene.
 fn locked_in(unit: f64, angle: f64) -> RelaxSummary {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = fold::write(&common::scaled(common::mesh("open-star"), unit));
-    std::fs::write(folder.path().join("star.fold"), mesh).unwrap();
-    std::fs::write(folder.path().join("rest.csv"), include_str!("../../cases/star-rest.csv")).unwrap();
     let scene = format!(
         "[sheet]\nmesh = \"star.fold\"\ndomain = \"screw\"\n[energy]\nbars = {{ stiffness = inf }}\n\
-         creases = {{ stiffness = 1.0, rest = {{ file = \"rest.csv\" }} }}\n\
+         creases = {{ stiffness = 1.0, rest = {{ file = \"cases/star-rest.csv\" }} }}\n\
          [[lock]]\ncrease = [0, 1, 0, 0]\nangle = {angle}\n[[study]]\nname = \"a\"\nkind = \"relax\"\ndraw = []\n"
     );
-    let path = folder.path().join("s.toml");
-    std::fs::write(&path, scene).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let report = run_scene(&path, &options, &|_| ControlFlow::Continue(())).unwrap();
-    match report.summary.studies[0].result.clone() {
-        Some(StudyResult::Relax(found)) => found,
-        other => panic!("{other:?}"),
-    }
+    let mesh = fold::write(&common::scaled(common::mesh("open-star"), unit));
+    Scene::new(scene).with("star.fold", mesh).ran().relaxed("a").clone()
 }
 
 /// Claim: if the drawn state is a branch point, as with this lock, the branch on which a relaxation ends does not

@@ -1,12 +1,11 @@
 //! Bars whose rest lengths are not the drawn ones: prestress and swelling.
 
-use crate::common::assert_refused;
+use crate::common::{Folder, Scene};
 use foldwell::model::{AssemblyError, RestLengths};
 use foldwell::run::{Wanted, info};
 use foldwell::sheet::generate::{Pattern, Truss};
 use foldwell::solver::Failure;
 use foldwell::{Assembly, RIGID, generate, relax};
-use std::fs;
 
 fn truss(height: f64) -> foldwell::Sheet {
     generate(&Pattern::Truss(Truss { half_span: 1.0, height })).unwrap()
@@ -150,16 +149,8 @@ fn studies_that_need_one_stiffness_or_drawn_lengths() {
         (mixed, "screw", "kind = \"branches\"\nanswer = 1", "unknown key `answer`"),
     ];
     for (energy, domain, study, expected) in cases {
-        let text = format!(
-            "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ndomain = \"{domain}\"\ncells = [2, 2]\n\
-             [energy]\n{energy}\n[[study]]\nname = \"a\"\n{study}\n"
-        );
-        let write = |folder: &std::path::Path| {
-            let path = folder.join("s.toml");
-            fs::write(&path, &text).unwrap();
-            path
-        };
-        assert_refused(write, expected);
+        let sheet = format!("generate = {{ pattern = \"miura\", fold = 0.4 }}\ndomain = \"{domain}\"\ncells = [2, 2]");
+        Scene::on(&sheet, &format!("[energy]\n{energy}\n[[study]]\nname = \"a\"\n{study}")).refused(expected);
     }
 }
 
@@ -168,13 +159,11 @@ fn studies_that_need_one_stiffness_or_drawn_lengths() {
 /// bars.
 #[test]
 fn info_counts_what_is_set() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("s.toml");
+    let folder = Folder::new();
     let text = "[sheet]\ngenerate = { pattern = \"miura\", fold = 0.4 }\ndomain = \"torus\"\n[energy]\n\
                 bars = { stiffness = inf, rest = 1.02 }\ncreases = { stiffness = { M = inf, V = 2 } }\n\
                 facets = { stiffness = 3, rest = 0.1 }\n";
-    fs::write(&path, text).unwrap();
-    let counts = info(&path, &Wanted::default()).unwrap();
+    let counts = info(&folder.scene(text).written(), &Wanted::default()).unwrap();
     let energy = counts.energy.clone().unwrap();
     let (bars, creases, facets) = (energy.bars.unwrap(), energy.creases.unwrap(), energy.facets.unwrap());
     assert_eq!((bars.elements, bars.rigid, bars.rest_not_drawn, bars.softest), (12, 12, 12, None));
@@ -186,6 +175,6 @@ fn info_counts_what_is_set() {
     let said = counts.to_string();
     assert!(said.contains("bars                   12, all rigid; 12 rest lengths are not the drawn ones"), "{said}");
     assert!(said.contains(&format!("creases                8, stiffness 2.0, {mountains} of them rigid")), "{said}");
-    fs::write(folder.path().join("m.fold"), foldwell::sheet::fold::write(&sheet)).unwrap();
-    assert_eq!(info(&folder.path().join("m.fold"), &Wanted::default()).unwrap().energy, None);
+    folder.write("m.fold", foldwell::sheet::fold::write(&sheet));
+    assert_eq!(info(&folder.file("m.fold"), &Wanted::default()).unwrap().energy, None);
 }

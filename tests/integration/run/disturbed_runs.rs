@@ -2,12 +2,10 @@
 //! missing, and a resumed run ends with the same bytes as an undisturbed one.
 #![cfg(unix)]
 
-use assert_cmd::cargo::cargo_bin;
+use crate::common::{Files, Folder, Said, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -26,33 +24,26 @@ const SCENE: &str = "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"screw\"\ncel
     [[study]]\nname = \"first\"\nkind = \"trace\"\n[[study]]\nname = \"both\"\nkind = \"trace\"\nengine = \"both\"\n\
     [[study]]\nname = \"last\"\nkind = \"relax\"\n";
 
-/// Contents of all files below a folder.
-type Files = BTreeMap<PathBuf, Vec<u8>>;
-
 /// A folder with the scene, the files of an undisturbed run, and the duration of that run.
 struct Undisturbed {
-    folder: tempfile::TempDir,
+    folder: Folder,
     files: Files,
     time: Duration,
 }
 
 impl Undisturbed {
     fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-        std::fs::copy(mesh, folder.path().join("open-star.fold")).unwrap();
-        std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+        let folder = Scene::new(SCENE).placed();
         let clock = Instant::now();
-        finish(start(folder.path(), "undisturbed", false));
-        let (time, files) = (clock.elapsed(), read(&folder.path().join("undisturbed")));
+        finish(&folder, start(&folder, "undisturbed", false));
+        let (time, files) = (clock.elapsed(), read(&folder, "undisturbed"));
         Self { folder, files, time }
     }
 
     /// Checks the files left by a disturbed run, resumes it, and checks again. Returns whether the disturbed run was
     /// incomplete.
     fn check(&self, out: &str) -> bool {
-        let place = self.folder.path().join(out);
-        let left = read(&place);
+        let left = read(&self.folder, out);
         for (path, bytes) in &left {
             // a summary must only be complete JSON, since it grows with the studies
             let summary = path.extension().is_some_and(|ending| ending == "json");
@@ -60,54 +51,33 @@ impl Undisturbed {
                 if summary { serde_json::from_slice::<Value>(bytes).is_ok() } else { self.files[path] == *bytes };
             assert!(whole, "{out}: {} is broken", path.display());
         }
-        finish(start(self.folder.path(), out, true));
-        self.assert_same(&read(&place), out);
+        finish(&self.folder, start(&self.folder, out, true));
+        self.assert_same(&read(&self.folder, out), out);
         left.len() < self.files.len()
     }
 
     fn assert_same(&self, found: &Files, out: &str) {
         assert!(found.keys().eq(self.files.keys()), "{out}: {:?}", found.keys());
         for (path, bytes) in found {
-            let expected = &self.files[path];
-            let same =
-                if path.ends_with("summary.json") { timeless(bytes) == timeless(expected) } else { bytes == expected };
-            assert!(same, "{out}: {} differs", path.display());
+            assert!(*bytes == self.files[path], "{out}: {} differs", path.display());
         }
     }
 }
 
-fn start(folder: &Path, out: &str, resume: bool) -> Child {
-    let mut command = Command::new(cargo_bin("foldwell"));
-    command.current_dir(folder).args(["run", "scene.toml", "--quiet", "--out", out]);
-    command.stdout(Stdio::null()).stderr(Stdio::piped()).args(resume.then_some("--resume"));
-    command.spawn().unwrap()
+fn start(folder: &Folder, out: &str, resume: bool) -> Child {
+    let mut command = folder.command(&["run", "scene.toml", "--quiet", "--out", out]);
+    command.args(resume.then_some("--resume")).spawn().unwrap()
 }
 
-fn finish(child: Child) {
-    let ended = child.wait_with_output().unwrap();
-    assert!(ended.status.success(), "{}: {}", ended.status, String::from_utf8_lossy(&ended.stderr));
+fn finish(folder: &Folder, child: Child) {
+    Said::last(child, folder).well();
 }
 
-/// Returns all files below a folder without drafts; none if the folder does not exist.
-fn read(root: &Path) -> Files {
-    let (mut found, mut folders) = (Files::new(), vec![root.to_path_buf()]);
-    while let Some(folder) = folders.pop() {
-        for path in std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_none_or(|ending| ending != "part") {
-                found.insert(path.strip_prefix(root).unwrap().to_path_buf(), std::fs::read(&path).unwrap());
-            }
-        }
-    }
-    found
-}
-
-/// Returns a summary without its times, which differ from run to run.
-fn timeless(bytes: &[u8]) -> Value {
-    let mut summary: Value = serde_json::from_slice(bytes).unwrap();
-    summary["studies"].as_array_mut().unwrap().iter_mut().for_each(|study| _ = study["seconds"].take());
-    summary
+/// Returns all files of a run without drafts; none if its folder does not exist.
+fn read(folder: &Folder, out: &str) -> Files {
+    let mut files = folder.inner(out).files();
+    files.retain(|path, _| path.extension().is_none_or(|ending| ending != "part"));
+    files
 }
 
 /// Claim: runs that are killed at random moments (SIGKILL, which no program can handle) leave complete files or none,
@@ -120,7 +90,7 @@ fn killed_runs_leave_whole_files_and_resume_to_the_same_bytes() {
     let mut numbers = ChaCha8Rng::seed_from_u64(5);
     let unfinished = (0..kills).filter(|round| {
         let out = format!("killed-{round}");
-        let mut child = start(undisturbed.folder.path(), &out, false);
+        let mut child = start(&undisturbed.folder, &out, false);
         sleep(undisturbed.time.mul_f64(numbers.random::<f64>()));
         child.kill().unwrap();
         child.wait().unwrap();
@@ -143,7 +113,7 @@ fn runs_without_room_say_so_and_break_nothing() {
         let out = format!("full-{size}");
         let script = format!("trap '' XFSZ; ulimit -f {size}; exec \"$0\" run scene.toml --quiet --out {out}");
         let mut shell = Command::new("sh");
-        shell.current_dir(undisturbed.folder.path()).args(["-c", &script]).arg(cargo_bin("foldwell"));
+        shell.current_dir(undisturbed.folder.path()).args(["-c", &script]).arg(env!("CARGO_BIN_EXE_foldwell"));
         assert_eq!(shell.stderr(Stdio::null()).status().unwrap().code(), Some(CANNOT_WRITE), "{out}");
         assert!(undisturbed.check(&out), "{out}: there was room");
     }
@@ -154,16 +124,14 @@ fn runs_without_room_say_so_and_break_nothing() {
 #[test]
 fn two_runs_in_one_folder_leave_what_one_leaves() {
     let undisturbed = Undisturbed::new();
-    let folder = undisturbed.folder.path();
+    let folder = &undisturbed.folder;
     let runs = [start(folder, "shared", false), start(folder, "shared", false)];
-    let ended = runs.map(|run| run.wait_with_output().unwrap());
-    assert!(ended.iter().any(|run| run.status.success()));
-    for run in ended.iter().filter(|run| !run.status.success()) {
-        let said = String::from_utf8_lossy(&run.stderr);
-        assert_eq!(run.status.code(), Some(CANNOT_WRITE), "{said}");
-        assert!(said.contains("another run"), "{said}");
+    let ended = runs.map(|run| Said::last(run, folder));
+    assert!(ended.iter().any(|said| said.status == Some(0)));
+    for said in ended.into_iter().filter(|said| said.status != Some(0)) {
+        assert!(said.status == Some(CANNOT_WRITE) && said.err.contains("another run"), "{said:?}");
     }
-    undisturbed.assert_same(&read(&folder.join("shared")), "shared");
+    undisturbed.assert_same(&read(folder, "shared"), "shared");
 }
 
 /// Claim: a run into a file, below a file, or into a folder without write permission ends with status 3: the fault is
@@ -171,8 +139,8 @@ fn two_runs_in_one_folder_leave_what_one_leaves() {
 #[test]
 fn places_where_nothing_can_be_written_end_with_status_3() {
     let undisturbed = Undisturbed::new();
-    let folder = undisturbed.folder.path();
-    let locked = folder.join("locked");
+    let folder = &undisturbed.folder;
+    let locked = folder.file("locked");
     std::fs::create_dir(&locked).unwrap();
     let mut permissions = std::fs::metadata(&locked).unwrap().permissions();
     permissions.set_readonly(true);

@@ -1,27 +1,18 @@
 //! `foldwell film`: an animated GIF of the states of a study, or an MP4 by ffmpeg.
 
+use crate::common::{Folder, Said, Scene};
 use foldwell::math::Vec3;
 use foldwell::sheet::{Assignment, EdgeKind};
 use foldwell::{Picture, write_vtu};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
-
-const STAR: &str = "domain = \"screw\"\n[[lock]]\ncrease = [0, 1, 0, 0]\n";
-
-fn foldwell(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
-}
 
 /// Runs a scene with a trajectory `t` of both directions of branch 0, and a study `n` without pictures, into `out`.
-fn ran() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+fn ran() -> Folder {
+    let sheet = "mesh = \"open-star.fold\"\ndomain = \"screw\"";
     let trace = "[[study]]\nname = \"t\"\nkind = \"trace\"\nbranch = 0\nstop = { arc_length = 0.5 }\n";
     let table = "[[study]]\nname = \"n\"\nkind = \"branches\"\n";
-    fs::write(folder.path().join("s.toml"), format!("[sheet]\nmesh = {mesh:?}\n{STAR}{trace}{table}")).unwrap();
-    assert!(foldwell(folder.path(), &["run", "s.toml", "--out", "out", "--quiet"]).status.success());
-    folder
+    Scene::on(sheet, &format!("[[lock]]\ncrease = [0, 1, 0, 0]\n{trace}{table}")).converged().folder
 }
 
 /// Returns the size of a GIF, and the delay and pixels of its frames.
@@ -66,19 +57,17 @@ fn square(side: f64) -> Picture {
 /// the negative one: in the order of the film each has more pixels than the one before, all in one scale.
 #[test]
 fn a_trajectory_runs_in_one_direction() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path();
+    let folder = Folder::new();
     let rows = [(1, 1.0), (1, 1.2), (1, 1.5), (-1, 1.0), (-1, 0.8), (-1, 0.5)];
     let mut table = String::from("branch,sign,step\n");
     for (row, (sign, side)) in rows.iter().enumerate() {
         table += &format!("0,{sign},{}\n", row % 3);
-        write_vtu(&out.join(format!("t/t_{row:04}.vtu")), &square(*side)).unwrap();
+        write_vtu(&folder.file(format!("t/t_{row:04}.vtu")), &square(*side)).unwrap();
     }
-    fs::write(out.join("t.csv"), table).unwrap();
-    fs::write(out.join("t.pvd"), "").unwrap();
-    let said = foldwell(out, &["film", "t.pvd", "--size", "200"]);
-    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
-    let (_, frames) = decoded(&out.join("t.gif"));
+    folder.write("t.csv", table);
+    folder.write("t.pvd", "");
+    folder.foldwell("film t.pvd --size 200").well();
+    let (_, frames) = decoded(&folder.file("t.gif"));
     let sheet = |pixels: &[u8]| pixels.chunks(4).filter(|pixel| *pixel != &pixels[..4]).count();
     let counts: Vec<usize> = frames.iter().map(|(_, pixels)| sheet(pixels)).collect();
     assert!(counts.len() == 5 && counts.windows(2).all(|pair| pair[1] > pair[0]), "{counts:?}");
@@ -91,17 +80,15 @@ fn a_trajectory_runs_in_one_direction() {
 #[test]
 fn a_trajectory_of_a_run() {
     let folder = ran();
-    let out = folder.path().join("out");
-    let said = foldwell(folder.path(), &["film", "out", "--size", "200", "--fps", "20"]);
-    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
-    assert_eq!(String::from_utf8_lossy(&said.stdout), "out/t.gif\n");
-    let ([width, _], frames) = decoded(&out.join("t.gif"));
-    let pictures = fs::read_dir(out.join("t")).unwrap().count();
+    let said = folder.foldwell("film out --size 200 --fps 20").well();
+    assert_eq!(said.out, "out/t.gif\n");
+    let out = folder.inner("out");
+    let ([width, _], frames) = decoded(&out.file("t.gif"));
+    let pictures = out.inner("t").names().len();
     assert_eq!((width, frames.len()), (200, pictures - 1));
     assert!(frames.iter().all(|(delay, _)| *delay == 5));
-    let said = foldwell(&out, &["film", "t.pvd", "-o", "again.gif", "--size", "200", "--fps", "20", "--branch", "0"]);
-    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
-    assert!(fs::read(out.join("again.gif")).unwrap() == fs::read(out.join("t.gif")).unwrap());
+    out.foldwell("film t.pvd -o again.gif --size 200 --fps 20 --branch 0").well();
+    assert!(out.bytes("again.gif") == out.bytes("t.gif"));
 }
 
 /// Claim: what cannot be filmed is refused with status 2 and a message that says what would be right, and nothing is
@@ -110,28 +97,22 @@ fn a_trajectory_of_a_run() {
 #[test]
 fn what_cannot_be_filmed() {
     let folder = ran();
-    fs::create_dir(folder.path().join("empty")).unwrap();
-    let before = fs::read_dir(folder.path().join("out")).unwrap().count();
-    fs::write(folder.path().join("out/n.pvd"), "").unwrap();
-    let cases: [(&[&str], &str); 8] = [
-        (&["film", "empty"], "not the folder of a run"),
-        (&["film", "out/none.pvd"], "out/none.pvd: cannot be read"),
-        (&["film", "out/n.pvd"], "no study with two states"),
-        (&["film", "out/t.pvd", "--branch", "7"], "the branches are 0"),
-        (&["film", "out", "-o", "out/a.avi"], "expected one of .gif or .mp4"),
-        (&["film", "out", "--size", "10"], "64..=4096"),
-        (&["film", "out", "--fps", "0"], "1..=50"),
-        (&["film", "out", "-o", "out/a.mp4"], "install ffmpeg"),
+    fs::create_dir(folder.file("empty")).unwrap();
+    let before = folder.inner("out").names().len();
+    folder.write("out/n.pvd", "");
+    let cases = [
+        ("film empty", "not the folder of a run"),
+        ("film out/none.pvd", "out/none.pvd: cannot be read"),
+        ("film out/n.pvd", "no study with two states"),
+        ("film out/t.pvd --branch 7", "the branches are 0"),
+        ("film out -o out/a.avi", "expected one of .gif or .mp4"),
+        ("film out --size 10", "64..=4096"),
+        ("film out --fps 0", "1..=50"),
+        ("film out -o out/a.mp4", "install ffmpeg"),
     ];
     for (words, expected) in cases {
-        let said = Command::new(env!("CARGO_BIN_EXE_foldwell"))
-            .current_dir(folder.path())
-            .env("PATH", folder.path())
-            .args(words)
-            .output()
-            .unwrap();
-        let text = String::from_utf8_lossy(&said.stderr).into_owned();
-        assert!(said.status.code() == Some(2) && text.contains(expected), "{words:?}: {text}");
+        let mut command = folder.command(&words.split(' ').collect::<Vec<_>>());
+        Said::by(command.env("PATH", folder.path()), &folder).refused(expected);
     }
-    assert_eq!(fs::read_dir(folder.path().join("out")).unwrap().count(), before + 1);
+    assert_eq!(folder.inner("out").names().len(), before + 1);
 }

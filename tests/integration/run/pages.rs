@@ -1,27 +1,16 @@
 //! Pages to look at: `draw = ["html"]` in a study, and `foldwell view` for a whole run. What a browser makes of them is
 //! checked by `.ci/check_view.mjs`.
 
+use crate::common::{Folder, Scene};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
 const SHEET: &str = "generate = { pattern = \"miura\", fold = 0.6 }\ndomain = \"patch\"\ncells = [2, 2]\n";
 const RIGID: &str = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = 0.3 }\n";
 
-fn foldwell(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
-}
-
-/// Runs a scene into the folder `out`; returns its exit status.
-fn run(folder: &Path, scene: &str) -> Option<i32> {
-    fs::write(folder.join("s.toml"), scene).unwrap();
-    foldwell(folder, &["run", "s.toml", "--out", "out", "--quiet"]).status.code()
-}
-
 /// Returns the data of a page.
-fn data(page: &Path) -> Value {
-    let text = fs::read_to_string(page).unwrap();
+fn data(out: &Folder, page: &str) -> Value {
+    let text = out.text(page);
     let (_, rest) = text.split_once("id=\"data\">").unwrap();
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
 }
@@ -31,18 +20,15 @@ fn length(value: &Value) -> usize {
 }
 
 /// A star cell that folds along trajectories, and what the studies of it draw.
-fn star(study: &str) -> String {
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    format!(
-        "[sheet]\nmesh = {mesh:?}\ndomain = \"screw\"\n[[lock]]\ncrease = [0, 1, 0, 0]\n[[study]]\nname = \"t\"\n{study}"
-    )
+fn star(study: &str) -> Scene {
+    let study = format!("[[lock]]\ncrease = [0, 1, 0, 0]\n[[study]]\nname = \"t\"\n{study}");
+    Scene::on("mesh = \"open-star.fold\"\ndomain = \"screw\"", &study)
 }
 
 /// Claim: the page of a run has every study of the scene: those with states, those with a table or drawings only, one
 /// that failed with its reason, and one without any file; each with as many states as it has VTU files.
 #[test]
 fn every_study_is_on_the_page() {
-    let folder = tempfile::tempdir().unwrap();
     let study = |name: &str, more: &str| format!("[[study]]\nname = \"{name}\"\n{more}\n");
     let scene = format!(
         "title = \"Everything\"\n[sheet]\n{SHEET}{RIGID}{}{}{}{}",
@@ -51,19 +37,17 @@ fn every_study_is_on_the_page() {
         study("lost", "kind = \"relax\"\nstart = { random = 0.4, seed = 3 }\ntolerance = 1e-300"),
         study("plain", "kind = \"relax\"\ndraw = []"),
     );
-    assert_eq!(run(folder.path(), &scene), Some(1));
-    let out = folder.path().join("out");
-    let said = foldwell(folder.path(), &["view", "out"]);
-    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
-    assert_eq!(String::from_utf8_lossy(&said.stdout).trim(), "out/view.html");
-    let page = data(&out.join("view.html"));
+    let scene = Scene::new(scene);
+    let out = scene.program("--quiet").ends(1).folder;
+    assert_eq!(scene.folder().foldwell("view out").well().out.trim(), "out/view.html");
+    let page = data(&out, "view.html");
     assert_eq!(page["title"], "Everything");
     let studies = page["studies"].as_array().unwrap();
     let names: Vec<&str> = studies.iter().map(|study| study["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["relaxed", "spectrum", "lost", "plain"]);
     for study in studies {
         let name = study["name"].as_str().unwrap();
-        let pictures = fs::read_dir(out.join(name)).map_or(0, Iterator::count);
+        let pictures = if out.has(name) { out.inner(name).names().len() } else { 0 };
         assert_eq!(length(&study["sheet"]["states"]), pictures, "{name}");
         assert!(length(&study["tables"]) > 0, "{name}");
     }
@@ -75,18 +59,13 @@ fn every_study_is_on_the_page() {
 /// the scene is run again. Source: both are made by one writer from the same numbers; no tolerance.
 #[test]
 fn both_ways_make_the_same_page() {
-    let folder = tempfile::tempdir().unwrap();
     let scene =
         star("kind = \"trace\"\nbranch = 0\nstop = { arc_length = 1.0 }\ndraw = [\"vtk\", \"svg\", \"html\"]\n");
-    let out = folder.path().join("out");
-    let page = || {
-        assert_eq!(run(folder.path(), &scene), Some(0));
-        fs::read(out.join("t.html")).unwrap()
-    };
-    let first = page();
-    assert!(foldwell(folder.path(), &["view", "out"]).status.success());
-    assert!(fs::read(out.join("view.html")).unwrap() == first);
-    assert!(page() == first);
+    let out = scene.program("--quiet").well().folder;
+    let first = out.bytes("t.html");
+    scene.folder().foldwell("view out").well();
+    assert!(out.bytes("view.html") == first);
+    assert!(scene.program("--quiet").well().folder.bytes("t.html") == first);
 }
 
 /// Claim: `draw = ["html"]` writes the page, the table and the summary, and no other file; a trajectory has its two
@@ -94,39 +73,33 @@ fn both_ways_make_the_same_page() {
 /// page, and the one of the earlier run is gone.
 #[test]
 fn a_page_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let files = || {
-        let entries = fs::read_dir(folder.path().join("out")).unwrap();
-        let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
+    let folder = Folder::new();
+    let trace = |draw: &str| {
+        let study = format!("kind = \"trace\"\nbranch = 0\nstop = {{ arc_length = 1.0 }}\ndraw = {draw}\n");
+        star(&study).within(&folder)
     };
-    let trace =
-        |draw: &str| star(&format!("kind = \"trace\"\nbranch = 0\nstop = {{ arc_length = 1.0 }}\ndraw = {draw}\n"));
-    assert_eq!(run(folder.path(), &trace("[\"html\"]")), Some(0));
-    assert_eq!(files(), ["summary.json", "t.csv", "t.html"]);
-    let page = data(&folder.path().join("out/t.html"));
-    let (study, rows) =
-        (&page["studies"][0], fs::read_to_string(folder.path().join("out/t.csv")).unwrap().lines().count() - 1);
+    let out = trace("[\"html\"]").program("--quiet").well().folder;
+    assert_eq!(out.names(), ["summary.json", "t.csv", "t.html"]);
+    let page = data(&out, "t.html");
+    let (study, rows) = (&page["studies"][0], out.table("t.csv").len());
     let (states, sequences) = (&study["sheet"]["states"], &study["sheet"]["sequences"]);
     assert_eq!((length(states), length(sequences)), (rows, 1));
     assert_eq!(length(&sequences[0]["states"]), rows - 1);
     let in_order = states.as_array().unwrap().iter().enumerate().all(|(k, state)| state["row"] == k);
     assert!(in_order && length(&study["figures"]) == 2);
-    assert_eq!(run(folder.path(), &trace("[]")), Some(0));
-    assert_eq!(files(), ["summary.json", "t.csv"]);
+    trace("[]").program("--quiet").well();
+    assert_eq!(out.names(), ["summary.json", "t.csv"]);
 }
 
 /// Claim: long trajectories have up to 200 states on a page and one beside each picture; the page has less than 5 MB.
 /// Here: the longest trajectory of the reference cell, 414 states, on 6 x 6 cells.
 #[test]
 fn a_long_trajectory() {
-    let folder = tempfile::tempdir().unwrap();
-    assert_eq!(run(folder.path(), &star("kind = \"trace\"\nbranch = 0\ndraw = [\"html\"]\n")), Some(0));
-    let page = folder.path().join("out/t.html");
-    let bytes = fs::metadata(&page).unwrap().len();
-    let most =
-        data(&page)["studies"][0]["sheet"]["sequences"].as_array().unwrap().iter().map(|s| length(&s["states"])).max();
+    let out = star("kind = \"trace\"\nbranch = 0\ndraw = [\"html\"]\n").program("--quiet").well().folder;
+    let bytes = out.bytes("t.html").len();
+    let page = data(&out, "t.html");
+    let sequences = page["studies"][0]["sheet"]["sequences"].as_array().unwrap();
+    let most = sequences.iter().map(|sequence| length(&sequence["states"])).max();
     assert!(most > Some(100) && most <= Some(201) && bytes < 5_000_000, "{most:?} states, {bytes} bytes");
 }
 
@@ -134,15 +107,13 @@ fn a_long_trajectory() {
 /// data have the title as it was written.
 #[test]
 fn a_wild_title() {
-    let folder = tempfile::tempdir().unwrap();
     let scripts = |title: &str| {
         let scene = format!(
             "title = {title:?}\n[sheet]\n{SHEET}{RIGID}[[study]]\nname = \"a\"\nkind = \"relax\"\ndraw = [\"html\"]\n"
         );
-        assert_eq!(run(folder.path(), &scene), Some(0));
-        let page = folder.path().join("out/a.html");
-        assert_eq!(data(&page)["title"], title);
-        fs::read_to_string(page).unwrap().matches("<script").count()
+        let out = Scene::new(scene).program("--quiet").well().folder;
+        assert_eq!(data(&out, "a.html")["title"], title);
+        out.text("a.html").matches("<script").count()
     };
     assert_eq!(scripts("</script><script>alert(1)</script></title><b>&"), scripts("plain"));
 }
@@ -152,17 +123,14 @@ fn a_wild_title() {
 /// file is named.
 #[test]
 fn folders_of_no_run() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
+    let folder = Folder::new();
+    let out = folder.inner("out");
     let refused = |expected: &str| {
-        let said = foldwell(folder.path(), &["view", "out"]);
-        let text = String::from_utf8(said.stderr).unwrap();
-        assert_eq!(said.status.code(), Some(2), "{text}");
-        assert!(text.contains(expected), "{text}");
-        assert!(!out.join("view.html").exists());
+        folder.foldwell("view out").refused(expected);
+        assert!(!out.has("view.html"));
     };
     refused("out: not the folder of a run");
-    fs::create_dir(&out).unwrap();
+    fs::create_dir(out.path()).unwrap();
     refused("summary.json cannot be read");
     for (text, expected) in [
         ("", "summary.json:1:0"),
@@ -170,14 +138,14 @@ fn folders_of_no_run() {
         ("[]", "no list `studies`"),
         ("{}", "no list `studies`"),
     ] {
-        fs::write(out.join("summary.json"), text).unwrap();
+        out.write("summary.json", text);
         refused(expected);
         refused("the one with `summary.json`");
     }
-    fs::remove_dir_all(&out).unwrap();
+    fs::remove_dir_all(out.path()).unwrap();
     let scene = format!("[sheet]\n{SHEET}{RIGID}[[study]]\nname = \"a\"\nkind = \"relax\"\n");
-    assert_eq!(run(folder.path(), &scene), Some(0));
-    fs::write(out.join("a/a_0001.vtu"), "<VTKFile").unwrap();
+    folder.scene(scene).program("--quiet").well();
+    out.write("a/a_0001.vtu", "<VTKFile");
     refused("a_0001.vtu");
 }
 
@@ -185,20 +153,17 @@ fn folders_of_no_run() {
 /// are no tables still gives a page, and a page that would replace that of a study is refused.
 #[test]
 fn unusual_summaries() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    fs::create_dir(&out).unwrap();
-    fs::write(folder.path().join("secret.csv"), "a,b\n1,2\n").unwrap();
+    let folder = Folder::new().with("secret.csv", "a,b\n1,2\n");
+    let out = folder.inner("out");
+    fs::create_dir(out.path()).unwrap();
     let summary = "{\"scene\": \"x.toml\", \"studies\": [3, {}, {\"name\": \"../secret\", \"kind\": \"relax\"}]}";
-    fs::write(out.join("summary.json"), summary).unwrap();
-    assert!(foldwell(folder.path(), &["view", "out"]).status.success());
-    let page = data(&out.join("view.html"));
+    out.write("summary.json", summary);
+    folder.foldwell("view out").well();
+    let page = data(&out, "view.html");
     assert_eq!((page["title"].as_str(), length(&page["studies"])), (Some("x.toml"), 2));
     assert!(page["studies"].as_array().unwrap().iter().all(|study| length(&study["tables"]) == 0));
-    fs::write(out.join("summary.json"), "{\"studies\": [{\"name\": \"view\", \"kind\": \"relax\"}]}").unwrap();
-    let said = foldwell(folder.path(), &["view", "out"]);
-    assert_eq!(said.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&said.stderr).contains("the page of study `view`"));
-    assert!(foldwell(folder.path(), &["view", "out", "-o", "other.html"]).status.success());
-    assert!(folder.path().join("other.html").exists());
+    out.write("summary.json", "{\"studies\": [{\"name\": \"view\", \"kind\": \"relax\"}]}");
+    folder.foldwell("view out").refused("the page of study `view`");
+    folder.foldwell("view out -o other.html").well();
+    assert!(folder.has("other.html"));
 }

@@ -1,73 +1,23 @@
 //! Paths that are interrupted, and go on from where they were.
 
-use foldwell::run::{Progress, RunOptions, RunReport, run_scene};
-use serde_json::Value;
-use std::collections::BTreeMap;
+use crate::common::{Folder, Ran, Scene, signal};
+use foldwell::run::Progress;
 use std::fs;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::Child;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Writes a scene of `meshes` with its meshes into a folder, with words of it replaced.
-fn scene(folder: &Path, name: &str, replaced: &[(&str, &str)]) -> PathBuf {
-    let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    for mesh in ["drum.fold", "kresling.fold", "two-bars.fold", "waterbomb-base.fold"] {
-        fs::copy(meshes.join(mesh), folder.join(mesh)).unwrap();
-    }
-    let mut text = fs::read_to_string(meshes.join(format!("{name}.toml"))).unwrap();
-    for (old, new) in replaced {
-        assert!(text.contains(old), "{old}");
-        text = text.replace(old, new);
-    }
-    let path = folder.join(format!("{name}.toml"));
-    fs::write(&path, text).unwrap();
-    path
-}
-
 /// Runs a scene and stops it at this state; returns the report and the number of states that were computed.
-fn run(scene: &Path, out: &Path, resume: bool, stop_at: usize) -> (RunReport, usize) {
-    let options = RunOptions { out: Some(out.into()), resume, ..RunOptions::default() };
+fn run(scene: &Scene, stop_at: usize) -> (Ran, usize) {
     let states = AtomicUsize::new(0);
     let observer = |progress: &Progress| {
         // states have residuals, and what is asked of them afterwards has none
         let now = states.fetch_add(usize::from(!progress.residual.is_nan()), Ordering::Relaxed);
         if now + 1 >= stop_at { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let report = run_scene(scene, &options, &observer).unwrap();
-    (report, states.into_inner())
-}
-
-/// Returns the files of a run by name, of the summary everything but computing times.
-fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![out.to_path_buf()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if entry.is_dir() {
-                folders.push(entry);
-                continue;
-            }
-            let mut bytes = fs::read(&entry).unwrap();
-            if entry.ends_with("summary.json") {
-                let mut summary: Value = serde_json::from_slice(&bytes).unwrap();
-                let studies = summary["studies"].as_array_mut().unwrap();
-                studies.iter_mut().for_each(|study| study["seconds"] = Value::Null);
-                bytes = serde_json::to_vec(&summary).unwrap();
-            }
-            found.insert(entry.strip_prefix(out).unwrap().to_path_buf(), bytes);
-        }
-    }
-    found
-}
-
-fn assert_same(found: &Path, expected: &Path, what: &str) {
-    let (found, expected) = (files(found), files(expected));
-    assert_eq!(found.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>(), "{what}");
-    for (name, bytes) in &expected {
-        assert!(found[name] == *bytes, "{what}: {} differs", name.display());
-    }
+    let ran = scene.observed(&observer).unwrap();
+    (ran, states.into_inner())
 }
 
 /// A scene, what is replaced in it, and where it is stopped.
@@ -84,22 +34,20 @@ fn an_interrupted_path_goes_on() {
     let cases: [Case; 3] =
         [("bellows", &[], &[1, 32, 33, 70]), ("two-bars-load", &[], &[2, 30]), ("drum-path", &[stops], &[1, 20])];
     for (name, replaced, interruptions) in cases {
-        let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), name, replaced);
-        let whole = folder.path().join("whole");
-        let (report, all) = run(&scene, &whole, false, usize::MAX);
-        assert!(report.summary.converged(), "{name}");
+        let scene = replaced.iter().fold(Scene::of(name), |scene, (old, new)| scene.replaced(old, new));
+        let (whole, all) = run(&scene, usize::MAX);
+        assert!(whole.report.summary.converged(), "{name}");
         for &stop in interruptions {
             let what = format!("{name}, stopped at {stop} of {all}");
-            let out = folder.path().join(format!("stopped-{stop}"));
-            let (report, first) = run(&scene, &out, false, stop);
-            assert!(report.interrupted && first == stop && stop < all, "{what}");
-            let log = out.join(format!("{}.path.jsonl", report.summary.studies[0].name));
-            assert!(log.exists(), "{what}");
-            let (report, second) = run(&scene, &out, true, usize::MAX);
-            assert!(report.summary.converged() && !log.exists(), "{what}");
+            let scene = scene.clone().out(format!("stopped-{stop}"));
+            let (ran, first) = run(&scene, stop);
+            assert!(ran.report.interrupted && first == stop && stop < all, "{what}");
+            let log = format!("{}.path.jsonl", ran.report.summary.studies[0].name);
+            assert!(ran.out.has(&log), "{what}");
+            let (ran, second) = run(&scene.resumed(), usize::MAX);
+            assert!(ran.report.summary.converged() && !ran.out.has(&log), "{what}");
             assert!(first + second <= all, "{what}: {second} more were computed");
-            assert_same(&out, &whole, &what);
+            ran.out.assert_same(&whole.out, &what);
         }
     }
 }
@@ -108,62 +56,51 @@ fn an_interrupted_path_goes_on() {
 /// the one within a turn that the positions show.
 #[test]
 fn angles_beyond_pi_go_on() {
-    let folder = tempfile::tempdir().unwrap();
     let hinge = "{\"vertices_coords\": [[0, 0, 0], [0, 1, 0], [-1, 0.5, 0], [1, 0.5, 0]],\
                  \"faces_vertices\": [[0, 1, 2], [1, 0, 3]]}";
-    fs::write(folder.path().join("hinge.fold"), hinge).unwrap();
-    let scene = folder.path().join("hinge.toml");
-    fs::write(
-        &scene,
+    let scene = Scene::new(
         "[sheet]\nmesh = \"hinge.fold\"\n[energy]\nbars = { stiffness = 10.0 }\ncreases = { stiffness = 1.0 }\n\
          [[lock]]\ncrease = [0, 1, 0, 0]\n[[drive]]\nname = \"d\"\nlock = [0, 1, 0, 0]\nto = \"340 deg\"\n\
          [[study]]\nname = \"turned\"\nkind = \"path\"\nmax_step = 0.1\n",
-    )
-    .unwrap();
-    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
-    let (report, all) = run(&scene, &whole, false, usize::MAX);
-    assert!(report.summary.converged());
-    let (_, first) = run(&scene, &out, false, 3 * all / 4);
-    let (report, second) = run(&scene, &out, true, usize::MAX);
-    assert!(report.summary.converged() && first + second <= all, "{first} {second} {all}");
-    let table = fs::read_to_string(out.join("turned.csv")).unwrap();
+    );
+    let scene = scene.with("hinge.fold", hinge);
+    let (whole, all) = run(&scene.clone().out("whole"), usize::MAX);
+    assert!(whole.report.summary.converged());
+    let (_, first) = run(&scene, 3 * all / 4);
+    let (ran, second) = run(&scene.resumed(), usize::MAX);
+    assert!(ran.report.summary.converged() && first + second <= all, "{first} {second} {all}");
+    let table = ran.out.text("turned.csv");
     let last: f64 = table.lines().last().unwrap().rsplit(',').find(|field| !field.is_empty()).unwrap().parse().unwrap();
     assert!((last - 340_f64.to_radians()).abs() < 1e-12, "{table}");
-    assert_same(&out, &whole, "beyond pi");
+    ran.out.assert_same(&whole.out, "beyond pi");
 }
 
 /// Claim: the same if the run is interrupted twice, and if its log ends in the middle of a line, as where a computer stops.
 #[test]
 fn a_torn_log_loses_one_step() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene(folder.path(), "two-bars-load", &[]);
-    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
-    let (_, all) = run(&scene, &whole, false, usize::MAX);
-    run(&scene, &out, false, 20);
-    run(&scene, &out, true, 20);
-    let log = out.join("loaded.path.jsonl");
-    let bytes = fs::read(&log).unwrap();
-    fs::write(&log, &bytes[..bytes.len() - 100]).unwrap();
-    let (_, rest) = run(&scene, &out, true, usize::MAX);
+    let scene = Scene::of("two-bars-load");
+    let (whole, all) = run(&scene.clone().out("whole"), usize::MAX);
+    run(&scene, 20);
+    let (ran, _) = run(&scene.clone().resumed(), 20);
+    let bytes = ran.out.bytes("loaded.path.jsonl");
+    ran.out.write("loaded.path.jsonl", &bytes[..bytes.len() - 100]);
+    let (ran, rest) = run(&scene.resumed(), usize::MAX);
     assert!((all - 42..=all - 38).contains(&rest), "{rest} of {all}");
-    assert_same(&out, &whole, "torn");
+    ran.out.assert_same(&whole.out, "torn");
 }
 
 /// Claim: a log of another scene is not used, also where a run of this one was interrupted before it began its own.
 #[test]
 fn a_log_of_another_scene_is_not_used() {
-    let folder = tempfile::tempdir().unwrap();
-    let other = scene(folder.path(), "two-bars-load", &[]);
-    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
-    run(&other, &out, false, 20);
-    let log = out.join("loaded.path.jsonl");
-    let stale = fs::read(&log).unwrap();
-    let scene = scene(folder.path(), "two-bars-load", &[("title", "# another digest\ntitle")]);
-    let (_, all) = run(&scene, &whole, false, usize::MAX);
-    run(&scene, &out, false, 1);
-    fs::write(&log, stale).unwrap();
-    assert_eq!(run(&scene, &out, true, usize::MAX).1, all);
-    assert_same(&out, &whole, "stale");
+    let other = Scene::of("two-bars-load");
+    let (stale, _) = run(&other, 20);
+    let stale = stale.out.bytes("loaded.path.jsonl");
+    let scene = other.replaced("title", "# another digest\ntitle");
+    let (whole, all) = run(&scene.clone().out("whole"), usize::MAX);
+    let (ran, _) = run(&scene, 1);
+    ran.out.write("loaded.path.jsonl", stale);
+    assert_eq!(run(&scene.resumed(), usize::MAX).1, all);
+    ran.out.assert_same(&whole.out, "stale");
 }
 
 /// Claim: a log in which a line was lost, doubled or moved, or a digit was changed, is not used from there on: the
@@ -171,13 +108,9 @@ fn a_log_of_another_scene_is_not_used() {
 /// said that all was well.
 #[test]
 fn a_damaged_log_is_used_up_to_the_damage() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene(folder.path(), "two-bars-load", &[]);
-    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
-    let (_, all) = run(&scene, &whole, false, usize::MAX);
-    run(&scene, &out, false, 20);
-    let log = out.join("loaded.path.jsonl");
-    let kept = fs::read_to_string(&log).unwrap();
+    let scene = Scene::of("two-bars-load");
+    let (whole, all) = run(&scene.clone().out("whole"), usize::MAX);
+    let kept = run(&scene, 20).0.out.text("loaded.path.jsonl");
     let lines: Vec<&str> = kept.lines().collect();
     let lost = [&lines[..10], &lines[11..]].concat();
     let doubled = [&lines[..10], &lines[9..]].concat();
@@ -188,27 +121,19 @@ fn a_damaged_log_is_used_up_to_the_damage() {
     let changed = if changed == lines[10] { changed_back } else { changed };
     let changed = [&lines[..10], &[changed.as_str()], &lines[11..]].concat();
     for (what, damaged) in [("lost", lost), ("doubled", doubled), ("moved", moved), ("changed", changed)] {
-        let stopped = folder.path().join(what);
-        run(&scene, &stopped, false, 20);
-        fs::write(stopped.join("loaded.path.jsonl"), damaged.join("\n") + "\n").unwrap();
-        let (_, rest) = run(&scene, &stopped, true, usize::MAX);
+        let scene = scene.clone().out(what);
+        let (ran, _) = run(&scene, 20);
+        ran.out.write("loaded.path.jsonl", damaged.join("\n") + "\n");
+        let (_, rest) = run(&scene.resumed(), usize::MAX);
         assert!((all - 11..all).contains(&rest), "{what}: {rest} of {all}");
-        assert_same(&stopped, &whole, what);
+        ran.out.assert_same(&whole.out, what);
     }
 }
 
-/// The program with a scene, a folder and more words, silent.
-fn program(folder: &Path, scene: &Path, words: &[&str]) -> Command {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    program.current_dir(folder).args(["run", scene.to_str().unwrap(), "--quiet", "--out"]).args(words);
-    program.stderr(Stdio::piped()).stdout(Stdio::null());
-    program
-}
-
-/// Starts the program and waits until the log of its path has 30 lines.
-fn started(mut program: Command, log: &Path) -> Child {
-    let lines = || fs::read(log).unwrap_or_default().iter().filter(|byte| **byte == b'\n').count();
-    let mut child = program.spawn().unwrap();
+/// Starts the program with a scene, and waits until the log of its path has 30 lines.
+fn started(folder: &Folder, scene: &str, log: &str) -> Child {
+    let lines = || fs::read(folder.file(log)).unwrap_or_default().iter().filter(|byte| **byte == b'\n').count();
+    let mut child = folder.command(&["run", scene, "--quiet", "--out", "out"]).spawn().unwrap();
     while lines() < 30 && child.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(1));
     }
@@ -219,15 +144,14 @@ fn started(mut program: Command, log: &Path) -> Child {
 /// Claim: a program that is killed in the middle of a path leaves what a resumed one goes on from, to the same files.
 #[test]
 fn a_killed_path_goes_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene(folder.path(), "bellows", &[("switch = true", "switch = true\nmax_step = 0.025")]);
-    assert!(program(folder.path(), &scene, &["whole"]).status().unwrap().success());
-    let mut killed = started(program(folder.path(), &scene, &["out"]), &folder.path().join("out/pressed.path.jsonl"));
+    let scene = Scene::of("bellows").replaced("switch = true", "switch = true\nmax_step = 0.025");
+    let whole = scene.clone().out("whole").program("--quiet").well().folder;
+    let folder = scene.placed();
+    let mut killed = started(&folder, "bellows.toml", "out/pressed.path.jsonl");
     killed.kill().unwrap();
     killed.wait().unwrap();
-    assert!(!folder.path().join("out/pressed.csv").exists(), "it was killed on its way");
-    assert!(program(folder.path(), &scene, &["out", "--resume"]).status().unwrap().success());
-    assert_same(&folder.path().join("out"), &folder.path().join("whole"), "killed");
+    assert!(!folder.has("out/pressed.csv"), "it was killed on its way");
+    scene.resumed().program("--quiet").well().folder.assert_same(&whole, "killed");
 }
 
 /// Claim: while a run writes into a folder, another one of the same or of another scene, resumed or not, ends with
@@ -235,36 +159,32 @@ fn a_killed_path_goes_on() {
 /// nobody out.
 #[test]
 fn a_folder_has_one_run_at_a_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let other = scene(folder.path(), "drum-path", &[]);
-    let scene = scene(folder.path(), "two-bars-load", &[("max_step = 0.05", "max_step = 1e-3")]);
-    let out = folder.path().join("out");
-    let log = out.join("loaded.path.jsonl");
-    let mut first = started(program(folder.path(), &scene, &["out"]), &log);
+    let folder = Folder::new();
+    let other = Scene::of("drum-path").within(&folder);
+    let scene = Scene::of("two-bars-load").within(&folder).replaced("max_step = 0.05", "max_step = 1e-3");
+    scene.written();
+    let out = folder.inner("out");
+    let mut first = started(&folder, "two-bars-load.toml", "out/loaded.path.jsonl");
     // it stands still while the others try, so that what they change is seen
-    let signal =
-        |name: &str| assert!(Command::new("kill").args([name, &first.id().to_string()]).status().unwrap().success());
-    signal("-STOP");
+    signal(&first, "-STOP");
     // its threads stop one after the other
-    let mut before = files(&out);
+    let mut before = out.files();
     loop {
         std::thread::sleep(std::time::Duration::from_millis(100));
-        let now = files(&out);
+        let now = out.files();
         if now == before {
             break;
         }
         before = now;
     }
-    for (scene, words) in [(&scene, &["out"][..]), (&scene, &["out", "--resume"]), (&other, &["out"])] {
-        let second = program(folder.path(), scene, words).output().unwrap();
-        let said = String::from_utf8_lossy(&second.stderr);
-        assert_eq!(second.status.code(), Some(3), "{said}");
+    for second in [&scene, &scene.clone().resumed(), &other] {
+        let said = second.program("--quiet").ends(3);
         let named = format!("out: another run (process {}) is writing into this folder", first.id());
-        assert!(said.contains(&named), "{said}");
-        assert!(files(&out) == before, "{words:?}");
+        assert!(said.err.contains(&named), "{said:?}");
+        assert!(out.files() == before, "{said:?}");
     }
     first.kill().unwrap();
     first.wait().unwrap();
-    assert!(program(folder.path(), &scene, &["out", "--resume"]).status().unwrap().success());
-    assert!(!log.exists() && out.join("loaded.csv").exists());
+    scene.resumed().program("--quiet").well();
+    assert!(!out.has("loaded.path.jsonl") && out.has("loaded.csv"));
 }

@@ -1,51 +1,18 @@
 //! Runs of the program: files, messages and exit statuses.
 
+use crate::common::{Folder, Said, Scene, mesh_folder, signal};
 use approx::abs_diff_eq;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-fn meshes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes")
-}
-
-fn command(folder: &Path, words: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    command.current_dir(folder).args(words);
-    command
-}
-
-fn foldwell(folder: &Path, words: &[&str]) -> Output {
-    command(folder, words).output().expect("the binary starts")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(path).expect("the file is there")).expect("it is JSON")
-}
-
-/// Returns the last row of a table of states, by column names.
-fn last_row(path: &Path) -> BTreeMap<String, f64> {
-    let text = fs::read_to_string(path).expect("the table is there");
-    let lines: Vec<&str> = text.lines().collect();
-    let values = lines[lines.len() - 1].split(',').map(|field| field.parse().unwrap_or(f64::NAN));
-    lines[0].split(',').map(str::to_owned).zip(values).collect()
-}
-
 /// Returns a scene on the star cell, without drawings, with this energy and these studies.
-fn star(cells: [usize; 2], domain: &str, energy: &str, studies: &str) -> String {
-    let mesh = meshes().join("open-star.fold");
-    format!(
-        "[sheet]\nmesh = {:?}\ndomain = \"{domain}\"\ncells = {cells:?}\n[energy]\n{energy}\n{studies}\n",
-        mesh.display().to_string()
-    )
+fn star(cells: [usize; 2], domain: &str, energy: &str, studies: &str) -> Scene {
+    Scene::new(format!(
+        "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"{domain}\"\ncells = {cells:?}\n[energy]\n{energy}\n{studies}\n"
+    ))
 }
 
 fn relax(name: &str, more: &str) -> String {
@@ -65,18 +32,17 @@ fn tables_only(scene: &Path, name: &str) -> bool {
 /// Claim: every scene in `meshes/` runs to its end with status 0, and writes the documented files.
 #[test]
 fn every_scene_in_meshes_gives_its_answer() {
-    let out = tempfile::tempdir().unwrap();
-    let scenes: Vec<PathBuf> = fs::read_dir(meshes()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let here = Folder::new();
+    let scenes: Vec<PathBuf> = fs::read_dir(mesh_folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
     let scenes: Vec<_> = scenes.iter().filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
     assert!(scenes.len() >= 12, "the scenes are there");
     for scene in scenes {
-        let folder = out.path().join(scene.file_stem().unwrap());
-        let words = ["run", scene.to_str().unwrap(), "--out", folder.to_str().unwrap(), "--quiet"];
-        let output = foldwell(out.path(), &words);
-        assert_eq!(output.status.code(), Some(0), "{}: {}", scene.display(), text(&output.stderr));
-        assert!(output.stdout.is_empty() && output.stderr.is_empty(), "{}: --quiet says nothing", scene.display());
-        if folder.join("sweep.csv").exists() {
-            let sweep = json(&folder.join("sweep.json"));
+        let out = scene.file_stem().unwrap().to_str().unwrap();
+        let said = here.program(&["run", scene.to_str().unwrap(), "--out", out, "--quiet"]).well();
+        assert_eq!(said.all(), "", "{}: --quiet says nothing", scene.display());
+        let folder = here.inner(out);
+        if folder.has("sweep.csv") {
+            let sweep = folder.json("sweep.json");
             assert!(
                 sweep["points"].as_u64().unwrap() > 1 && sweep["converged"] == sweep["points"],
                 "{}",
@@ -84,10 +50,10 @@ fn every_scene_in_meshes_gives_its_answer() {
             );
             continue;
         }
-        for study in json(&folder.join("summary.json"))["studies"].as_array().unwrap() {
+        for study in folder.studies() {
             let name = study["name"].as_str().unwrap();
             assert_eq!(study["converged"], true, "{} {name}", scene.display());
-            let written = |ending: &str| folder.join(format!("{name}.{ending}")).exists();
+            let written = |ending: &str| folder.has(format!("{name}.{ending}"));
             let states = ["relax", "path", "trace", "surface", "bloch", "wells", "response"]
                 .iter()
                 .any(|kind| study["kind"] == *kind);
@@ -107,19 +73,16 @@ fn every_scene_in_meshes_gives_its_answer() {
 /// second order in k: 10 % at k = 0.01, where the sheet has size 2; a tenth of it at a tenth of k.
 #[test]
 fn a_mode_rolls_the_sheet_to_its_curvature() {
-    let out = tempfile::tempdir().unwrap();
     for (k, tolerance) in [(0.01, 0.1), (0.001, 0.01), (-0.001, 0.01)] {
         let energy = format!(
             "bars = {{ stiffness = inf }}\ncreases = {{ stiffness = 1.0, rest = {{ mode = [0, {k}, 0], amplitude = 1 }} }}"
         );
-        fs::write(out.path().join("roll.toml"), star([6, 6], "screw", &energy, &relax("rolled", ""))).unwrap();
-        let output = foldwell(out.path(), &["run", "roll.toml"]);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        let row = last_row(&out.path().join("roll/rolled.csv"));
-        let off = (row["curvature"] / k - 1.0).abs();
-        assert!(off <= tolerance, "curvature {} for {k}", row["curvature"]);
-        assert!(row["energy_total"] <= 1e3 * k.powi(4), "energy {}", row["energy_total"]);
-        assert!(row["theta2"].abs() > 10.0 * row["theta1"].abs() && row["theta2"] > 0.0, "{row:?}");
+        let table = star([6, 6], "screw", &energy, &relax("rolled", "")).program("").well().folder.table("rolled.csv");
+        let curvature = table.last("curvature");
+        assert!((curvature / k - 1.0).abs() <= tolerance, "curvature {curvature} for {k}");
+        assert!(table.last("energy_total") <= 1e3 * k.powi(4), "energy {}", table.last("energy_total"));
+        let [theta1, theta2] = ["theta1", "theta2"].map(|name| table.last(name));
+        assert!(theta2.abs() > 10.0 * theta1.abs() && theta2 > 0.0, "{theta1} {theta2}");
     }
 }
 
@@ -129,15 +92,11 @@ fn a_mode_rolls_the_sheet_to_its_curvature() {
 /// 1e-12 on angles of order 1 if every constraint is redundant several times.
 #[test]
 fn one_crease_drives_the_miura_ori() {
-    let out = tempfile::tempdir().unwrap();
-    let scene = fs::read_to_string(meshes().join("miura-lock.toml")).unwrap();
-    fs::copy(meshes().join("miura.fold"), out.path().join("miura.fold")).unwrap();
-    for scene in [scene.clone(), scene.replace("creases =", "# creases =")] {
-        fs::write(out.path().join("m.toml"), scene.replace("cells = [5, 5]", "cells = [3, 3]")).unwrap();
-        let said = foldwell(out.path(), &["run", "m.toml"]);
-        assert_eq!(said.status.code(), Some(0), "{}", text(&said.stdout));
-        let row = last_row(&out.path().join("m/folded.csv"));
-        let angles = row.iter().filter(|(name, _)| name.starts_with("fold_")).map(|(_, angle)| angle.abs());
+    let scene = Scene::of("miura-lock").replaced("cells = [5, 5]", "cells = [3, 3]");
+    for scene in [scene.clone(), scene.replaced("creases =", "# creases =")] {
+        let table = scene.program("").well().folder.table("folded.csv");
+        let folds = table.header.iter().filter(|name| name.starts_with("fold_"));
+        let angles = folds.map(|name| table.last(name).abs());
         let angles: Vec<f64> = angles.collect();
         let minor = 2.0 * (0.5 * f64::tan(0.6)).atan();
         for expected in [1.2, minor, 0.0] {
@@ -164,30 +123,24 @@ fn crossing_faces(path: &Path) -> Vec<u8> {
 /// so that eight cells are less than a turn and nine more; the crossing triangles are at the ends, none in the middle.
 #[test]
 fn a_tube_that_goes_through_itself() {
-    let out = tempfile::tempdir().unwrap();
-    let tube = fs::read_to_string(meshes().join("tube.toml")).unwrap();
-    fs::copy(meshes().join("open-star.fold"), out.path().join("open-star.fold")).unwrap();
     let asked = "check = [\"self-intersection\"]";
-    assert!(tube.contains("cells = [6, 9]") && tube.contains(asked));
     let modes = "\n[[study]]\nname = \"modes\"\nkind = \"modes\"\neigenvalues = 1\ncheck = [\"self-intersection\"]\n";
     for (cells, check, crossing) in [("[6, 9]", asked, true), ("[6, 8]", asked, false), ("[6, 9]", "", false)] {
-        let scene = tube.replace("[6, 9]", cells).replace(asked, check);
-        fs::write(out.path().join("t.toml"), format!("{scene}{modes}")).unwrap();
-        let said = foldwell(out.path(), &["run", "t.toml"]);
-        assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
-        let row = last_row(&out.path().join("t/rolled.csv"));
-        assert!(abs_diff_eq!(row["theta2"], 0.758, epsilon = 1e-3), "{}", row["theta2"]);
+        let scene = Scene::of("tube").replaced("cells = [6, 9]", &format!("cells = {cells}")).replaced(asked, check);
+        let said = scene.then(modes).program("").well();
+        let (out, table) = (&said.folder, said.folder.table("rolled.csv"));
+        assert!(abs_diff_eq!(table.last("theta2"), 0.758, epsilon = 1e-3), "{}", table.last("theta2"));
         let expected = if check.is_empty() { f64::NAN } else { f64::from(u8::from(crossing)) };
-        assert_eq!(row["self_intersecting"].to_bits(), expected.to_bits(), "{cells} {check}");
-        let summary = json(&out.path().join("t/summary.json"))["studies"][0]["self_intersecting"].clone();
+        assert_eq!(table.last("self_intersecting").to_bits(), expected.to_bits(), "{cells} {check}");
+        let summary = out.studies()[0]["self_intersecting"].clone();
         assert_eq!(summary, if check.is_empty() { Value::Null } else { crossing.into() }, "{cells} {check}");
-        assert_eq!(text(&said.stdout).contains("faces pass through each other"), crossing, "{cells} {check}");
-        let [start, end] = [0, 1].map(|k| crossing_faces(&out.path().join(format!("t/rolled/rolled_000{k}.vtu"))));
+        assert_eq!(said.out.contains("faces pass through each other"), crossing, "{cells} {check}");
+        let [start, end] = [0, 1].map(|k| crossing_faces(&out.file(format!("rolled/rolled_000{k}.vtu"))));
         assert!(start.iter().all(|face| *face == 0), "the start is not rolled up");
         assert_eq!(end.contains(&1), crossing, "{cells} {check}");
         let middle = end.len() / 3..2 * end.len() / 3;
         assert!(end[middle].iter().all(|face| *face == 0), "only the ends cross");
-        assert!(crossing_faces(&out.path().join("t/modes/modes_0000.vtu")).iter().all(|face| *face == 0));
+        assert!(crossing_faces(&out.file("modes/modes_0000.vtu")).iter().all(|face| *face == 0));
     }
 }
 
@@ -195,17 +148,13 @@ fn a_tube_that_goes_through_itself() {
 /// folder are printed; `draw = []` writes tables only.
 #[test]
 fn what_a_run_says_and_writes() {
-    let out = tempfile::tempdir().unwrap();
-    fs::write(out.path().join("a.toml"), star([2, 2], "patch", RIGID, &relax("one", ""))).unwrap();
-    let said = foldwell(out.path(), &["run", "a.toml", "--json", "--threads", "1"]);
-    let printed: Value = serde_json::from_slice(&said.stdout).expect("JSON and nothing else");
-    assert_eq!((said.status.code(), printed), (Some(0), json(&out.path().join("a/summary.json"))));
-    assert!(said.stderr.is_empty(), "quiet in a pipe: {}", text(&said.stderr));
-    let said = text(&foldwell(out.path(), &["run", "a.toml", "--out", "b"]).stdout);
+    let folder = star([2, 2], "patch", RIGID, &relax("one", "")).placed();
+    let said = folder.foldwell("run scene.toml --json --threads 1").well();
+    assert_eq!(said.json(), folder.json("scene/summary.json"));
+    assert!(said.err.is_empty(), "quiet in a pipe: {}", said.err);
+    let said = folder.foldwell("run scene.toml --out b").out;
     assert!(said.starts_with("one (relax): energy ") && said.ends_with("files in b\n"), "{said}");
-    let mut names: Vec<String> = files(&out.path().join("b")).into_keys().collect();
-    names.sort();
-    assert_eq!(names, ["one.csv", "summary.json"]);
+    assert_eq!(folder.inner("b").names(), ["one.csv", "summary.json"]);
 }
 
 /// Claim: a saddle is left, and standard output says so. A flat sheet that is compressed in its plane has no force out of the plane:
@@ -213,20 +162,16 @@ fn what_a_run_says_and_writes() {
 /// as large as that stiffness.
 #[test]
 fn a_saddle_is_left_and_called_so() {
-    let out = tempfile::tempdir().unwrap();
-    for (name, force, unstable) in [("strongly", -1.0, true), ("weakly", -0.01, false)] {
+    for (force, unstable) in [(-1.0, true), (-0.01, false)] {
         let scene = format!(
-            "[sheet]\nmesh = {:?}\ncells = [2, 2]\n[energy]\nbars = {{ stiffness = 1e4 }}\n\
+            "[sheet]\nmesh = \"open-flat.fold\"\ncells = [2, 2]\n[energy]\nbars = {{ stiffness = 1e4 }}\n\
              creases = {{ stiffness = 1e-2 }}\n[[pin]]\nvertex = 0\ncell = [0, 0]\naxes = \"xyz\"\n\
              [[pin]]\nvertex = 0\ncell = [1, 0]\naxes = \"yz\"\n[[pin]]\nvertex = 0\ncell = [0, 1]\naxes = \"z\"\n\
              [[load]]\nvertex = 0\ncell = [1, 0]\nforce = [{force:?}, 0.0, 0.0]\n{}",
-            meshes().join("open-flat.fold"),
             relax("flat", "")
         );
-        fs::write(out.path().join(format!("{name}.toml")), scene).unwrap();
-        let said = text(&foldwell(out.path(), &["run", &format!("{name}.toml")]).stdout);
-        let summary = json(&out.path().join(name).join("summary.json"));
-        let study = &summary["studies"][0];
+        let said = Scene::new(scene).program("");
+        let (study, said) = (&said.folder.studies()[0], said.out);
         let flat = study["routes"][0]["negative_eigenvalues"].as_u64().unwrap();
         assert_eq!((said.contains(", by way of saddle"), flat > 0), (unstable, unstable), "{flat}: {said}");
         assert_eq!(study["negative_eigenvalues"], 0, "{said}");
@@ -237,76 +182,43 @@ fn a_saddle_is_left_and_called_so() {
 /// its reason is in the summary. A study that starts from it fails as well, with that reason.
 #[test]
 fn a_failed_study_is_reported() {
-    let out = tempfile::tempdir().unwrap();
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/degree-four.fold");
     let lock = |vertex: usize, angle: f64| format!("[[lock]]\ncrease = [0, {vertex}, 0, 0]\nangle = {angle:?}\n");
     let locked = format!(
-        "[sheet]\nmesh = {mesh:?}\n[energy]\nbars = {{ stiffness = inf }}\ncreases = {{ stiffness = 1.0 }}\n{}{}{}",
+        "[sheet]\nmesh = \"degree-four.fold\"\n[energy]\nbars = {{ stiffness = inf }}\ncreases = {{ stiffness = 1.0 }}\n{}{}{}",
         lock(1, 2.0),
         lock(2, -2.0),
         lock(3, 0.5)
     );
     let studies =
         [relax("held", ""), relax("after", "start = \"held\""), relax("free", "start = { random = 0.1, seed = 1 }")];
-    fs::write(out.path().join("a.toml"), locked + &studies.concat()).unwrap();
-    let said = foldwell(out.path(), &["run", "a.toml"]);
-    assert_eq!(said.status.code(), Some(1), "{}", text(&said.stdout));
-    let summary = json(&out.path().join("a/summary.json"));
-    let of = |study: usize, key: &str| summary["studies"][study][key].clone();
+    let out = Scene::new(locked + &studies.concat()).program("").ends(1).folder;
+    let studies = out.studies();
+    let of = |study: usize, key: &str| studies[study][key].clone();
     assert_eq!((of(0, "converged"), of(1, "converged")), (false.into(), false.into()));
-    assert!(of(0, "reason").as_str().unwrap().contains("cannot be met"), "{summary}");
-    assert!(of(1, "reason").as_str().unwrap().contains("did not converge"), "{summary}");
+    assert!(of(0, "reason").as_str().unwrap().contains("cannot be met"), "{studies:?}");
+    assert!(of(1, "reason").as_str().unwrap().contains("did not converge"), "{studies:?}");
     assert_eq!(of(2, "name"), "free");
-    assert!(out.path().join("a/held.csv").exists());
+    assert!(out.has("held.csv"));
 }
 
 /// Claim: malformed input gives status 2 and writes nothing; a destination that cannot be written gives status 3. A
 /// file with the name of the folder stops every user, also one who may write everywhere.
 #[test]
 fn what_is_wrong_has_its_status() {
-    let out = tempfile::tempdir().unwrap();
     let wrong = ["[[study]]\nname = \"t\"\nkind = \"trace\"", "[[lock]]\ncrease = [0, 1, 7, 0]"];
     let starts = relax("v", "start = \"none.vtu\"");
     for wrong in wrong.into_iter().chain([starts.as_str()]) {
-        fs::write(out.path().join("a.toml"), star([2, 2], "patch", RIGID, &(relax("one", "") + wrong))).unwrap();
-        let said = foldwell(out.path(), &["run", "a.toml"]);
-        assert_eq!((said.status.code(), said.stdout.len()), (Some(2), 0), "{wrong}: {}", text(&said.stderr));
-        assert!(!out.path().join("a").exists(), "{wrong}: nothing is written");
+        let said = star([2, 2], "patch", RIGID, &(relax("one", "") + wrong)).program("").ends(2);
+        assert_eq!(said.out, "", "{wrong}");
+        assert!(!said.folder.path().exists(), "{wrong}: nothing is written");
     }
-    fs::write(out.path().join("b.toml"), star([2, 2], "patch", RIGID, &relax("one", ""))).unwrap();
-    fs::write(out.path().join("file"), "").unwrap();
-    let said = foldwell(out.path(), &["run", "b.toml", "--out", "file/below"]);
-    assert_eq!(said.status.code(), Some(3), "{}", text(&said.stderr));
-    assert!(text(&said.stderr).contains("file/below"), "{}", text(&said.stderr));
-}
-
-/// Returns all files below a folder.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if path.is_dir() {
-            found.extend(files(&path).into_iter().map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
-}
-
-/// Returns the same without the times in the summary.
-fn timeless(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut files = files(folder);
-    let summary = text(&files["summary.json"]);
-    let kept = summary.lines().filter(|line| !line.trim_start().starts_with("\"seconds\""));
-    let kept = kept.map(|line| format!("{line}\n")).collect::<String>();
-    files.insert("summary.json".into(), kept.into_bytes());
-    files
+    let scene = star([2, 2], "patch", RIGID, &relax("one", "")).with("file", "").out("file/below");
+    let said = scene.program("").ends(3);
+    assert!(said.err.contains("file/below"), "{said:?}");
 }
 
 /// Returns a scene of studies that start from each other, long enough to be stopped after the first.
-fn long_scene() -> String {
+fn long_scene() -> Scene {
     let studies = [
         relax("first", "start = { random = 0.05, seed = 3 }").replace("draw = []\n", ""),
         relax("second", "start = \"first\""),
@@ -317,22 +229,19 @@ fn long_scene() -> String {
     star([8, 8], "patch", RIGID, &studies.concat())
 }
 
-/// Whether the first study of a run is in its summary.
-fn first_is_done(out: &Path) -> bool {
-    fs::read_to_string(out.join("summary.json")).is_ok_and(|summary| summary.contains("\"name\": \"first\""))
-}
-
-/// Starts a run and sends it a signal as soon as its first study is done.
-fn stopped(folder: &Path, out: &str, signal: &str) -> Child {
-    let mut child = command(folder, &["run", "a.toml", "--out", out]).stdout(Stdio::null()).spawn().expect("it starts");
+/// Starts a run into `out` and sends it a signal as soon as its first study is in the summary; returns how it ended.
+fn stopped(scene: &Scene, name: &str) -> (Folder, Option<i32>) {
+    let folder = scene.placed();
+    let mut child = folder.command(&["run", "scene.toml", "--out", "out"]).spawn().expect("it starts");
+    let done =
+        || fs::read_to_string(folder.file("out/summary.json")).is_ok_and(|text| text.contains("\"name\": \"first\""));
     let patience = Instant::now();
-    while !first_is_done(&folder.join(out)) && child.try_wait().unwrap().is_none() {
+    while !done() && child.try_wait().unwrap().is_none() {
         assert!(patience.elapsed() < Duration::from_secs(300), "the first study takes too long");
         std::thread::sleep(Duration::from_millis(1));
     }
-    let id = child.id().to_string();
-    Command::new("kill").args([signal, &id]).status().expect("there is a program to send signals");
-    child
+    signal(&child, name);
+    (folder.inner("out"), Said::last(child, &folder).status)
 }
 
 /// Claim: a run that is killed after its first study and resumed leaves the same bytes as an undisturbed one, except
@@ -340,42 +249,30 @@ fn stopped(folder: &Path, out: &str, signal: &str) -> Child {
 #[test]
 #[cfg(unix)]
 fn a_killed_run_is_resumed_exactly() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.toml"), long_scene()).unwrap();
-    let ended = stopped(folder.path(), "killed", "-KILL").wait().unwrap();
-    assert_eq!(ended.code(), None, "it was killed before it ended");
-    let before = json(&folder.path().join("killed/summary.json"));
-    let done = before["studies"].as_array().unwrap().len();
-    assert!((1..5).contains(&done), "{done} studies were done");
-    let said = foldwell(folder.path(), &["run", "a.toml", "--out", "killed", "--resume"]);
-    assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
-    assert_eq!(text(&said.stdout).matches("(kept)").count(), done, "{}", text(&said.stdout));
-    foldwell(folder.path(), &["run", "a.toml", "--out", "whole"]);
-    let (resumed, whole) = (timeless(&folder.path().join("killed")), timeless(&folder.path().join("whole")));
-    assert_eq!(resumed.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
-    for (name, bytes) in &whole {
-        assert!(resumed[name] == *bytes, "{name} is another one after the resumption");
-    }
-    let seconds = &json(&folder.path().join("killed/summary.json"))["studies"][0]["seconds"];
-    assert_eq!(*seconds, before["studies"][0]["seconds"], "the first study was not computed again");
+    let scene = long_scene();
+    let (killed, status) = stopped(&scene, "-KILL");
+    assert_eq!(status, None, "it was killed before it ended");
+    let before = killed.studies();
+    assert!((1..5).contains(&before.len()), "{} studies were done", before.len());
+    let said = scene.clone().resumed().program("").well();
+    assert_eq!(said.out.matches("(kept)").count(), before.len(), "{}", said.out);
+    killed.assert_same(&scene.out("whole").program("").folder, "after the resumption");
+    assert_eq!(killed.studies()[0]["seconds"], before[0]["seconds"], "the first study was not computed again");
 }
 
 /// Claim: Ctrl-C ends a run with status 130, with its finished studies complete on disk.
 #[test]
 #[cfg(unix)]
 fn an_interrupted_run_keeps_what_is_done() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.toml"), long_scene()).unwrap();
-    let ended = stopped(folder.path(), "cut", "-INT").wait().unwrap();
-    assert_eq!(ended.code(), Some(130));
-    let out = folder.path().join("cut");
-    let summary = json(&out.join("summary.json"));
-    assert_eq!((&summary["studies"][0]["name"], &summary["studies"][0]["converged"]), (&"first".into(), &true.into()));
-    assert!(out.join("first.csv").exists() && out.join("first/first_0001.vtu").exists());
-    assert!(files(&out).keys().all(|name| !name.ends_with(".part")));
-    let said = foldwell(folder.path(), &["run", "a.toml", "--out", "cut", "--resume"]);
-    assert_eq!(said.status.code(), Some(0), "{}", text(&said.stdout));
-    assert!(text(&said.stdout).lines().next().unwrap().ends_with("(kept)"), "{}", text(&said.stdout));
+    let scene = long_scene();
+    let (out, status) = stopped(&scene, "-INT");
+    assert_eq!(status, Some(130));
+    let first = &out.studies()[0];
+    assert_eq!((&first["name"], &first["converged"]), (&"first".into(), &true.into()));
+    assert!(out.has("first.csv") && out.has("first/first_0001.vtu"));
+    assert!(out.files().keys().all(|name| name.extension().is_none_or(|ending| ending != "part")));
+    let said = scene.resumed().program("").well().out;
+    assert!(said.lines().next().unwrap().ends_with("(kept)"), "{said}");
 }
 
 /// Claim: Ctrl-C ends a study of modes, which is reported as not converged with its reason; earlier results are
@@ -383,59 +280,44 @@ fn an_interrupted_run_keeps_what_is_done() {
 #[test]
 #[cfg(unix)]
 fn modes_are_interrupted() {
-    let folder = tempfile::tempdir().unwrap();
     let modes = "[[study]]\nname = \"modes\"\nkind = \"modes\"\neigenvalues = 200\ndraw = []\n";
     let studies = relax("first", "") + modes + &relax("last", "");
-    fs::write(folder.path().join("a.toml"), star([20, 20], "patch", RIGID, &studies)).unwrap();
-    let ended = stopped(folder.path(), "cut", "-INT").wait().unwrap();
-    assert_eq!(ended.code(), Some(130));
-    let out = folder.path().join("cut");
-    let summary = json(&out.join("summary.json"));
-    let studies = summary["studies"].as_array().unwrap();
+    let (out, status) = stopped(&star([20, 20], "patch", RIGID, &studies), "-INT");
+    assert_eq!(status, Some(130));
+    let studies = out.studies();
     let ends: Vec<_> = studies.iter().map(|study| (&study["name"], &study["converged"], &study["reason"])).collect();
     assert_eq!(ends.len(), 2, "{ends:?}");
     assert_eq!((ends[0].0, ends[0].1), (&"first".into(), &true.into()));
     assert_eq!(ends[1], (&"modes".into(), &false.into(), &"interrupted".into()));
-    assert!(out.join("first.csv").exists() && !out.join("modes.csv").exists());
+    assert!(out.has("first.csv") && !out.has("modes.csv"));
 }
 
 /// Claim: no result is kept if the scene, or a file that it names, has changed; and none without `--resume`.
 #[test]
 fn another_scene_keeps_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("a.toml");
-    let mesh = folder.path().join("star.fold");
-    fs::copy(meshes().join("open-star.fold"), &mesh).unwrap();
     let old = star([2, 2], "patch", RIGID, &relax("one", ""));
-    let old = old.replace(&format!("{:?}", meshes().join("open-star.fold").display().to_string()), "\"star.fold\"");
-    fs::write(&scene, &old).unwrap();
-    let kept = |words: &[&str]| text(&foldwell(folder.path(), words).stdout).matches("(kept)").count();
-    let resume = ["run", "a.toml", "--resume"];
-    assert_eq!([kept(&resume), kept(&resume), kept(&["run", "a.toml"]), kept(&resume)], [0, 1, 0, 1]);
-    fs::write(&scene, old.replace("0.06", "0.05")).unwrap();
-    assert_eq!([kept(&resume), kept(&resume)], [0, 1]);
-    fs::write(&mesh, fs::read_to_string(&mesh).unwrap() + "\n").unwrap();
-    assert_eq!([kept(&resume), kept(&resume)], [0, 1]);
-    fs::remove_file(folder.path().join("a/one.csv")).unwrap();
-    assert_eq!(kept(&resume), 0);
+    let folder = old.placed();
+    let kept = |scene: &Scene| scene.program("").out.matches("(kept)").count();
+    let resumed = old.clone().resumed();
+    assert_eq!([kept(&resumed), kept(&resumed), kept(&old), kept(&resumed)], [0, 1, 0, 1]);
+    let changed = resumed.replaced("0.06", "0.05");
+    assert_eq!([kept(&changed), kept(&changed)], [0, 1]);
+    folder.write("open-star.fold", folder.text("open-star.fold") + "\n");
+    assert_eq!([kept(&changed), kept(&changed)], [0, 1]);
+    fs::remove_file(folder.file("out/one.csv")).unwrap();
+    assert_eq!(kept(&changed), 0);
 }
 
 /// Claim: with both engines there is a row for every state, with residuals and the distance from the exact kinematics
 /// for every relaxation, that is for all states but the drawn one; the largest distance is in the summary.
 #[test]
 fn engines_are_compared() {
-    let out = tempfile::tempdir().unwrap();
-    let scene = meshes().join("star-engines.toml");
-    let output = foldwell(out.path(), &["run", scene.to_str().unwrap(), "--out", "run", "--quiet"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let folder = out.path().join("run");
-    let branches = json(&folder.join("summary.json"))["studies"][0]["branches"].as_array().unwrap().clone();
-    let table = fs::read_to_string(folder.join("both.csv")).unwrap();
-    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    let column = |name: &str| header.iter().position(|column| *column == name).unwrap();
-    let at = ["branch", "sign", "step", "residual_force", "error_to_kinematic"].map(column);
-    let rows: Vec<[Option<f64>; 5]> =
-        table.lines().skip(1).map(|line| at.map(|k| line.split(',').nth(k).unwrap().parse().ok())).collect();
+    let out = Scene::of("star-engines").program("--quiet").well().folder;
+    let branches = out.studies()[0]["branches"].as_array().unwrap().clone();
+    let table = out.table("both.csv");
+    let columns = ["branch", "sign", "step", "residual_force", "error_to_kinematic"];
+    let row = |row: usize| columns.map(|column| table.field(row, column).parse().ok());
+    let rows: Vec<[Option<f64>; 5]> = (0..table.len()).map(row).collect();
     for branch in &branches {
         let name = [branch["branch"].as_f64(), branch["sign"].as_f64()];
         let own: Vec<_> = rows.iter().filter(|row| row[..2] == name).collect();

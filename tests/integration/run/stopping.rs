@@ -3,32 +3,24 @@
 //!
 //! No test here measures time; `cargo bench --bench stopping` prints it.
 
-use foldwell::run::{Ledger, RunOptions, read_scene, run};
+use crate::common::{Folder, Said, Scene, signal};
+use foldwell::run::{Ledger, read_scene, run};
 use serde_json::Value;
-use std::fs;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
 
-fn scene(folder: &Path, cells: [usize; 2], studies: &str) -> PathBuf {
-    let mesh = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    let text = format!(
-        "[sheet]\nmesh = {:?}\ncells = {cells:?}\n[energy]\nbars = {{ stiffness = inf }}\n\
-         creases = {{ stiffness = 1, rest = {{ mode = [0, 0.05, 0], amplitude = 1 }} }}\n{studies}",
-        mesh.display().to_string()
-    );
-    let path = folder.join("scene.toml");
-    fs::write(&path, text).unwrap();
-    path
+fn scene(cells: [usize; 2], studies: &str) -> Scene {
+    let energy = "[energy]\nbars = { stiffness = inf }\n\
+                  creases = { stiffness = 1, rest = { mode = [0, 0.05, 0], amplitude = 1 } }\n";
+    Scene::on(&format!("mesh = \"open-star.fold\"\ncells = {cells:?}"), &format!("{energy}{studies}"))
 }
 
 /// Returns name, whether it converged, and reason of every study in the summary.
-fn studies(out: &Path) -> Vec<(String, bool, Option<String>)> {
-    let summary: Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+fn studies(out: &Folder) -> Vec<(String, bool, Option<String>)> {
     let text = |value: &Value| value.as_str().map(str::to_owned);
     let one =
         |study: &Value| (text(&study["name"]).unwrap(), study["converged"].as_bool().unwrap(), text(&study["reason"]));
-    summary["studies"].as_array().unwrap().iter().map(one).collect()
+    out.studies().iter().map(one).collect()
 }
 
 const THREE: &str = "[[study]]\nname = \"first\"\nkind = \"relax\"\n[[study]]\nname = \"second\"\nkind = \"relax\"\n\
@@ -39,10 +31,9 @@ const THREE: &str = "[[study]]\nname = \"first\"\nkind = \"relax\"\n[[study]]\nn
 /// closed, the run that continues would overwrite it with the summary of all three.
 #[test]
 fn a_closed_ledger_is_the_last_word() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = scene(folder.path(), [2, 2], THREE);
-    let out = folder.path().join("out");
-    let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
+    let scene = scene([2, 2], THREE);
+    let (path, options) = (scene.written(), scene.options());
+    let out = scene.folder().inner("out");
     let ledger = Ledger::default();
     let (hangs, hung) = channel();
     let (go, gone) = channel::<()>();
@@ -63,11 +54,8 @@ fn a_closed_ledger_is_the_last_word() {
     drop((go, hung));
     worker.join().unwrap().unwrap();
     assert_eq!(studies(&out), expected);
-    let resumed = RunOptions { out: Some(out.clone()), resume: true, ..RunOptions::default() };
-    let scene = folder.path().join("scene.toml");
-    let whole = foldwell::run::run_scene(&scene, &resumed, &|_| ControlFlow::Continue(())).unwrap();
-    assert_eq!(whole.kept, ["first"]);
-    assert!(whole.summary.converged());
+    let whole = scene.resumed().converged();
+    assert_eq!(whole.report.kept, ["first"]);
 }
 
 /// Claim: a run that is ended before it has written anything leaves nothing.
@@ -79,42 +67,31 @@ fn before_anything_is_written_nothing_is() {
 /// Claim: every kind of study that the observer stops, at its first step or later, is interrupted and not failed.
 #[test]
 fn every_kind_is_interrupted() {
-    let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
     for (name, steps) in [
-        ("star.toml", 1),
-        ("star-trace.toml", 3),
-        ("star-engines.toml", 40),
-        ("star-surface.toml", 3),
-        ("star-landscape.toml", 2),
-        ("star-wells.toml", 3),
-        ("miura-spectrum.toml", 1),
+        ("star", 1),
+        ("star-trace", 3),
+        ("star-engines", 40),
+        ("star-surface", 3),
+        ("star-landscape", 2),
+        ("star-wells", 3),
+        ("miura-spectrum", 1),
     ] {
-        let folder = tempfile::tempdir().unwrap();
-        let options = RunOptions { out: Some(folder.path().into()), ..RunOptions::default() };
-        let left = std::sync::atomic::AtomicI64::new(steps);
-        let observer = |_: &foldwell::run::Progress| match left.fetch_sub(1, std::sync::atomic::Ordering::Relaxed) {
-            2.. => ControlFlow::Continue(()),
-            _ => ControlFlow::Break(()),
-        };
-        let report = foldwell::run::run_scene(&meshes.join(name), &options, &observer).unwrap();
-        let last = report.summary.studies.last().unwrap();
-        assert!(report.interrupted && !last.converged, "{name}");
+        let ran = Scene::of(name).stopped_after(steps - 1).ran();
+        let last = ran.report.summary.studies.last().unwrap();
+        assert!(ran.report.interrupted && !last.converged, "{name}");
         assert_eq!(last.reason.as_deref(), Some("interrupted"), "{name}");
-        let text = fs::read_to_string(folder.path().join("summary.json")).unwrap();
+        let text = ran.out.text("summary.json");
         assert!(!text.replace(' ', "").contains("\"end\":\"failed\""), "{name}: {text}");
     }
 }
 
 /// Sends Ctrl-C after this time from the start of the program; returns its exit status.
 #[cfg(unix)]
-fn interrupted_after(folder: &Path, milliseconds: u64) -> Option<i32> {
-    use std::process::{Command, Stdio};
-    let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    program.current_dir(folder).args(["run", "scene.toml", "--out", "out", "--quiet"]).stderr(Stdio::null());
-    let mut child = program.spawn().unwrap();
+fn interrupted_after(folder: &Folder, milliseconds: u64) -> Option<i32> {
+    let child = folder.command(&["run", "scene.toml", "--out", "out", "--quiet"]).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(milliseconds));
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    child.wait().unwrap().code()
+    signal(&child, "-INT");
+    Said::last(child, folder).status
 }
 
 /// Claim: Ctrl-C while the sheet is still being built ends the program with status 130 and writes nothing. A run that
@@ -122,10 +99,9 @@ fn interrupted_after(folder: &Path, milliseconds: u64) -> Option<i32> {
 #[test]
 #[cfg(unix)]
 fn building_is_interrupted() {
-    let folder = tempfile::tempdir().unwrap();
-    scene(folder.path(), [1, 1_000_000], "[[study]]\nname = \"a\"\nkind = \"modes\"\n");
-    assert_eq!(interrupted_after(folder.path(), 1500), Some(130));
-    assert!(!folder.path().join("out").exists());
+    let folder = scene([1, 1_000_000], "[[study]]\nname = \"a\"\nkind = \"modes\"\n").placed();
+    assert_eq!(interrupted_after(&folder, 1500), Some(130));
+    assert!(!folder.has("out"));
 }
 
 /// Claim: Ctrl-C in the middle of a grid of 256,000,000 wavenumbers ends the program with status 130, with the study
@@ -133,12 +109,9 @@ fn building_is_interrupted() {
 #[test]
 #[cfg(unix)]
 fn a_grid_is_interrupted() {
-    let folder = tempfile::tempdir().unwrap();
-    scene(folder.path(), [1, 1], "[[study]]\nname = \"a\"\nkind = \"bloch\"\ngrid = [16000, 16000]\n");
-    assert_eq!(interrupted_after(folder.path(), 3000), Some(130));
-    assert_eq!(studies(&folder.path().join("out")), [("a".to_owned(), false, Some("interrupted".to_owned()))]);
-    let parts = fs::read_dir(folder.path().join("out"))
-        .unwrap()
-        .filter(|entry| entry.as_ref().unwrap().path().extension().is_some_and(|ending| ending == "part"));
-    assert_eq!(parts.count(), 0, "no draft and no claim is left");
+    let folder = scene([1, 1], "[[study]]\nname = \"a\"\nkind = \"bloch\"\ngrid = [16000, 16000]\n").placed();
+    assert_eq!(interrupted_after(&folder, 3000), Some(130));
+    let out = folder.inner("out");
+    assert_eq!(studies(&out), [("a".to_owned(), false, Some("interrupted".to_owned()))]);
+    assert!(out.names().iter().all(|name| !name.ends_with(".part")), "no draft and no claim is left");
 }

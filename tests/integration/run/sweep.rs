@@ -2,81 +2,23 @@
 //! shared out end with the same table.
 #![cfg(unix)]
 
-use assert_cmd::cargo::cargo_bin;
+use crate::common::{Folder, Said, Scene, Table, signal};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::Child;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Contents of all files below a folder; of summaries the JSON without times.
-type Files = BTreeMap<PathBuf, Vec<u8>>;
-
-fn command(folder: &Path, words: &str) -> Command {
-    let mut command = Command::new(cargo_bin("foldwell"));
-    command.current_dir(folder).args(words.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
+/// The table of a sweep, whose last columns may have commas in quotes.
+fn table(folder: &Folder) -> String {
+    folder.text("scene/sweep.csv")
 }
 
-fn foldwell(folder: &Path, words: &str) -> Output {
-    command(folder, words).output().unwrap()
-}
-
-fn said(output: &Output) -> String {
-    [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned()).concat()
-}
-
-/// Runs the program and returns its standard output; the exit status is the expected one.
-fn run(folder: &Path, words: &str, status: i32) -> String {
-    let output = foldwell(folder, words);
-    assert_eq!(output.status.code(), Some(status), "{words}: {}", said(&output));
-    String::from_utf8(output.stdout).unwrap()
-}
-
-fn summary(path: &Path) -> Value {
-    let mut summary: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    let studies = summary["studies"].as_array_mut().unwrap();
-    studies.iter_mut().for_each(|study| study["seconds"] = json!(0.0));
-    summary
-}
-
-fn read(root: &Path) -> Files {
-    let (mut found, mut folders) = (Files::new(), vec![root.to_path_buf()]);
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let timed = path.ends_with("summary.json");
-                let bytes = if timed { summary(&path).to_string().into_bytes() } else { fs::read(&path).unwrap() };
-                found.insert(path.strip_prefix(root).unwrap().to_path_buf(), bytes);
-            }
-        }
-    }
-    found
-}
-
-fn table(out: &Path) -> String {
-    fs::read_to_string(out.join("sweep.csv")).unwrap()
-}
-
-/// The columns of a table without quotes, by their names.
-fn columns(table: &str) -> BTreeMap<String, Vec<String>> {
-    let mut lines = table.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let header = lines.next().unwrap();
-    let rows: Vec<_> = lines.collect();
-    header.into_iter().enumerate().map(|(k, name)| (name, rows.iter().map(|row| row[k].clone()).collect())).collect()
-}
-
-/// A folder with a scene of this text and the mesh of the star cell.
-fn with_scene(text: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    fs::copy(mesh, folder.path().join("open-star.fold")).unwrap();
-    fs::write(folder.path().join("scene.toml"), text).unwrap();
-    folder
+/// A folder with a scene of this text.
+fn with_scene(text: &str) -> Folder {
+    Scene::new(text).placed()
 }
 
 const STAR: &str = "[sheet]\nmesh = \"open-star.fold\"\ncells = [2, 2]\n\n[energy]\nbars = { stiffness = 1e3 }\n\
@@ -127,22 +69,20 @@ fn points_are_what_they_are_alone() {
     for (scene, axes, points) in cases {
         let swept = with_scene(&format!("{scene}\n[sweep]\n{axes}"));
         let alone = with_scene(scene);
-        run(swept.path(), "run scene.toml --quiet --threads 1 --out one", 0);
-        run(swept.path(), "run scene.toml --quiet --threads 3 --out three", 0);
-        let one = read(&swept.path().join("one"));
-        assert!(one == read(&swept.path().join("three")), "{axes}");
-        assert_eq!(fs::read_dir(swept.path().join("one/points")).unwrap().count(), points.len());
+        swept.foldwell("run scene.toml --quiet --threads 1 --out one").ends(0);
+        swept.foldwell("run scene.toml --quiet --threads 3 --out three").ends(0);
+        let points_of_one = swept.inner("one/points");
+        assert!(swept.inner("one").files() == swept.inner("three").files(), "{axes}");
+        assert_eq!(points_of_one.names().len(), points.len());
         for (k, settings) in points.iter().enumerate() {
-            let mut command = command(alone.path(), &format!("run scene.toml --quiet --out {k:04}"));
-            command.args(settings.iter().flat_map(|setting| ["--set", setting]));
-            let output = command.output().unwrap();
-            assert!(output.status.success(), "{}", said(&output));
-            let expected = read(&alone.path().join(format!("{k:04}")));
-            let found = read(&swept.path().join(format!("one/points/{k:04}")));
-            assert!(expected.keys().eq(found.keys()) && expected.len() >= 2, "{settings:?}: {:?}", found.keys());
-            for (path, bytes) in &expected {
-                assert!(*bytes == found[path], "{settings:?}: {} differs", path.display());
-            }
+            let number = format!("{k:04}");
+            let words = ["run", "scene.toml", "--quiet", "--out", &number].into_iter();
+            alone
+                .program(&words.chain(settings.iter().flat_map(|setting| ["--set", setting])).collect::<Vec<_>>())
+                .well();
+            let alone = alone.inner(&number);
+            assert!(alone.files().len() >= 2, "{settings:?}");
+            points_of_one.inner(&number).assert_same(&alone, &format!("{settings:?}"));
         }
     }
 }
@@ -154,29 +94,30 @@ fn the_table_has_what_the_summaries_have() {
     let folder = with_scene(&format!(
         "{SCREW}\n[sweep]\n\"title\" = [\"a, b\"]\n\"study.last.start.seed\" = {{ seeds = [4, 2] }}\n"
     ));
-    let printed = run(folder.path(), "run scene.toml --json", 0);
-    let out = folder.path().join("scene");
-    assert_eq!(printed, fs::read_to_string(out.join("sweep.json")).unwrap());
+    let printed = folder.foldwell("run scene.toml --json").ends(0).out;
+    assert_eq!(printed, folder.text("scene/sweep.json"));
     let whole: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!((&whole["points"], &whole["converged"], &whole["missing"]), (&json!(2), &json!(2), &json!([])));
     assert_eq!(whole["keys"], json!(["title", "study.last.start.seed"]));
-    let table = table(&out);
+    let table = table(&folder);
     assert!(table.starts_with("point,title,study.last.start.seed,status,reason,loops."), "{table}");
     let table = table.replace("\"a, b\"", "a b");
     assert!(table.lines().nth(2).unwrap().starts_with("1,a b,5,converged,,"), "{table}");
-    let columns = columns(&table);
-    for (k, folder) in ["points/0000", "points/0001"].into_iter().enumerate() {
-        let found = summary(&out.join(folder).join("summary.json"));
+    let columns = Table::new(&table);
+    for (k, point) in ["0000", "0001"].into_iter().enumerate() {
+        let found = folder.json(&format!("scene/points/{point}/summary.json"));
         assert_eq!(found["settings"], json!(["title=\"a, b\"", format!("study.last.start.seed={}", 4 + k)]));
         let [loops, last] = [0, 1].map(|study| &found["studies"][study]);
-        let number = |column: &str| columns[column][k].parse::<f64>().unwrap();
+        let number = |column: &str| columns.field(k, column).parse::<f64>().unwrap();
         assert_eq!(json!(number("last.energy.total")), last["energy"]["total"]);
         assert_eq!(json!(number("last.residual_force")), last["residual_force"]);
         assert_eq!(json!(number("loops.branches.1.arc_length")), loops["branches"][1]["arc_length"]);
-        assert_eq!(columns["loops.branches.0.end"][k], loops["branches"][0]["end"].as_str().unwrap());
-        assert_eq!(columns["last.converged"][k], "true");
+        assert_eq!(columns.field(k, "loops.branches.0.end"), loops["branches"][0]["end"].as_str().unwrap());
+        assert_eq!(columns.field(k, "last.converged"), "true");
     }
-    assert!(columns.keys().all(|name| !name.ends_with("seconds") && !name.ends_with("reason") || name == "reason"));
+    assert!(
+        columns.header.iter().all(|name| !name.ends_with("seconds") && !name.ends_with("reason") || name == "reason")
+    );
 }
 
 /// Claim: points that do not converge, and points whose scene only its sheet shows to be wrong, are rows with their status and
@@ -186,7 +127,7 @@ fn failed_points_are_listed_and_not_lost() {
     let axes = "[sweep]\nzip = true\n\"study.relaxed.tolerance\" = [1e-10, 1e-300, 1e-10]\n\"lock.0.crease\" = [[0, 1, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]\n";
     let folder = with_scene(&format!("{STAR}\n[[lock]]\ncrease = [0, 1, 0, 0]\n\n{axes}"));
     for words in ["run scene.toml", "run scene.toml --resume"] {
-        let told = run(folder.path(), words, 1);
+        let told = folder.foldwell(words).ends(1).out;
         for part in [
             "3 points along study.relaxed.tolerance, lock.0.crease: 1 converged",
             "1 not converged, 1 failed",
@@ -199,21 +140,19 @@ fn failed_points_are_listed_and_not_lost() {
         // the points that were computed are kept, also the one that did not converge; the failed one is tried again
         assert_eq!(told.contains("(2 kept)"), words.ends_with("--resume"), "{told}");
     }
-    let rows: Vec<String> = table(&folder.path().join("scene")).lines().map(str::to_owned).collect();
+    let rows: Vec<String> = table(&folder).lines().map(str::to_owned).collect();
     assert!(rows[1].contains(",converged,,"), "{rows:?}");
     assert!(rows[2].contains(",not-converged,relaxed: ") || rows[2].contains(",not-converged,\"relaxed: "), "{rows:?}");
     assert!(rows[3].contains(",failed,"), "{rows:?}");
-    let failed = folder.path().join("scene/points/0002");
-    assert!(failed.join("failed.json").exists() && !failed.join("summary.json").exists());
+    let failed = folder.inner("scene/points/0002");
+    assert!(failed.has("failed.json") && !failed.has("summary.json"));
     // a point that failed and now is right loses its record of failure
-    let scene = fs::read_to_string(folder.path().join("scene.toml"))
-        .unwrap()
-        .replace("1e-300", "1e-10")
-        .replace("[0, 9,", "[0, 2,");
-    fs::write(folder.path().join("scene.toml"), scene).unwrap();
-    run(folder.path(), "run scene.toml --resume", 0);
-    assert!(!failed.join("failed.json").exists() && failed.join("summary.json").exists());
-    assert_eq!(columns(&table(&folder.path().join("scene")))["relaxed.converged"].len(), 3);
+    let scene = folder.text("scene.toml").replace("1e-300", "1e-10").replace("[0, 9,", "[0, 2,");
+    folder.write("scene.toml", scene);
+    folder.foldwell("run scene.toml --resume").ends(0);
+    assert!(!failed.has("failed.json") && failed.has("summary.json"));
+    assert_eq!(table(&folder).lines().count(), 1 + 3);
+    assert!(table(&folder).lines().next().unwrap().contains("relaxed.converged"));
 }
 
 /// Claim: a table of points is an axis: its rows are points, its header their keys; its values are those of TOML.
@@ -222,16 +161,16 @@ fn points_come_from_a_table() {
     let points = "energy.bars.stiffness, sheet.cells, energy.creases.rest\n1e3,\"[1, 2]\",flat\ninf,\"[2, 1]\",drawn\n";
     for form in ["\"points.csv\"", "{ file = \"points.csv\" }"] {
         let folder = with_scene(&format!("{STAR}\n[sweep]\npoints = {form}\n"));
-        fs::write(folder.path().join("points.csv"), points).unwrap();
-        run(folder.path(), "run scene.toml --quiet", 0);
-        let table = table(&folder.path().join("scene"));
+        folder.write("points.csv", points);
+        folder.foldwell("run scene.toml --quiet").ends(0);
+        let table = table(&folder);
         let rows: Vec<&str> = table.lines().collect();
         assert!(rows[0].starts_with("point,energy.bars.stiffness,sheet.cells,energy.creases.rest,status,"), "{table}");
         assert!(rows[1].starts_with("0,1000.0,\"[1, 2]\",flat,converged,"), "{table}");
         assert!(rows[2].starts_with("1,inf,\"[2, 1]\",drawn,converged,"), "{table}");
         // another table is another sweep
-        fs::write(folder.path().join("points.csv"), points.replace("1e3", "2e3")).unwrap();
-        assert!(run(folder.path(), "run scene.toml --resume", 0).contains("2 converged (1 kept)"));
+        folder.write("points.csv", points.replace("1e3", "2e3"));
+        assert!(folder.foldwell("run scene.toml --resume").ends(0).out.contains("2 converged (1 kept)"));
     }
 }
 
@@ -277,33 +216,34 @@ fn wrong_sweeps_are_refused() {
         ("points = \"points.csv\"", ["points.csv:3: point 1 (energy.bars.stiffness=x): ", "invalid"]),
     ] {
         let folder = with_scene(&format!("{STAR}\n[sweep]\n{axes}\n"));
-        fs::write(folder.path().join("points.csv"), "energy.bars.stiffness\n1e3\nx\n").unwrap();
-        let output = foldwell(folder.path(), "run scene.toml");
-        let message = said(&output);
-        assert_eq!(output.status.code(), Some(2), "{axes}: {message}");
+        folder.write("points.csv", "energy.bars.stiffness\n1e3\nx\n");
+        let message = folder.foldwell("run scene.toml").ends(2).all();
         assert!(parts.iter().all(|part| message.contains(part)), "{axes}: {message}");
         if !axes.contains("points.csv") && !axes.contains("none.csv") {
             let line = (lines..lines + 4).find(|line| message.contains(&format!("scene.toml:{line}:")));
             assert!(line.is_some(), "{axes}: {message}");
         }
-        assert!(!folder.path().join("scene").exists(), "{axes}");
+        assert!(!folder.has("scene"), "{axes}");
     }
     let folder = with_scene(STAR);
-    assert!(said(&foldwell(folder.path(), "run scene.toml --shard 1/2")).contains("the scene has no [sweep]"));
-    assert!(said(&foldwell(folder.path(), "run scene.toml --shard 3/2")).contains("`3/2` names no shard"));
+    folder.foldwell("run scene.toml --shard 1/2").refused("the scene has no [sweep]");
+    folder.foldwell("run scene.toml --shard 3/2").refused("`3/2` names no shard");
     // several scenes are checked before the first is computed, with all points of their sweeps
     let axes = "\n[[lock]]\ncrease = [0, 1, 0, 0]\n\n[sweep]\n\"lock.0.crease\" = [[0, 1, 0, 0], [0, 9, 0, 0]]\n";
-    fs::write(folder.path().join("swept.toml"), format!("{STAR}{axes}")).unwrap();
-    let output = foldwell(folder.path(), "run scene.toml swept.toml");
-    assert!(output.status.code() == Some(2) && said(&output).contains("no crease [0, 9, 0, 0]"), "{}", said(&output));
-    assert!(!folder.path().join("scene").exists());
+    folder.write("swept.toml", format!("{STAR}{axes}"));
+    folder.foldwell("run scene.toml swept.toml").refused("no crease [0, 9, 0, 0]");
+    assert!(!folder.has("scene"));
+}
+
+fn spawned(folder: &Folder, words: &str) -> Child {
+    folder.command(&words.split(' ').collect::<Vec<_>>()).spawn().unwrap()
 }
 
 /// Starts a sweep and waits until this number of points is finished.
-fn started(folder: &Path, words: &str, finished: usize) -> Child {
-    let child = command(folder, words).spawn().unwrap();
+fn started(folder: &Folder, words: &str, finished: usize) -> Child {
+    let child = spawned(folder, words);
     let clock = Instant::now();
-    while finished_points(&folder.join("scene")) < finished {
+    while finished_points(&folder.file("scene")) < finished {
         assert!(clock.elapsed() < Duration::from_secs(120), "no point is finished");
         sleep(Duration::from_millis(5));
     }
@@ -336,33 +276,30 @@ fn inodes(out: &Path) -> BTreeMap<PathBuf, u64> {
 fn a_killed_sweep_goes_on_with_the_missing_points() {
     let scene = format!("{STAR}draw = []\n{TWELVE}");
     let undisturbed = with_scene(&scene);
-    run(undisturbed.path(), "run scene.toml --quiet", 0);
-    let expected = read(&undisturbed.path().join("scene"));
+    undisturbed.foldwell("run scene.toml --quiet").ends(0);
     let folder = with_scene(&scene);
-    let out = folder.path().join("scene");
+    let out = folder.file("scene");
     for (words, finished) in [("run scene.toml --threads 2", 2), ("run scene.toml --threads 2 --resume", 5)] {
-        let mut child = started(folder.path(), words, finished);
+        let mut child = started(&folder, words, finished);
         child.kill().unwrap();
         child.wait().unwrap();
     }
     let (done, before) = (finished_points(&out), inodes(&out));
     assert!((5..12).contains(&done), "{done} points were finished");
-    let told = run(folder.path(), "run scene.toml --resume", 0);
+    let told = folder.foldwell("run scene.toml --resume").ends(0).out;
     assert!(told.contains(&format!("12 converged ({done} kept)")), "{told}");
     let after = inodes(&out);
     let same = before.iter().filter(|(table, inode)| after[*table] == **inode).count();
     assert!(same >= done && after.len() == 12, "{same} of {done} were not written again");
-    let found = read(&out);
-    assert!(found.keys().eq(expected.keys()), "{:?}", found.keys());
-    assert!(found == expected);
-    fs::write(folder.path().join("scene.toml"), scene.replace("[0, 0.1, 0]", "[0, 0.2, 0]")).unwrap();
-    let told = run(folder.path(), "run scene.toml --resume", 0);
+    folder.inner("scene").assert_same(&undisturbed.inner("scene"), "killed twice");
+    folder.write("scene.toml", scene.replace("[0, 0.1, 0]", "[0, 0.2, 0]"));
+    let told = folder.foldwell("run scene.toml --resume").ends(0).out;
     assert!(told.contains("12 converged\n"), "{told}");
-    assert!(table(&out) != table(&undisturbed.path().join("scene")));
+    assert!(table(&folder) != table(&undisturbed));
     // points of an earlier, longer sweep are not taken for those of this one
-    fs::write(folder.path().join("scene.toml"), scene.replace("[0.5, 1, 1.5]", "[0.5]")).unwrap();
-    run(folder.path(), "run scene.toml", 0);
-    assert_eq!(table(&out).lines().count(), 5);
+    folder.write("scene.toml", scene.replace("[0.5, 1, 1.5]", "[0.5]"));
+    folder.foldwell("run scene.toml").ends(0);
+    assert_eq!(table(&folder).lines().count(), 5);
     assert_eq!(finished_points(&out), 4);
 }
 
@@ -371,19 +308,17 @@ fn a_killed_sweep_goes_on_with_the_missing_points() {
 #[test]
 fn a_stopped_sweep_says_what_is_left() {
     let folder = with_scene(&format!("{STAR}draw = []\n{TWELVE}"));
-    let child = started(folder.path(), "run scene.toml --threads 1", 2);
-    let stopped = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(stopped.success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
-    let out = folder.path().join("scene");
-    let columns = columns(&table(&out));
-    let count = |status: &str| columns["status"].iter().filter(|found| *found == status).count();
+    let child = started(&folder, "run scene.toml --threads 1", 2);
+    signal(&child, "-INT");
+    let said = Said::last(child, &folder).ends(130).all();
+    let out = folder.file("scene");
+    let columns = Table::new(&table(&folder));
+    let count = |status: &str| (0..columns.len()).filter(|&k| columns.field(k, "status") == status).count();
     let (told, done) = (count("converged"), finished_points(&out));
     assert!((2..12).contains(&told) && (told..=told + 1).contains(&done), "{told} {done}");
     assert_eq!(count("missing"), 12 - told);
-    assert!(said(&output).contains(&format!("{} points are missing: ", 12 - told)), "{}", said(&output));
-    assert!(run(folder.path(), "run scene.toml --resume", 0).contains(&format!("12 converged ({done} kept)")));
+    assert!(said.contains(&format!("{} points are missing: ", 12 - told)), "{said}");
+    assert!(folder.foldwell("run scene.toml --resume").ends(0).out.contains(&format!("12 converged ({done} kept)")));
 }
 
 /// Claim: shards that run at the same time into one folder compute every point once; the last one to end leaves the table of a
@@ -392,18 +327,16 @@ fn a_stopped_sweep_says_what_is_left() {
 fn shards_share_a_folder() {
     let scene = format!("{STAR}draw = []\n{TWELVE}");
     let whole = with_scene(&scene);
-    run(whole.path(), "run scene.toml --quiet", 0);
+    whole.foldwell("run scene.toml --quiet").ends(0);
     let folder = with_scene(&scene);
-    let told = run(folder.path(), "run scene.toml --shard 2/3 --threads 1", 0);
+    let told = folder.foldwell("run scene.toml --shard 2/3 --threads 1").ends(0).out;
     assert!(told.contains("12 points") && told.contains("4 converged"), "{told}");
     assert!(told.contains("8 points are missing: 0, 2-3, 5-6, 8-9, 11"), "{told}");
-    let shards = [1, 2, 3]
-        .map(|k| command(folder.path(), &format!("run scene.toml --shard {k}/3 --threads 1")).spawn().unwrap());
+    let shards = [1, 2, 3].map(|k| spawned(&folder, &format!("run scene.toml --shard {k}/3 --threads 1")));
     for shard in shards {
-        let output = shard.wait_with_output().unwrap();
-        assert!(output.status.success(), "{}", said(&output));
+        Said::last(shard, &folder).well();
     }
-    assert!(read(&folder.path().join("scene")) == read(&whole.path().join("scene")));
+    folder.inner("scene").assert_same(&whole.inner("scene"), "shards");
 }
 
 /// Claim: the library computes points one by one, in any order, and assembles the same table; a point that was finished is
@@ -415,9 +348,9 @@ fn the_library_runs_single_points() {
     use std::ops::ControlFlow;
 
     let folder = with_scene(&format!("{STAR}draw = []\n\n[sweep]\n\"energy.bars.stiffness\" = [1e2, 1e3]\n"));
-    let path = folder.path().join("scene.toml");
+    let path = folder.file("scene.toml");
     let sweep = points(&read_scene(&path, &[]).unwrap()).unwrap();
-    let out = folder.path().join("library");
+    let out = folder.file("library");
     let options = RunOptions { out: Some(out.clone()), threads: Some(1), resume: true };
     let observer = |_: &foldwell::run::Progress| ControlFlow::Continue(());
     assert_eq!(run_point(&sweep, 1, &options, &observer).unwrap(), Some(PointStatus::Converged));
@@ -429,8 +362,8 @@ fn the_library_runs_single_points() {
     assert!(before.iter().all(|(table, inode)| inodes(&out)[table] == *inode));
     assert!(assemble(&sweep, &out).unwrap().missing.is_empty());
     let scene = path.to_str().unwrap();
-    run(folder.path(), &format!("run {scene} --quiet --out program"), 0);
-    assert!(read(&out) == read(&folder.path().join("program")));
+    folder.foldwell(&format!("run {scene} --quiet --out program")).ends(0);
+    folder.inner("library").assert_same(&folder.inner("program"), "library");
     assert_eq!(run_point(&sweep, 0, &options, &|_| ControlFlow::Break(())).unwrap(), Some(PointStatus::Converged));
     let anew = RunOptions { resume: false, ..options };
     assert_eq!(run_point(&sweep, 0, &anew, &|_| ControlFlow::Break(())).unwrap(), None);
@@ -442,26 +375,21 @@ fn the_library_runs_single_points() {
 fn a_folder_has_one_sweep_at_a_time() {
     let scene = format!("{STAR}draw = []\n{TWELVE}");
     let alone = with_scene(&scene);
-    run(alone.path(), "run scene.toml --quiet", 0);
+    alone.foldwell("run scene.toml --quiet").ends(0);
     let folder = with_scene(&scene);
-    fs::write(folder.path().join("other.toml"), scene.replace("[0, 0.1, 0]", "[0, 0.2, 0]")).unwrap();
-    fs::write(folder.path().join("single.toml"), STAR).unwrap();
-    let first = started(folder.path(), "run scene.toml --threads 1", 1);
-    let signal = |name: &str| {
-        assert!(Command::new("kill").args([name, &first.id().to_string()]).status().unwrap().success());
-    };
-    signal("-STOP");
+    folder.write("other.toml", scene.replace("[0, 0.1, 0]", "[0, 0.2, 0]"));
+    folder.write("single.toml", STAR);
+    let first = started(&folder, "run scene.toml --threads 1", 1);
+    signal(&first, "-STOP");
     for words in
         ["run other.toml --out scene", "run other.toml --out scene --resume --shard 1/2", "run single.toml --out scene"]
     {
-        let second = foldwell(folder.path(), words);
-        assert_eq!(second.status.code(), Some(3), "{words}: {}", said(&second));
-        assert!(said(&second).contains("scene: another run (process"), "{words}: {}", said(&second));
+        let said = folder.foldwell(words).ends(3);
+        assert!(said.all().contains("scene: another run (process"), "{words}: {said:?}");
     }
-    signal("-CONT");
-    let output = first.wait_with_output().unwrap();
-    assert!(output.status.success(), "{}", said(&output));
-    assert!(read(&folder.path().join("scene")) == read(&alone.path().join("scene")));
+    signal(&first, "-CONT");
+    Said::last(first, &folder).well();
+    folder.inner("scene").assert_same(&alone.inner("scene"), "alone");
 }
 
 /// Claim: a sweep that the observer stops while its points are checked ends at that call, with all points missing, and
@@ -474,16 +402,15 @@ fn checks_of_points_are_interrupted() {
 
     let folder =
         with_scene(&format!("{STAR}draw = []\n\n[sweep]\n\"energy.bars.stiffness\" = {{ linear = [1, 2, 20000] }}\n"));
-    let options = RunOptions { out: Some(folder.path().join("out")), threads: Some(1), resume: false };
+    let options = RunOptions { out: Some(folder.file("out")), threads: Some(1), resume: false };
     let calls = AtomicUsize::new(0);
     let observer = |progress: &foldwell::run::Progress| {
         calls.fetch_add(1, Ordering::Relaxed);
         assert!(progress.step < 1000, "it was called early");
         ControlFlow::Break(())
     };
-    let report =
-        sweep(&read_scene(&folder.path().join("scene.toml"), &[]).unwrap(), &options, None, &observer).unwrap();
+    let report = sweep(&read_scene(&folder.file("scene.toml"), &[]).unwrap(), &options, None, &observer).unwrap();
     assert!(report.interrupted && !report.converged && report.kept == 0);
     assert_eq!((report.summary.missing.len(), calls.into_inner()), (20000, 1));
-    assert!(!folder.path().join("out").exists());
+    assert!(!folder.has("out"));
 }

@@ -1,8 +1,6 @@
 //! Malformed scenes, each with its message: position (`scene.toml:line:column`), fault and remedy.
 
-use std::ops::ControlFlow;
-
-use foldwell::run::{RunOptions, run_scene};
+use crate::common::Folder;
 use foldwell::scene::{SceneError, parse};
 use miette::Diagnostic;
 use proptest::prelude::*;
@@ -302,25 +300,18 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = { rates = \"rates.csv\" }, amplitude = 0.1 } }", "4:54", "FOLDER/rates.csv has no row for crease [", "give one row for each crease"),
 ];
 
-fn folder_of_misfits() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    let star = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    std::fs::copy(star, folder.path().join("star.fold")).expect("the star cell");
-    let files = [
-        ("finite.fold", FINITE),
-        ("finite.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
-        ("sheet.stl", ""),
-        ("sheet.vtu", ""),
-        ("one.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n"),
-        ("rates.csv", "i,j,n1,n2,rate\n0,1,0,0,0.1\n"),
-        ("strange.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n0,1,5,0,0.1\n"),
-        ("far.csv", "cell1,cell2,i,j,n1,n2,angle\n7,7,0,1,0,0,0.1\n"),
-        ("torn.fold", "{ \"vertices_coords\": [[0,0,0],\n"),
-    ];
-    for (name, text) in files {
-        std::fs::write(folder.path().join(name), text).expect("a file");
-    }
-    folder
+fn folder_of_misfits() -> Folder {
+    Folder::new()
+        .with("star.fold", include_str!("../../../meshes/open-star.fold"))
+        .with("finite.fold", FINITE)
+        .with("finite.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .with("sheet.stl", "")
+        .with("sheet.vtu", "")
+        .with("one.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n")
+        .with("rates.csv", "i,j,n1,n2,rate\n0,1,0,0,0.1\n")
+        .with("strange.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n0,1,5,0,0.1\n")
+        .with("far.csv", "cell1,cell2,i,j,n1,n2,angle\n7,7,0,1,0,0,0.1\n")
+        .with("torn.fold", "{ \"vertices_coords\": [[0,0,0],\n")
 }
 
 /// Returns the error, the message and the help for a scene that does not fit its sheet; the folder is written as
@@ -397,11 +388,10 @@ fn faults_of_named_files_name_the_file() {
 /// Claim: a study that is not possible is refused with its position before anything is written.
 #[test]
 fn studies_that_cannot_be_done() {
-    let folder = folder_of_misfits();
+    let folder = folder_of_misfits().with("a.vtu", "no picture");
     let scene = |energy: &str, study: &str| {
         format!("[sheet]\nmesh = \"star.fold\"\n[energy]\n{energy}\n[[study]]\nname = \"a\"\n{study}\n")
     };
-    std::fs::write(folder.path().join("a.vtu"), "no picture").expect("a file");
     let creases = "creases = { stiffness = 1 }";
     let of_tube = |study: &str| {
         let tube = "domain = \"tube\"\nseam = [0, 8]\n[energy]\nbars = { stiffness = 1e3 }";
@@ -446,13 +436,7 @@ fn studies_that_cannot_be_done() {
         (scene(creases, "kind = \"relax\"\nstart = \"a.vtu\""), "a.vtu: "),
     ];
     for (text, expected) in cases {
-        let path = folder.path().join("scene.toml");
-        std::fs::write(&path, &text).expect("a file");
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-        let error = run_scene(&path, &options, &|_| ControlFlow::Continue(())).expect_err("it cannot be done");
-        assert_eq!(error.exit_status(), 2, "{error}");
-        assert!(error.to_string().contains(expected), "{error}");
-        assert!(!folder.path().join("out").exists(), "{expected}: nothing is written");
+        folder.scene(text).refused(expected);
     }
 }
 

@@ -1,11 +1,11 @@
 //! Scenes with parts, drives and sets of vertices: what they mean, and what is refused, with the place of the fault.
 
+use crate::common::{Folder, Scene};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Drive, Driven, TermKind};
-use foldwell::scene::{SceneError, build, parse};
+use foldwell::scene::{SceneError, build};
 use foldwell::sheet::fold;
 use miette::Diagnostic;
-use std::path::Path;
 
 /// Four vertices of a square of side 1 at height 0 and one at height 0.5 in the middle, with names.
 const ROOF: &str = r#"{ "file_spec": 1.2, "foldwell:names": { "rim": [0, 1, 2, 3], "top": [4] },
@@ -14,13 +14,8 @@ const ROOF: &str = r#"{ "file_spec": 1.2, "foldwell:names": { "rim": [0, 1, 2, 3
 
 /// Returns the assembly of a scene with the roof, or with another mesh, and these tables.
 fn assembled(sheet: &str, tables: &str) -> Result<(foldwell::scene::SceneFile, Assembly), SceneError> {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("roof.fold"), ROOF).unwrap();
-    let text =
-        format!("[sheet]\n{sheet}\n[energy]\nbars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 0.1 }}\n{tables}");
-    let file = parse(&text, folder.path().join("s.toml"))?;
-    let assembly = build::assembly(&file)?;
-    Ok((file, assembly))
+    let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 0.1 }";
+    Scene::on(sheet, &format!("{energy}\n{tables}")).with("roof.fold", ROOF).assembled()
 }
 
 fn on_roof(tables: &str) -> Result<(foldwell::scene::SceneFile, Assembly), SceneError> {
@@ -307,10 +302,9 @@ fn supported_loads() {
 /// Claim: the names of a mesh are in its copies that `convert` writes.
 #[test]
 fn names_are_converted() {
-    let folder = tempfile::tempdir().unwrap();
-    let [from, to] = ["roof.fold", "copy.fold"].map(|name| folder.path().join(name));
-    std::fs::write(&from, ROOF).unwrap();
-    let notes = foldwell::run::convert(Path::new(&from), Path::new(&to), None).unwrap();
+    let folder = Folder::new().with("roof.fold", ROOF);
+    let [from, to] = ["roof.fold", "copy.fold"].map(|name| folder.file(name));
+    let notes = foldwell::run::convert(&from, &to, None).unwrap();
     assert!(notes.is_empty(), "{notes:?}");
     assert_eq!(fold::read(&to).unwrap().names, fold::read(&from).unwrap().names);
 }
@@ -356,11 +350,6 @@ fn studies_that_cannot_begin() {
         ),
     ];
     for (tables, message) in cases {
-        let scene = |folder: &Path| {
-            std::fs::write(folder.join("roof.fold"), ROOF).unwrap();
-            std::fs::write(folder.join("s.toml"), format!("[sheet]\nmesh = \"roof.fold\"\n{tables}")).unwrap();
-            folder.join("s.toml")
-        };
-        crate::common::assert_refused(scene, message);
+        Scene::on("mesh = \"roof.fold\"", &tables).with("roof.fold", ROOF).refused(message);
     }
 }

@@ -1,23 +1,18 @@
 //! Meaningless scenes end with status 2 and write nothing: no study, degrees instead of radians, sizes beyond the
 //! memory.
 
-use std::path::Path;
+use crate::common::{Folder, Said, Scene};
 use std::process::Command;
 
 const ENERGY: &str = "[energy]\nbars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0 }\n";
 
 /// Returns exit status and standard error of `foldwell run` for a scene of the open star cell with these lines.
-fn run(sheet: &str, more: &str) -> (i32, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let star = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    std::fs::copy(star, folder.path().join("star.fold")).unwrap();
-    std::fs::write(folder.path().join("t.csv"), "i,j,n1,n2,angle\n0,1,0,0,30\n").unwrap();
-    std::fs::write(folder.path().join("s.toml"), format!("[sheet]\nmesh = \"star.fold\"\n{sheet}\n{more}\n")).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-    let output = command.args(["run", "s.toml", "--out", "out"]).current_dir(folder.path()).output().unwrap();
-    let status = output.status.code().unwrap();
-    assert_eq!(folder.path().join("out").exists(), status != 2, "nothing is written where the input is wrong");
-    (status, String::from_utf8(output.stderr).unwrap())
+fn run(sheet: &str, more: &str) -> (Option<i32>, String) {
+    let scene = Scene::on(&format!("mesh = \"open-star.fold\"\n{sheet}"), more);
+    let said = scene.with("t.csv", "i,j,n1,n2,angle\n0,1,0,0,30\n").program("");
+    let written = said.folder.path().exists();
+    assert_eq!(written, said.status != Some(2), "nothing is written where the input is wrong");
+    (said.status, said.err)
 }
 
 fn study(keys: &str) -> String {
@@ -28,7 +23,7 @@ fn study(keys: &str) -> String {
 #[test]
 fn no_study() {
     let (status, said) = run("", ENERGY);
-    assert!(status == 2 && said.contains("there is nothing to compute"), "{said}");
+    assert!(status == Some(2) && said.contains("there is nothing to compute"), "{said}");
 }
 
 /// Claim: sizes beyond any memory are refused by one estimate, with the key to make smaller, before anything is built.
@@ -59,7 +54,7 @@ fn sizes_beyond_the_memory() {
     ];
     for (sheet, more, what, key) in cases {
         let (status, said) = run(sheet, &more);
-        assert!(status == 2 && said.contains(what) && said.contains(key), "{status}: {said}");
+        assert!(status == Some(2) && said.contains(what) && said.contains(key), "{status:?}: {said}");
     }
 }
 
@@ -68,13 +63,12 @@ fn sizes_beyond_the_memory() {
 #[test]
 #[cfg(target_os = "linux")]
 fn sizes_beyond_the_limit_of_the_process() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = "[sheet]\ngenerate = { pattern = \"miura\" }\ncells = [300, 300]\n";
-    std::fs::write(folder.path().join("s.toml"), format!("{scene}{}", study("kind = \"relax\""))).unwrap();
-    let limited = format!("ulimit -v 2000000; exec {} run s.toml --out out", env!("CARGO_BIN_EXE_foldwell"));
-    let output = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.code() == Some(2) && said.contains("there is room for 2 GB"), "{:?}: {said}", output.status);
+    let sheet = "generate = { pattern = \"miura\" }\ncells = [300, 300]";
+    let folder = Folder::new();
+    Scene::on(sheet, &study("kind = \"relax\"")).within(&folder).written();
+    let limited = format!("ulimit -v 2000000; exec {} run scene.toml --out out", env!("CARGO_BIN_EXE_foldwell"));
+    let mut shell = Command::new("sh");
+    Said::by(shell.args(["-c", &limited]).current_dir(folder.path()), &folder).refused("there is room for 2 GB");
 }
 
 /// Claim: angles of more than a turn are taken for degrees, and are refused with their value in radians: 60 degrees are
@@ -100,12 +94,12 @@ fn degrees_are_refused() {
     ];
     for (more, words) in cases {
         let (status, said) = run("domain = \"screw\"", &more);
-        assert!(status == 2 && said.contains(words), "{status}: {said}");
+        assert!(status == Some(2) && said.contains(words), "{status:?}: {said}");
     }
     let (_, said) = run("domain = \"screw\"", &rest("'3.2 rad'"));
     assert!(said.contains("note: ") && said.contains("rest angles are beyond pi"), "{said}");
     let (status, said) = run("domain = \"screw\"", &rest("0.1"));
-    assert!(status != 2 && !said.contains("note: "), "{said}");
+    assert!(status != Some(2) && !said.contains("note: "), "{said}");
 }
 
 /// Claim: a fault on a line of 100 kB is reported without the line, at its own position; formulas are not numbers.
@@ -113,8 +107,8 @@ fn degrees_are_refused() {
 fn messages_are_short() {
     let long = format!("# {}\n[[lock]]\ncrease = [0, 1, 0, 0]\nangle = np.float64(0.1)", "x".repeat(100_000));
     let (status, said) = run("", &long);
-    assert!(status == 2 && said.contains("this is no number") && said.len() < 2000, "{}", said.len());
+    assert!(status == Some(2) && said.contains("this is no number") && said.len() < 2000, "{}", said.len());
     let list = format!("x = [{}]", "1, ".repeat(40_000));
     let (status, said) = run("", &list);
-    assert!(status == 2 && said.contains("unknown key `x`") && said.len() < 3000, "{}", said.len());
+    assert!(status == Some(2) && said.contains("unknown key `x`") && said.len() < 3000, "{}", said.len());
 }

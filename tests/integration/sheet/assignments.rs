@@ -1,9 +1,7 @@
 //! Edge assignments: the letters of `edges_assignment` are interpreted as in FOLD 1.2, are refused with their edge if
 //! they contradict the mesh, and are kept by `convert` together with the metadata of the file.
 
-use std::path::Path;
-use std::process::Command;
-
+use crate::common::Folder;
 use foldwell::sheet::{Assignment, EdgeKind, Info, Sheet, fold, obj};
 
 /// Returns four unit squares around vertex 4. The ends of the edges are on line 4, their letters on the line below.
@@ -154,31 +152,28 @@ fn letters_come_back() {
     }
 }
 
-fn convert(from: &Path, to: &Path) -> (String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_foldwell")).arg("convert").args([from, to]).output().unwrap();
-    assert!(output.status.success());
-    (String::from_utf8(output.stderr).unwrap(), String::from_utf8_lossy(&std::fs::read(to).unwrap()).into_owned())
+fn convert(folder: &Folder, from: &str, to: &str) -> (String, String) {
+    let said = folder.foldwell(&format!("convert {from} {to}")).well();
+    (said.err, String::from_utf8_lossy(&folder.bytes(to)).into_owned())
 }
 
 /// Claim: `convert` keeps the mountains and valleys of a flat pattern, its author and the metadata of its frame, and
 /// reports on standard error which frames and keys it does not keep.
 #[test]
 fn convert_keeps_letters_and_says_what_it_drops() {
-    let folder = tempfile::tempdir().unwrap();
-    let [from, to, to_vtu] = ["a.fold", "b.fold", "b.vtu"].map(|name| folder.path().join(name));
     let edges = [([1, 4], "M"), ([4, 7], "V"), ([3, 4], "U"), ([4, 5], "M")];
     let more = "\"file_author\": \"A. B.\", \"frame_title\": \"f\", \"faceOrders\": [], \"file_frames\": [{}, {}], ";
-    std::fs::write(&from, squares(&edges, more)).unwrap();
-    let (said, text) = convert(&from, &to);
+    let folder = Folder::new().with("a.fold", squares(&edges, more));
+    let (said, text) = convert(&folder, "a.fold", "b.fold");
     let value: serde_json::Value = serde_json::from_str(&text).unwrap();
     let letters: Vec<_> = value["edges_assignment"].as_array().unwrap().iter().map(|l| l.as_str().unwrap()).collect();
     let of = |letter: &str| letters.iter().filter(|l| **l == letter).count();
     assert_eq!((of("M"), of("V"), of("U"), of("B"), of("F")), (2, 1, 1, 8, 0));
     assert_eq!((&value["file_author"], &value["frame_title"]), (&"A. B.".into(), &"f".into()));
     assert!(said.contains("2 other frames") && said.contains("`faceOrders`") && !said.contains("author"), "{said}");
-    let (said, _) = convert(&from, &to_vtu);
+    let (said, _) = convert(&folder, "a.fold", "b.vtu");
     assert!(said.contains("`file_author`"), "{said}");
-    let info = Info::new(&fold::read(&from).unwrap());
+    let info = Info::new(&fold::read(&folder.file("a.fold")).unwrap());
     assert_eq!(info.further_frames, 2);
     assert!(info.to_string().contains("frame 0 is read; 2 others are not"));
 }
@@ -186,10 +181,8 @@ fn convert_keeps_letters_and_says_what_it_drops() {
 /// Claim: a file that was written by this program is converted without any message.
 #[test]
 fn nothing_is_said_where_nothing_is_lost() {
-    let folder = tempfile::tempdir().unwrap();
-    let [to, again] = ["b.fold", "c.fold"].map(|name| folder.path().join(name));
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/kirigami-polarized.fold");
-    let (said, text) = convert(&mesh, &to);
+    let folder = Folder::new().with("a.fold", include_str!("../../../meshes/kirigami-polarized.fold"));
+    let (said, text) = convert(&folder, "a.fold", "b.fold");
     assert_eq!(said, "");
-    assert_eq!(convert(&to, &again), (String::new(), text));
+    assert_eq!(convert(&folder, "b.fold", "c.fold"), (String::new(), text));
 }

@@ -1,5 +1,6 @@
 //! Malformed meshes: each is refused with file, line, fault and remedy, and no file makes the reader panic.
 
+use crate::common::Folder;
 use foldwell::sheet::{Assignment, Pattern, SheetError, fold, generate, obj};
 use proptest::prelude::*;
 
@@ -415,10 +416,8 @@ fn texts_of_other_programs() {
     let other = marked.replace("f 1 2 3\n", "f 1 2 \\\n 3 # first\n");
     assert_eq!(obj::parse(&other, "a.obj").unwrap(), plain);
     fold::parse(&format!("\u{feff}{}", square(&[])), "a.fold").unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let latin = folder.path().join("a.obj");
-    std::fs::write(&latin, [b"# caf\xe9\n", OBJ.as_bytes()].concat()).unwrap();
-    assert_eq!(obj::read(&latin).unwrap(), plain);
+    let folder = Folder::new().with("a.obj", [b"# caf\xe9\n", OBJ.as_bytes()].concat());
+    assert_eq!(obj::read(&folder.file("a.obj")).unwrap(), plain);
     let before = obj::parse("f 1 2 3\nv 0 0 0\n", "a.obj").unwrap_err().to_string();
     assert!(before.contains("face 1 names vertex 1; no vertices stand before it"), "{before}");
 }
@@ -426,10 +425,8 @@ fn texts_of_other_programs() {
 /// Claim: a text that is not UTF-8 is refused with its line, and a device is not read at all.
 #[test]
 fn files_that_are_no_texts() {
-    let folder = tempfile::tempdir().unwrap();
-    let latin = folder.path().join("a.fold");
-    std::fs::write(&latin, b"{\n\"file_title\": \"caf\xe9\"}").unwrap();
-    let message = fold::read(&latin).unwrap_err().to_string();
+    let folder = Folder::new().with("a.fold", b"{\n\"file_title\": \"caf\xe9\"}");
+    let message = fold::read(&folder.file("a.fold")).unwrap_err().to_string();
     assert!(message.contains("line 2 is not UTF-8"), "{message}");
     let zero = std::path::Path::new("/dev/zero");
     if zero.exists() {

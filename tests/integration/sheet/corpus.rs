@@ -1,6 +1,7 @@
 //! Crease patterns as the programs of the field write them: 91 files, each in the dialect of a program, with what is to
 //! come of it. They are made here, by small generators, so that every count is known without reading anything.
 
+use crate::common::Folder;
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::sheet::pattern::{self, Cleanup, Format};
 use foldwell::sheet::{Assignment, Edge, EdgeKind, Pattern, Sheet, TiledEdge, fold, generate, tile};
@@ -604,25 +605,16 @@ fn all_colours_are_written_as_they_are_read() {
 /// is split on request and refused without; frames are asked for in vain; a scene reads a drawing.
 #[test]
 fn the_program_reads_patterns() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = |words: &str| {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"));
-        let output = command.current_dir(folder.path()).args(words.split(' ')).output().unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
-    };
-    let square = &patterns()[2];
-    std::fs::write(folder.path().join("a.svg"), inkscape(square)).unwrap();
+    let folder = Folder::new().with("a.svg", inkscape(&patterns()[2]));
     let crossed = r#"{"vertices_coords": [[0,0],[1,0],[1,1],[0,1]],
         "edges_vertices": [[0,1],[1,2],[2,3],[3,0],[0,2],[1,3]], "edges_assignment": ["B","B","B","B","M","V"]}"#;
-    std::fs::write(folder.path().join("b.fold"), crossed).unwrap();
+    folder.write("b.fold", crossed);
     for words in
         ["convert a.svg a.fold", "convert a.fold a.stl", "convert a.fold a.cp", "convert b.fold c.fold --split"]
     {
-        let (status, said) = run(words);
-        assert_eq!(status, Some(0), "{words}: {said}");
+        folder.foldwell(words).well();
     }
-    let stl = std::fs::read_to_string(folder.path().join("a.stl")).unwrap();
-    assert_eq!(stl.matches("facet normal 0.0 0.0 1.0").count(), 6);
+    assert_eq!(folder.text("a.stl").matches("facet normal 0.0 0.0 1.0").count(), 6);
     for (words, part) in [
         ("convert b.fold d.fold", "cross or touch"),
         ("info a.svg --frame 1", "this file has no frames"),
@@ -630,15 +622,13 @@ fn the_program_reads_patterns() {
         ("convert a.fold d.vtu --split --frame 3", "there is no frame 3"),
         ("convert a.stl d.fold --split", "expected one of .fold, .svg, .cp or .opx"),
     ] {
-        let (status, said) = run(words);
-        assert!(status == Some(2) && said.contains(part), "{words}: {said}");
+        folder.foldwell(words).refused(part);
     }
     let scene = "[sheet]\nmesh = \"a.svg\"\n[energy]\nbars = { stiffness = 1e4 }\n\
                  creases = { stiffness = 1.0, rest = \"target\", fraction = 0.2 }\n[[study]]\nname = \"r\"\nkind = \"relax\"\n";
-    std::fs::write(folder.path().join("s.toml"), scene).unwrap();
-    assert_eq!(run("run s.toml --quiet"), (Some(0), String::new()));
-    let (status, said) = run("run s.toml --quiet --frame 1");
-    assert!(status == Some(2) && said.contains("a crease pattern of lines has no frames"), "{said}");
+    folder.write("s.toml", scene);
+    assert_eq!(folder.foldwell("run s.toml --quiet").well().err, "");
+    folder.foldwell("run s.toml --quiet --frame 1").refused("a crease pattern of lines has no frames");
 }
 
 /// Claim: states of simulators are read as they are drawn, with their targets: half folded with all angles on the way, and

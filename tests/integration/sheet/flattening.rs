@@ -1,13 +1,11 @@
 //! Unfolding of developable sheets: `foldwell convert --flatten`.
 
+use crate::common::Folder;
 use foldwell::analysis::state::State;
 use foldwell::math::Vec3;
 use foldwell::sheet::generate::{Kresling, MiuraPatch};
 use foldwell::sheet::{Assignment, EdgeKind, NotDevelopable, Sheet, flatten, fold, obj};
 use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
 use crate::sheet::targets::FLAT as WATERBOMB;
 
@@ -79,31 +77,21 @@ fn what_cannot_be_unfolded_is_refused() {
     assert_eq!(flatten(&generate(&Pattern::named("miura").unwrap()).unwrap()), Err(NotDevelopable::Periodic));
 }
 
-fn foldwell(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
-}
-
 /// Claim: the state that a relaxation with rigid bars writes unfolds to the crease pattern from which it was folded, as
 /// FOLD, SVG and CP; without `--flatten` lines of it are refused with this word; what cannot be unfolded makes status 2 and
 /// no file. Tolerance: the bars keep their lengths to 1e-12, ten times that over the sheet, and SVG keeps all digits.
 #[test]
 fn a_relaxed_state_unfolds_to_its_pattern() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name);
     let scene = "[sheet]\nmesh = \"p.fold\"\n[energy]\nbars = { stiffness = inf }\n\
                  creases = { stiffness = 1, rest = \"assigned\", fraction = 0.3 }\n[[study]]\nname = \"r\"\nkind = \"relax\"\n";
-    fs::write(path("p.fold"), WATERBOMB).unwrap();
-    fs::write(path("s.toml"), scene).unwrap();
-    fs::write(path("pyramid.obj"), PYRAMID).unwrap();
-    assert!(foldwell(folder.path(), &["run", "s.toml", "--out", "out", "--quiet"]).status.success());
-    let refused = foldwell(folder.path(), &["convert", "out/r/r_0001.vtu", "q.svg"]);
-    assert!(refused.status.code() == Some(2) && String::from_utf8_lossy(&refused.stderr).contains("--flatten"));
+    let folder = Folder::new().with("p.fold", WATERBOMB).with("pyramid.obj", PYRAMID);
+    folder.scene(scene).program("--quiet").well();
+    folder.foldwell("convert out/r/r_0001.vtu q.svg").refused("--flatten");
     for file in ["q.fold", "q.svg", "q.cp"] {
-        let done = foldwell(folder.path(), &["convert", "out/r/r_0001.vtu", file, "--flatten"]);
-        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        folder.foldwell(&format!("convert out/r/r_0001.vtu {file} --flatten")).well();
         // a round trip through FOLD reads files of lines
-        assert!(foldwell(folder.path(), &["convert", file, "back.fold"]).status.success());
-        let (back, first) = (fold::read(&path("back.fold")).unwrap(), fold::parse(WATERBOMB, "p.fold").unwrap());
+        folder.foldwell(&format!("convert {file} back.fold")).well();
+        let (back, first) = (fold::read(&folder.file("back.fold")).unwrap(), fold::parse(WATERBOMB, "p.fold").unwrap());
         let lengths = |sheet: &Sheet, letter: Assignment| {
             let creases = sheet.edges.iter().filter(|edge| sheet.assignment(edge) == letter);
             let ends = creases.map(|edge| edge.key.ends().map(|end| sheet.position(end)));
@@ -120,10 +108,7 @@ fn a_relaxed_state_unfolds_to_its_pattern() {
             assert!(apart(&back.vertices, &first.vertices) < 1e-11);
         }
     }
-    let refused = foldwell(folder.path(), &["convert", "pyramid.obj", "never.svg", "--flatten"]);
-    assert!(
-        refused.status.code() == Some(2) && String::from_utf8_lossy(&refused.stderr).contains("at vertex 0 sum to")
-    );
-    assert!(!path("never.svg").exists());
-    assert_eq!(foldwell(folder.path(), &["convert", "p.fold", "q.cp", "--flatten", "--split"]).status.code(), Some(2));
+    folder.foldwell("convert pyramid.obj never.svg --flatten").refused("at vertex 0 sum to");
+    assert!(!folder.has("never.svg"));
+    folder.foldwell("convert p.fold q.cp --flatten --split").ends(2);
 }

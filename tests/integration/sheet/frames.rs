@@ -1,20 +1,19 @@
 //! Frames of FOLD files, and what conversions keep of a file: frames, order of edges, other programs' keys, facets.
 
-use foldwell::run::{Ledger, RunOptions, Wanted, convert, info, read_scene, run_scene};
+use crate::common::{Folder, Scene, case_folder};
+use foldwell::run::{Ledger, Progress, Wanted, convert, info, read_scene};
 use foldwell::scene::Setting;
 use foldwell::sheet::{Assignment, EdgeKind, Info, fold};
 use serde_json::Value;
 use std::f64::consts::PI;
-use std::fs;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 
 const FRAMES: &str = include_str!("../../cases/fold/frames.fold");
 const BELOW: &str = include_str!("../../cases/fold/frames-below.fold");
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/fold").join(name)
+    case_folder().join("fold").join(name)
 }
 
 fn drawn_valley(text: &str, frame: Option<usize>) -> f64 {
@@ -79,23 +78,18 @@ fn wrong_frames_are_refused() {
 /// without frames refuse it with status 2.
 #[test]
 fn commands_take_frames() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.fold"), FRAMES).unwrap();
+    let folder = Folder::new().with("a.fold", FRAMES);
     let run = |sheet: &str, frame: Option<usize>| {
         let scene = format!(
             "[sheet]\nmesh = \"a.fold\"\n{sheet}[energy]\nbars = {{ stiffness = 1e3 }}\ncreases = {{ stiffness = 1.0 }}\n\
              [[study]]\nname = \"a\"\nkind = \"relax\"\n"
         );
-        let file = folder.path().join("s.toml");
-        fs::write(&file, scene).unwrap();
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+        let scene = folder.scene(scene);
         let settings: Vec<Setting> = frame.map(Setting::of_frame).into_iter().collect();
-        let scene = read_scene(&file, &settings).unwrap();
-        let summary =
-            foldwell::run::run(&scene, &options, &|_| ControlFlow::Continue(()), &Ledger::default()).unwrap().summary;
-        let table = fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
-        let column = table.lines().next().unwrap().split(',').position(|name| name == "fold_0_2_0_0").unwrap();
-        let angle: f64 = table.lines().nth(1).unwrap().split(',').nth(column).unwrap().parse().unwrap();
+        let file = read_scene(&scene.written(), &settings).unwrap();
+        let go_on = |_: &Progress| ControlFlow::Continue(());
+        let summary = foldwell::run::run(&file, &scene.options(), &go_on, &Ledger::default()).unwrap().summary;
+        let angle = folder.table("out/a.csv").at(0, "fold_0_2_0_0");
         (angle, summary.notes, summary.digest)
     };
     let (angle, notes, first) = run("", None);
@@ -104,38 +98,27 @@ fn commands_take_frames() {
     let (angle, notes, second) = run("frame = 2\n", None);
     assert!((angle - PI / 2.0).abs() < 1e-15 && notes.is_empty() && second != first, "{angle} {notes:?}");
     assert_eq!(run("frame = 2\n", Some(1)).0, PI);
-    assert_eq!(
-        info(&folder.path().join("a.fold"), &Wanted { frame: Some(3), ..Wanted::default() }).unwrap().sheet.vertices,
-        3
-    );
-    assert_eq!(
-        info(&folder.path().join("s.toml"), &Wanted { frame: Some(3), ..Wanted::default() }).unwrap().sheet.vertices,
-        3
-    );
-    convert(&folder.path().join("a.fold"), &folder.path().join("b.obj"), Some(3)).unwrap();
-    let status = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-        let output = command.args(arguments).current_dir(&folder).output().unwrap();
-        (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
-    };
-    for arguments in [&["info", "b.obj", "--frame", "1"][..], &["convert", "b.obj", "c.fold", "--frame", "0"]] {
-        let (code, said) = status(arguments);
-        assert!(code == 2 && said.contains("this file has no frames"), "{said}");
+    for file in ["a.fold", "scene.toml"] {
+        let wanted = Wanted { frame: Some(3), ..Wanted::default() };
+        assert_eq!(info(&folder.file(file), &wanted).unwrap().sheet.vertices, 3);
     }
-    assert!(!folder.path().join("c.fold").exists());
-    assert_eq!(status(&["info", "a.fold", "--frame", "3"]).0, 0);
-    let (code, said) = status(&["convert", "a.fold", "d.fold", "--frame", "4"]);
-    assert!(code == 2 && said.contains("there is no frame 4"), "{said}");
+    convert(&folder.file("a.fold"), &folder.file("b.obj"), Some(3)).unwrap();
+    for words in ["info b.obj --frame 1", "convert b.obj c.fold --frame 0"] {
+        folder.foldwell(words).refused("this file has no frames");
+    }
+    assert!(!folder.has("c.fold"));
+    folder.foldwell("info a.fold --frame 3").well();
+    folder.foldwell("convert a.fold d.fold --frame 4").refused("there is no frame 4");
 }
 
 /// Claim: a finite sheet keeps order and direction of its edges, its letters and target angles, and the keys of other
 /// programs and frames word for word; the result is the same when it is converted again. What cannot be kept is said.
 #[test]
 fn conversion_keeps_the_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let place = |name: &str| folder.path().join(name);
+    let folder = Folder::new();
+    let place = |name: &str| folder.file(name);
     assert_eq!(convert(&path("frames.fold"), &place("b.fold"), None).unwrap(), Vec::<String>::new());
-    let text = fs::read_to_string(place("b.fold")).unwrap();
+    let text = folder.text("b.fold");
     let [before, after]: [Value; 2] = [FRAMES, &text].map(|text| serde_json::from_str(text).unwrap());
     let kept = [
         "file_author",
@@ -156,7 +139,7 @@ fn conversion_keeps_the_file() {
     assert!(text.contains("[1, 2, 3, 4.50]"), "numbers are kept as they are written");
     assert_eq!(after["edges_foldAngle"], serde_json::json!([180.0, 0.0, 0.0, 0.0, 0.0]));
     convert(&place("b.fold"), &place("c.fold"), None).unwrap();
-    assert_eq!(fs::read_to_string(place("c.fold")).unwrap(), text);
+    assert_eq!(folder.text("c.fold"), text);
     // another frame alone is not the file with all of them
     let notes = convert(&path("frames.fold"), &place("d.fold"), Some(1)).unwrap();
     assert_eq!(notes, ["3 other frames in `file_frames` are not kept, only frame 1 is"]);
@@ -165,7 +148,7 @@ fn conversion_keeps_the_file() {
     // edges that are not listed get numbers of their own, so that lists by number have no meaning any more
     let partial =
         FRAMES.replace(",\n[3, 0]\n]", "\n]").replace(", \"B\"],", "],").replace("180, 0, 0, 0, 0", "180, 0, 0, 0");
-    fs::write(place("e.fold"), partial).unwrap();
+    folder.write("e.fold", partial);
     let notes = convert(&place("e.fold"), &place("f.fold"), None).unwrap();
     assert!(notes[1].contains("`faceOrders`") && notes[1].contains("`re:scene`"), "{notes:?}");
 }
@@ -174,16 +157,13 @@ fn conversion_keeps_the_file() {
 /// are joined edges, and a crease that the state has folded over is what the state shows.
 #[test]
 fn facets_and_letters_survive_vtu() {
-    let folder = tempfile::tempdir().unwrap();
-    let place = |name: &str| folder.path().join(name);
-    let scene = format!(
-        "[sheet]\nmesh = {:?}\n[energy]\nbars = {{ stiffness = 1e4 }}\nfacets = {{ stiffness = 10 }}\n\
-         creases = {{ stiffness = 1.0, rest = \"assigned\", fraction = 0.2 }}\n[[study]]\nname = \"a\"\nkind = \"relax\"\n",
-        path("square-twist-rigid.fold")
+    let scene = Scene::on(
+        "mesh = \"cases/fold/square-twist-rigid.fold\"",
+        "[energy]\nbars = { stiffness = 1e4 }\nfacets = { stiffness = 10 }\n\
+         creases = { stiffness = 1.0, rest = \"assigned\", fraction = 0.2 }\n[[study]]\nname = \"a\"\nkind = \"relax\"\n",
     );
-    fs::write(place("s.toml"), scene).unwrap();
-    let options = RunOptions { out: Some(place("out")), ..RunOptions::default() };
-    assert!(run_scene(&place("s.toml"), &options, &|_| ControlFlow::Continue(())).unwrap().summary.converged());
+    let folder = scene.converged().folder;
+    let place = |name: &str| folder.file(name);
     let flat = fold::read(&path("square-twist-rigid.fold")).unwrap();
     for state in ["out/a/a_0000.vtu", "out/a/a_0001.vtu"] {
         convert(&place(state), &place("b.fold"), None).unwrap();

@@ -1,13 +1,12 @@
 //! Files of meshes that are drawn with an error, come from other programs in an unusual form, or are made to do harm; and
 //! the names of files that are written.
 
-use crate::common::Numbers;
+use crate::common::{Folder, Numbers, Scene, mesh_folder};
 use foldwell::sheet::pattern::{self, Format};
 use foldwell::sheet::{Assignment, Info, Sheet};
 use std::fmt::Write;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 /// Lines along each side of the squares that are drawn, and the side of the drawing. Points are merged within 1e-4 of it.
 const SQUARES: usize = 4;
@@ -119,18 +118,6 @@ fn type_4_is_what_its_program_means() {
     }
 }
 
-fn foldwell(folder: &Path, words: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
-}
-
-/// Returns what is said by a command that ends with this status.
-fn said(folder: &Path, words: &[&str], status: i32) -> String {
-    let output = foldwell(folder, words);
-    let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
-    assert_eq!(output.status.code(), Some(status), "{words:?}: {text}");
-    text
-}
-
 /// Returns a VTU file of these pieces, each two triangles of a square that is moved by its number times 10.
 fn vtu(pieces: usize) -> String {
     let array = |kind: &str, name: &str, more: &str, numbers: &str| {
@@ -157,26 +144,23 @@ fn vtu(pieces: usize) -> String {
 /// Claim: all pieces of a VTU file are read, as in VTK; a pipe is refused and not waited for, also as a start. Source: counts.
 #[test]
 fn vtu_files_of_several_pieces_and_pipes() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
+    let here = &Folder::new();
     for pieces in 1..4 {
-        fs::write(here.join("a.vtu"), vtu(pieces)).unwrap();
-        let info: serde_json::Value = serde_json::from_str(&said(here, &["info", "a.vtu", "--json"], 0)).unwrap();
+        here.write("a.vtu", vtu(pieces));
+        let info = here.foldwell("info a.vtu --json").well().json();
         let counts = ["vertices", "faces", "pieces"].map(|key| info[key].as_u64().unwrap() as usize);
         assert_eq!(counts, [4 * pieces, 2 * pieces, pieces]);
     }
     if cfg!(unix) {
-        assert!(Command::new("mkfifo").arg(here.join("a.pvd")).status().unwrap().success());
-        assert!(said(here, &["film", "a.pvd"], 2).contains("this is a device or a pipe"));
-        assert!(Command::new("mkfifo").arg(here.join("pipe.vtu")).status().unwrap().success());
-        fs::write(
-            here.join("s.toml"),
-            "[sheet]\ngenerate = { pattern = \"miura\" }\n[energy]\nbars = { stiffness = 1e3 }\n\
-             [[study]]\nname = \"a\"\nkind = \"relax\"\nstart = \"pipe.vtu\"\n",
-        )
-        .unwrap();
-        for words in [&["info", "pipe.vtu"][..], &["convert", "pipe.vtu", "b.fold"], &["run", "s.toml"]] {
-            assert!(said(here, words, 2).contains("this is a device or a pipe"), "{words:?}");
+        let pipe = "this is a device or a pipe";
+        assert!(Command::new("mkfifo").arg(here.file("a.pvd")).status().unwrap().success());
+        here.foldwell("film a.pvd").refused(pipe);
+        assert!(Command::new("mkfifo").arg(here.file("pipe.vtu")).status().unwrap().success());
+        let study = "[[study]]\nname = \"a\"\nkind = \"relax\"\nstart = \"pipe.vtu\"\n";
+        let sheet = "generate = { pattern = \"miura\" }\n[energy]\nbars = { stiffness = 1e3 }";
+        Scene::on(sheet, study).within(here).program("").refused(pipe);
+        for words in ["info pipe.vtu", "convert pipe.vtu b.fold"] {
+            here.foldwell(words).refused(pipe);
         }
     }
 }
@@ -185,20 +169,16 @@ fn vtu_files_of_several_pieces_and_pipes() {
 /// since faces meet in a vertex alone; these are refused for that reason. Source: the file is read back.
 #[test]
 fn vtu_files_of_periodic_cells() {
-    let folder = tempfile::tempdir().unwrap();
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let folder = Folder::new();
     let mut tried = [0, 0];
-    for entry in fs::read_dir(meshes).unwrap() {
+    for entry in fs::read_dir(mesh_folder()).unwrap() {
         let mesh = entry.unwrap().path();
         if mesh.extension().is_none_or(|ending| ending != "fold") {
             continue;
         }
-        let convert = foldwell(folder.path(), &["convert", mesh.to_str().unwrap(), "a.vtu"]);
-        let said = String::from_utf8_lossy(&convert.stderr).into_owned();
-        let read = foldwell(folder.path(), &["info", "a.vtu"]);
-        let reason = String::from_utf8_lossy(&read.stderr).into_owned();
+        let said = folder.program(&["convert", mesh.to_str().unwrap(), "a.vtu"]).err;
         let refused = said.contains("it cannot be read as such");
-        assert_eq!(read.status.code(), Some(if refused { 2 } else { 0 }), "{}: {said}{reason}", mesh.display());
+        let reason = folder.foldwell("info a.vtu").ends(if refused { 2 } else { 0 }).err;
         assert_eq!(reason.contains("separate fans"), said.contains("separate fans"), "{}: {said}", mesh.display());
         tried[usize::from(refused)] += usize::from(said.contains("is written as a finite sheet"));
     }
@@ -230,26 +210,23 @@ fn entities_do_not_make_short_files_long() {
 /// summary of a run, and the format of a pattern is that of the ending. A study without branches says so.
 #[test]
 fn outputs_have_their_endings() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
+    let here = &Folder::new();
     let scene = "[sheet]\ngenerate = { pattern = \"miura\" }\ncells = [2, 2]\n[energy]\nbars = { stiffness = 1e3 }\n\
                  creases = { stiffness = 1.0, rest = \"flat\" }\n[[study]]\nname = \"a\"\nkind = \"relax\"\n";
-    fs::write(here.join("s.toml"), scene).unwrap();
-    said(here, &["run", "s.toml", "--out", "out"], 0);
-    let kept = ["s.toml", "out/summary.json", "out/a.csv"].map(|file| (file, fs::read(here.join(file)).unwrap()));
-    for (file, content) in &kept {
-        assert!(said(here, &["view", "out", "-o", file], 2).contains("expected one of .html"), "{file}");
-        assert!(said(here, &["new", "miura", "-o", file], 2).contains("expected one of .fold"), "{file}");
-        assert_eq!(&fs::read(here.join(file)).unwrap(), content);
+    here.scene(scene).program("").well();
+    for file in ["scene.toml", "out/summary.json", "out/a.csv"] {
+        let content = here.bytes(file);
+        here.foldwell(&format!("view out -o {file}")).refused("expected one of .html");
+        here.foldwell(&format!("new miura -o {file}")).refused("expected one of .fold");
+        assert_eq!(here.bytes(file), content);
     }
     for ending in ["fold", "obj", "vtu"] {
         let file = format!("x.{ending}");
-        said(here, &["new", "miura", "-o", &file], 0);
-        assert!(said(here, &["info", &file], 0).contains("of 4 polygons") || ending == "vtu");
+        here.foldwell(&format!("new miura -o {file}")).well();
+        assert!(here.foldwell(&format!("info {file}")).well().out.contains("of 4 polygons") || ending == "vtu");
     }
-    said(here, &["view", "out", "-o", "page.html"], 0);
-    let none = said(here, &["film", "out/a.pvd", "--branch", "9"], 2);
-    assert!(none.contains("this study has no branches; leave out --branch"), "{none}");
+    here.foldwell("view out -o page.html").well();
+    here.foldwell("film out/a.pvd --branch 9").refused("this study has no branches; leave out --branch");
 }
 
 /// Claim: help that cannot be written is a failure of the place, status 3, as all other output is.
@@ -258,8 +235,7 @@ fn outputs_have_their_endings() {
 fn help_needs_a_place_too() {
     for words in ["--help", "--version", "run --help", "schema"] {
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let mut command = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-        let status = command.args(words.split(' ')).stdout(full).stderr(std::process::Stdio::null()).status().unwrap();
+        let status = Folder::new().command(&words.split(' ').collect::<Vec<_>>()).stdout(full).status().unwrap();
         assert_eq!(status.code(), Some(3), "{words}");
     }
 }

@@ -2,14 +2,11 @@
 //! the rest angles that follow from them and from letters.
 
 use std::f64::consts::PI;
-use std::fs;
-use std::process::Command;
 
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::scene::{SceneError, build, parse};
+use crate::common::Scene;
+use foldwell::scene::SceneError;
 use foldwell::sheet::{Assignment, Info, Sheet, fold, obj};
 use foldwell::{Assembly, Rest};
-use std::ops::ControlFlow;
 
 /// A half-folded sheet as Origami Simulator exports it: drawn at 109.84 degrees with 6 digits, target 180.
 pub(crate) const HALF_FOLDED: &str = include_str!("../../cases/fold/simulator-half-folded.fold");
@@ -136,15 +133,12 @@ fn targets_come_back() {
 }
 
 fn assembly(mesh: &str, energy: &str) -> Result<Assembly, String> {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.fold"), mesh).unwrap();
     let scene = format!("[sheet]\nmesh = \"a.fold\"\n[energy]\nbars = {{ stiffness = 1e4 }}\n{energy}\n");
     let said = |error: SceneError| {
         let help = miette::Diagnostic::help(&error).map(|help| help.to_string());
         format!("{error}; {}", help.unwrap_or_default())
     };
-    let file = parse(&scene, folder.path().join("s.toml")).map_err(said)?;
-    build::assembly(&file).map_err(said)
+    Scene::new(scene).with("a.fold", mesh).assembled().map(|(_, assembly)| assembly).map_err(said)
 }
 
 /// Returns the rest angles of the creases, by the ends of their edges.
@@ -225,26 +219,21 @@ fn wrong_rest_angles_are_refused() {
 /// the summary; where targets are used nothing is said.
 #[test]
 fn remarks_are_made() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.fold"), FLAT).unwrap();
-    let notes = |rest: &str| {
+    let scene = |rest: &str| {
         let scene = format!(
             "[sheet]\nmesh = \"a.fold\"\n[energy]\nbars = {{ stiffness = 1e4 }}\ncreases = {{ stiffness = 1.0, rest = {rest} }}\n\
              [[study]]\nname = \"a\"\nkind = \"modes\"\n"
         );
-        let path = folder.path().join("s.toml");
-        fs::write(&path, scene).unwrap();
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-        run_scene(&path, &options, &|_| ControlFlow::Continue(())).unwrap().summary.notes
+        Scene::new(scene).with("a.fold", FLAT)
     };
+    let notes = |rest: &str| scene(rest).ran().report.summary.notes;
     let said = notes("0.3");
     assert!(said[0].contains("one angle for 2 mountains and 4 valleys") && said[0].contains("{ M = -0.3, V = 0.3 }"));
     assert!(said[1].contains("6 fold angles of the file differ from the drawn ones; rest = \"target\" uses them"));
     assert_eq!((said.len(), notes("\"target\"").len(), notes("\"assigned\"").len()), (2, 0, 1));
-    let told =
-        Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(&folder).args(["run", "s.toml"]).output().unwrap();
-    assert!(String::from_utf8_lossy(&told.stderr).contains("note: 6 fold angles"), "{told:?}");
-    let summary = fs::read_to_string(folder.path().join("s/summary.json")).unwrap();
+    let told = scene("\"assigned\"").program("");
+    assert!(told.err.contains("note: 6 fold angles"), "{told:?}");
+    let summary = told.folder.text("summary.json");
     assert!(summary.contains("6 fold angles of the file"), "{summary}");
 }
 

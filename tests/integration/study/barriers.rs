@@ -1,29 +1,12 @@
 //! Barriers of structures whose wells exist only at their stiffness of bars, and random starts that fail.
 
+use crate::common::{Folder, Scene};
 use approx::assert_relative_eq;
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::study::wells::WellsSummary;
-use foldwell::study::{StudyResult, StudySummary};
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::PathBuf;
 
-/// Returns the study of wells of a mesh in `tests/cases`, its results, and its table of barriers.
-fn wells(mesh: &str, sheet: &str, energy: &str, study: &str) -> (StudySummary, WellsSummary, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let cases = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases").display().to_string();
-    let energy = energy.replace("CASES", &cases);
-    let text = format!(
-        "[sheet]\nmesh = \"{cases}/{mesh}.fold\"\n{sheet}\n[energy]\n{energy}\n[[study]]\nname = \"a\"\nkind = \"wells\"\n\
-         draw = []\n{study}\n"
-    );
-    let scene = folder.path().join("scene.toml");
-    fs::write(&scene, text).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let summary = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies.remove(0);
-    let table = fs::read_to_string(folder.path().join("out/a-barriers.csv")).unwrap();
-    let Some(StudyResult::Wells(found)) = summary.result.clone() else { panic!("{summary:?}") };
-    (summary, found, table)
+/// Returns a scene with a study `a` of wells of a mesh in `tests/cases`.
+fn wells(mesh: &str, sheet: &str, energy: &str, study: &str) -> Scene {
+    let study = format!("[energy]\n{energy}\n[[study]]\nname = \"a\"\nkind = \"wells\"\ndraw = []\n{study}");
+    Scene::on(&format!("mesh = \"cases/{mesh}.fold\"\n{sheet}"), &study)
 }
 
 /// Claim: whether a barrier is found does not depend on the unit of energy. A closed drum of two hexagons and twelve
@@ -35,8 +18,8 @@ fn wells(mesh: &str, sheet: &str, energy: &str, study: &str) -> (StudySummary, W
 fn barriers_in_any_unit_of_energy() {
     for unit in [1.0, 1e-6] {
         let energy = format!("bars = {{ stiffness = {unit:e} }}\ncreases = {{ stiffness = {:e} }}", 1e-6 * unit);
-        let (study, found, _) = wells("drum", "", &energy, "starts = 40\nseed = 11\nbarriers = [[0, 1]]");
-        assert!(study.converged, "{unit:e}: {:?}", study.reason);
+        let ran = wells("drum", "", &energy, "starts = 40\nseed = 11\nbarriers = [[0, 1]]").converged();
+        let found = ran.wells("a");
         let barrier = &found.barriers[0];
         assert!(barrier.confirmed && barrier.bars == Some(unit) && barrier.joins.is_some(), "{barrier:?}");
         assert_relative_eq!(barrier.energy.unwrap() / unit, 8.219153e-5, max_relative = 1e-7);
@@ -48,10 +31,10 @@ fn barriers_in_any_unit_of_energy() {
 /// table.
 #[test]
 fn barriers_at_the_own_stiffness() {
-    let energy = "bars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0, rest = { file = \"CASES/twist-rest.csv\" } }\n\
+    let energy = "bars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0, rest = { file = \"cases/twist-rest.csv\" } }\n\
         facets = { stiffness = 10.0 }";
-    let (study, found, table) = wells("twist", "", energy, "starts = 64\nbarriers = [[0, 1]]");
-    assert!(study.converged, "{:?}", study.reason);
+    let ran = wells("twist", "", energy, "starts = 64\nbarriers = [[0, 1]]").converged();
+    let (found, table) = (ran.wells("a"), ran.out.text("a-barriers.csv"));
     let barrier = &found.barriers[0];
     assert!(barrier.confirmed && !barrier.singular && barrier.residual.unwrap() <= 1e-11, "{barrier:?}");
     assert_eq!((barrier.bars, barrier.path_bars), (Some(1e4), Some(1e4)));
@@ -66,8 +49,8 @@ fn barriers_at_the_own_stiffness() {
 fn pyramids_go_through() {
     let pins: String = (0..4).map(|vertex| format!("[[pin]]\nvertex = {vertex}\n")).collect();
     let energy = format!("bars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 0.02 }}\n{pins}");
-    let (study, found, _) = wells("high-pyramid", "", &energy, "starts = 1000\nbarriers = [[0, 1], [0, 2], [0, 3]]");
-    assert!(study.converged, "{:?}", study.reason);
+    let ran = wells("high-pyramid", "", &energy, "starts = 1000\nbarriers = [[0, 1], [0, 2], [0, 3]]").converged();
+    let found = ran.wells("a");
     assert!(found.barriers.iter().all(|barrier| barrier.confirmed && barrier.joins.is_some()), "{:?}", found.barriers);
     assert!(!found.wells[1].self_intersecting && found.wells[2].self_intersecting);
     assert_relative_eq!(found.barriers[0].energy.unwrap(), 0.912_452_206_5, max_relative = 1e-10);
@@ -79,8 +62,8 @@ fn pyramids_go_through() {
 #[test]
 fn steep_passes() {
     let energy = "bars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-8 }";
-    let (study, found, _) = wells("drum", "", energy, "starts = 40\nseed = 11\nbarriers = [[0, 1]]");
-    assert!(study.converged, "{:?}", study.reason);
+    let ran = wells("drum", "", energy, "starts = 40\nseed = 11\nbarriers = [[0, 1]]").converged();
+    let found = ran.wells("a");
     let barrier = &found.barriers[0];
     assert!(barrier.confirmed && barrier.joins.is_some_and(|[a, b]| a != b), "{barrier:?}");
     // the derivative of the energy by the stiffness of the creases is their energy divided by it, to second order in
@@ -93,10 +76,10 @@ fn steep_passes() {
 /// bent path finds the pass next to it: the square twist with bars of 1.5e4.
 #[test]
 fn paths_leave_ridges() {
-    let energy = "bars = { stiffness = 1.5e4 }\ncreases = { stiffness = 1.0, rest = { file = \"CASES/twist-rest.csv\" } }\n\
+    let energy = "bars = { stiffness = 1.5e4 }\ncreases = { stiffness = 1.0, rest = { file = \"cases/twist-rest.csv\" } }\n\
         facets = { stiffness = 10.0 }";
-    let (study, found, _) = wells("twist", "", energy, "starts = 200\nbarriers = [[0, 1]]");
-    assert!(study.converged, "{:?}", study.reason);
+    let ran = wells("twist", "", energy, "starts = 200\nbarriers = [[0, 1]]").converged();
+    let found = ran.wells("a");
     let barrier = &found.barriers[0];
     assert!(barrier.confirmed && barrier.bars == Some(1.5e4), "{barrier:?}");
     assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
@@ -108,23 +91,17 @@ fn paths_leave_ridges() {
 /// eigenvalue: a relaxation from the file of the pass takes no step, and its inertia and the spectrum there say so.
 #[test]
 fn passes_of_the_scene_itself() {
-    let folder = tempfile::tempdir().unwrap();
-    let cases = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases").display().to_string();
+    let folder = Folder::new();
     let mut confirmed = 0;
     for stiffness in [1e4, 1.5e4, 2e4, 5e4, 1e5] {
         let sheet = format!(
-            "[sheet]\nmesh = \"{cases}/twist.fold\"\n[energy]\nbars = {{ stiffness = {stiffness:e} }}\n\
-             creases = {{ stiffness = 1.0, rest = {{ file = \"{cases}/twist-rest.csv\" }} }}\nfacets = {{ stiffness = 10.0 }}\n"
+            "[sheet]\nmesh = \"cases/twist.fold\"\n[energy]\nbars = {{ stiffness = {stiffness:e} }}\n\
+             creases = {{ stiffness = 1.0, rest = {{ file = \"cases/twist-rest.csv\" }} }}\nfacets = {{ stiffness = 10.0 }}\n"
         );
-        let run = |name: &str, studies: &str| {
-            let scene = folder.path().join(format!("{name}.toml"));
-            fs::write(&scene, format!("{sheet}{studies}")).unwrap();
-            let options = RunOptions { out: Some(folder.path().join(name)), ..RunOptions::default() };
-            run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies
-        };
+        let run = |name: String, studies: &str| folder.scene(format!("{sheet}{studies}")).named(&name).out(&name).ran();
         let asked = "[[study]]\nname = \"w\"\nkind = \"wells\"\ndraw = [\"vtk\"]\nstarts = 64\nbarriers = [[0, 1]]\n";
-        let first = run(&format!("first{stiffness}"), asked).remove(0);
-        let Some(StudyResult::Wells(found)) = first.result else { panic!("wells") };
+        let first = run(format!("first{stiffness}"), asked);
+        let found = first.wells("w");
         let barrier = &found.barriers[0];
         if !barrier.confirmed {
             let reason = barrier.reason.clone().unwrap();
@@ -137,11 +114,8 @@ fn passes_of_the_scene_itself() {
         let again = format!(
             "[[study]]\nname = \"r\"\nkind = \"relax\"\n{start}[[study]]\nname = \"m\"\nkind = \"modes\"\neigenvalues = 12\n{start}"
         );
-        let again = run(&format!("again{stiffness}"), &again);
-        let (Some(StudyResult::Relax(relaxed)), Some(StudyResult::Modes(modes))) = (&again[0].result, &again[1].result)
-        else {
-            panic!("{again:?}")
-        };
+        let again = run(format!("again{stiffness}"), &again);
+        let (relaxed, modes) = (again.relaxed("r"), again.modes("m"));
         assert_eq!((relaxed.iterations, relaxed.negative_eigenvalues), (0, Some(1)), "{stiffness:e}");
         assert_relative_eq!(relaxed.energy.total, barrier.energy.unwrap(), max_relative = 1e-12);
         assert_eq!(modes.eigenvalues.iter().filter(|value| **value < -1e-8).count(), 1, "{:?}", modes.eigenvalues);
@@ -154,7 +128,8 @@ fn passes_of_the_scene_itself() {
 /// fail if crumpled states had to be found as exactly as equilibria.
 #[test]
 fn crumpled_states_need_no_digits() {
-    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1.0), "starts = 10");
+    let ran = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1.0), "starts = 10").ran();
+    let (study, found) = (ran.study("a"), ran.wells("a"));
     assert!(study.converged && found.failed == 0 && found.failures.is_empty(), "{found:?}");
     assert_eq!(found.wells.iter().map(|well| well.reached).sum::<usize>() + found.saddles, 10);
 }
@@ -163,11 +138,12 @@ fn crumpled_states_need_no_digits() {
 /// creases leave directions of almost no stiffness.
 #[test]
 fn failed_starts_are_counted() {
-    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10\nseed = 2");
+    let ran = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10\nseed = 2").ran();
+    let (study, found) = (ran.study("a"), ran.wells("a"));
     let counted: usize = found.failures.iter().map(|one| one.starts).sum();
     assert!(2 * found.failed > found.starts && counted == found.failed && !study.converged, "{found:?}");
     let said = format!("{} of 10 starts failed", found.failed);
-    assert!(study.reason.unwrap().contains(&said) && found.failures.iter().all(|one| !one.reason.is_empty()));
+    assert!(study.reason.as_ref().unwrap().contains(&said) && found.failures.iter().all(|one| !one.reason.is_empty()));
 }
 
 fn eggbox(facets: f64) -> String {

@@ -1,20 +1,12 @@
 //! Results for which nothing was measured: this is reported, and no maximum over an empty set appears as zero.
 
-use foldwell::run::{RunOptions, run_scene};
+use crate::common::{Scene, mesh};
+use foldwell::sheet::{Pattern, fold, generate};
 use serde_json::Value;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 /// Returns the studies in the summary of a scene with the star cell on a screw.
 fn studies(locks: &str, studies: &str) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
-    std::fs::copy(mesh, folder.path().join("cell.fold")).unwrap();
-    let scene = folder.path().join("scene.toml");
-    std::fs::write(&scene, format!("[sheet]\nmesh = \"cell.fold\"\ndomain = \"screw\"\n{locks}{studies}")).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
-    serde_json::from_str::<Value>(&report.summary.to_json()).unwrap()["studies"].take()
+    Scene::on("mesh = \"open-star.fold\"\ndomain = \"screw\"", &format!("{locks}{studies}")).ran().json()
 }
 
 const BRANCHES: &str = "[[study]]\nname = \"b\"\nkind = \"branches\"\n";
@@ -25,8 +17,7 @@ const BOTH: &str = "[[study]]\nname = \"b\"\nkind = \"branches\"\n[[study]]\nnam
 /// locked the star cell has no real branch (theory of the trajectories of one lock), of 2 complex solutions.
 #[test]
 fn residuals_of_nothing_are_null() {
-    let edges = foldwell::sheet::fold::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold"));
-    let keys: Vec<_> = edges.unwrap().edges.iter().map(|edge| edge.key).collect();
+    let keys: Vec<_> = mesh("open-star").edges.iter().map(|edge| edge.key).collect();
     let lock = |k: usize| {
         let key = &keys[k];
         format!("[[lock]]\ncrease = [{}, {}, {}, {}]\n", key.i, key.j, key.shift[0], key.shift[1])
@@ -51,19 +42,9 @@ fn a_continuum_is_not_called_absent() {
     assert!(found[1]["reason"].as_str().unwrap().contains("infinitely many directions"), "{found}");
 }
 
-/// Returns the summary of a scene with a mesh of its own.
+/// Returns the studies in the summary of a scene with a mesh of its own.
 fn run(mesh: &str, text: &str) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("cell.fold"), mesh).unwrap();
-    let scene = folder.path().join("scene.toml");
-    std::fs::write(&scene, text).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
-    serde_json::from_str::<Value>(&report.summary.to_json()).unwrap()["studies"].take()
-}
-
-fn mesh(name: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(name)).unwrap()
+    Scene::new(text).with("cell.fold", mesh).ran().json()
 }
 
 /// Four faces around a vertex, the third of which passes through the first.
@@ -101,10 +82,10 @@ fn a_drawn_state_that_passes_through_itself() {
 #[test]
 fn wells_of_a_part_of_the_rigid_states() {
     let cell = foldwell::sheet::generate::Random { size: [2, 2], seed: 6, ..Default::default() };
-    let cell = foldwell::sheet::generate(&foldwell::sheet::Pattern::Random(cell)).unwrap();
+    let cell = generate(&Pattern::Random(cell)).unwrap();
     let text = "[sheet]\nmesh = \"cell.fold\"\ndomain = \"screw\"\n[energy]\nbars = { stiffness = inf }\n\
         creases = { stiffness = 1.0, rest = \"flat\" }\n[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 4\nrigid = true\ndraw = []\n";
-    let found = run(&foldwell::sheet::fold::write(&cell), text);
+    let found = run(&fold::write(&cell), text);
     let rigid = &found[0]["rigid"];
     assert!(
         !found[0]["wells"].as_array().unwrap().is_empty() && !rigid["wells"].as_array().unwrap().is_empty(),
@@ -124,7 +105,7 @@ fn rigid_wells_of_four_parallelograms() {
         let text = "[sheet]\nmesh = \"cell.fold\"\ndomain = \"screw\"\n[energy]\nbars = { stiffness = inf }\n\
             creases = { stiffness = 1.0, rest = \"flat\" }\nfacets = { stiffness = 1.0 }\n[[study]]\nname = \"w\"\n\
             kind = \"wells\"\nstarts = 4\nrigid = true\nmax_curvature = 0.5\ndraw = []\n";
-        let found = run(&mesh(&format!("{pattern}.fold")), text);
+        let found = run(&fold::write(&mesh(pattern)), text);
         let energy = found[0]["wells"][0]["energy"].as_f64().unwrap();
         let rigid = found[0]["rigid"]["wells"][0].as_f64().unwrap();
         assert!(energy > 1.0 && (energy - rigid).abs() <= 1e-10 * energy, "{pattern}: {energy} {rigid}");
@@ -136,9 +117,9 @@ fn rigid_wells_of_four_parallelograms() {
 #[test]
 fn zero_lines_that_were_not_looked_for() {
     let text = "[sheet]\nmesh = \"cell.fold\"\n[[study]]\nname = \"b\"\nkind = \"bloch\"\ndraw = []\n";
-    let found = run(&mesh("kirigami.fold"), text);
+    let found = run(&fold::write(&mesh("kirigami")), text);
     assert!(found[0]["converged"] == true && found[0]["zero_lines"].is_null(), "{found}");
-    let closed = run(&mesh("open-star.fold"), text);
+    let closed = run(&fold::write(&mesh("open-star")), text);
     assert_eq!(closed[0]["zero_lines"], 1, "{closed}");
 }
 
@@ -151,7 +132,7 @@ fn errors_of_fits_without_spare_samples() {
              creases = {{ stiffness = 1.0 }}\n[[study]]\nname = \"l\"\nkind = \"landscape\"\nmodes = [[1.0, 1.0, 0.0]]\n\
              amplitudes = {amplitudes}\ndraw = []\n"
         );
-        run(&mesh("open-star.fold"), &text)[0]["modes"][0].take()
+        run(&fold::write(&mesh("open-star")), &text)[0]["modes"][0].take()
     };
     let two = landscape("[0.001, 0.002]");
     assert!(two["exponent"].is_number() && two["coefficient"].is_number(), "{two}");
@@ -171,11 +152,5 @@ fn motions_that_no_fold_rate_names() {
     let text = "[sheet]\nmesh = \"cell.fold\"\ndomain = \"torus\"\ncells = [2, 1]\n[energy]\nbars = { stiffness = 1e4 }\n\
         creases = { stiffness = 1.0 }\n[[study]]\nname = \"l\"\nkind = \"landscape\"\nmodes = [{ wave = [1, 0] }]\n\
         amplitudes = [0.01]\n";
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("cell.fold"), islands).unwrap();
-    let scene = folder.path().join("scene.toml");
-    std::fs::write(&scene, text).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let refused = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap_err().to_string();
-    assert!(refused.contains("turn no crease"), "{refused}");
+    Scene::new(text).with("cell.fold", islands).refused("turn no crease");
 }

@@ -1,71 +1,43 @@
 //! The scenes of driven paths that the gallery shows: what each of them is there to show.
 
+use crate::common::{Ran, Scene, Table};
 use foldwell::output::vtk::read_vtu;
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::study::StudyResult;
 use foldwell::study::path::PathSummary;
-use std::collections::HashMap;
-use std::ops::ControlFlow;
-use std::path::PathBuf;
 
 /// A run of a scene of `meshes`, whose only study is a path.
-struct Run {
+struct Path {
+    ran: Ran,
     name: String,
-    result: PathSummary,
-    table: Vec<HashMap<String, String>>,
-    folder: tempfile::TempDir,
+    table: Table,
 }
 
-impl Run {
-    fn of(scene: &str) -> Self {
-        Self::with(scene, &[])
-    }
-
-    /// Runs a scene after replacing words of it.
-    fn with(scene: &str, replaced: &[(&str, &str)]) -> Self {
-        let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::copy(meshes.join("waterbomb-base.fold"), folder.path().join("waterbomb-base.fold")).unwrap();
-        let mut text = std::fs::read_to_string(meshes.join(format!("{scene}.toml"))).unwrap();
-        for (old, new) in replaced {
-            assert!(text.contains(old), "{old}");
-            text = text.replace(old, new);
-        }
-        let file = folder.path().join("s.toml");
-        std::fs::write(&file, text).unwrap();
-        let options = RunOptions { out: Some(folder.path().to_owned()), ..RunOptions::default() };
-        let mut report = run_scene(&file, &options, &|_| ControlFlow::Continue(())).unwrap();
-        let study = report.summary.studies.pop().unwrap();
-        assert!(study.converged, "{:?}", study.reason);
-        let Some(StudyResult::Path(result)) = study.result else { panic!("{scene} is no path") };
-        let text = std::fs::read_to_string(folder.path().join(format!("{}.csv", study.name))).unwrap();
-        let mut lines = text.lines();
-        let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-        let row = |line: &str| {
-            let values = line.split(',').map(str::to_owned);
-            header.iter().map(|name| (*name).to_owned()).zip(values).collect::<HashMap<_, _>>()
-        };
-        let table = lines.map(row).collect();
-        Self { name: study.name, result, table, folder }
+impl Path {
+    fn of(scene: Scene) -> Self {
+        let ran = scene.converged();
+        let name = ran.report.summary.studies[0].name.clone();
+        Self { table: ran.out.table(&format!("{name}.csv")), ran, name }
     }
 
     /// The values of a column on a branch.
     fn column(&self, branch: usize, name: &str) -> Vec<f64> {
-        let rows = self.table.iter().filter(|row| row["branch"] == branch.to_string());
-        rows.map(|row| row[name].parse().unwrap()).collect()
+        let rows = (0..self.table.len()).filter(|&row| self.table.field(row, "branch") == branch.to_string());
+        rows.map(|row| self.table.at(row, name)).collect()
     }
 
     /// Vertices of the state in this row of the table.
     fn vertices(&self, row: usize) -> Vec<[f64; 3]> {
-        let file = self.folder.path().join(&self.name).join(format!("{}_{row:04}.vtu", self.name));
-        let picture = read_vtu(&file).unwrap();
+        let picture = read_vtu(&self.ran.out.file(format!("{0}/{0}_{row:04}.vtu", self.name))).unwrap();
         picture.points.iter().map(|v| [v.x, v.y, v.z]).collect()
+    }
+
+    fn result(&self) -> &PathSummary {
+        self.ran.path(&self.name)
     }
 
     /// Claim: on every branch the work of the drive is the change of the energy, here to 1e-8 of its largest value: the
     /// work is a quadrature of the reaction along the path that refines itself to 1e-9.
     fn works(&self) {
-        for branch in 0..self.result.branches.len() {
+        for branch in 0..self.result().branches.len() {
             let (work, energy) = (self.column(branch, "work"), self.column(branch, "energy_total"));
             let largest = energy.iter().copied().fold(0.0, f64::max);
             for (w, e) in work.iter().zip(&energy) {
@@ -93,8 +65,12 @@ fn sign_changes(values: &[f64]) -> usize {
 #[test]
 fn a_pulled_miura_widens() {
     let runs = [
-        Run::of("miura-pull"),
-        Run::with("miura-pull", &[("stiffness = 10.0", "stiffness = 1e3"), ("stiffness = 1e4", "stiffness = 1e6")]),
+        Path::of(Scene::of("miura-pull")),
+        Path::of(
+            Scene::of("miura-pull")
+                .replaced("stiffness = 10.0", "stiffness = 1e3")
+                .replaced("stiffness = 1e4", "stiffness = 1e6"),
+        ),
     ];
     for (run, [least, most]) in runs.iter().zip([[0.97, 1.03], [0.985, 1.015]]) {
         run.works();
@@ -104,7 +80,7 @@ fn a_pulled_miura_widens() {
 }
 
 /// Strain across of a pulled Miura-ori, and that of cells with rigid faces of the same length.
-fn widened(run: &Run) -> (f64, f64) {
+fn widened(run: &Path) -> (f64, f64) {
     let (fold, sector) = (0.9_f64, std::f64::consts::FRAC_PI_3);
     let step = |fold: f64| 1.0 / (fold.cos() * sector.tan()).hypot(1.0);
     let width = |fold: f64| 9.0 * (1.0 - (fold.sin() * sector.sin()).powi(2)).sqrt() + step(fold);
@@ -129,9 +105,9 @@ fn widened(run: &Run) -> (f64, f64) {
 /// are flat: along y the rows in the middle sag by more than a tenth of their width.
 #[test]
 fn a_bent_miura_is_a_saddle() {
-    let run = Run::of("miura-bend");
+    let run = Path::of(Scene::of("miura-bend"));
     run.works();
-    assert!(run.result.branches[0].stable);
+    assert!(run.result().branches[0].stable);
     let [flat, bent] = [0, run.table.len() - 1].map(|row| run.vertices(row));
     // heights of vertices of the lower layer, off the height of the corners of their line
     let sag = |along: usize, near: [f64; 2]| {
@@ -156,11 +132,11 @@ fn a_bent_miura_is_a_saddle() {
 /// barrier. Source: B. H. Hanna et al., Smart Materials and Structures 23 (2014) 094009. Signs have no tolerance.
 #[test]
 fn a_waterbomb_base_snaps() {
-    let run = Run::of("waterbomb-push");
+    let run = Path::of(Scene::of("waterbomb-push"));
     run.works();
     let (reaction, energy) = (run.column(0, "reaction"), run.column(0, "energy_total"));
     assert_eq!(sign_changes(&reaction[1..]), 2, "{reaction:?}");
-    assert_eq!(run.result.branches[0].events.iter().filter(|event| event.event == "limit-load").count(), 2);
+    assert_eq!(run.result().branches[0].events.iter().filter(|event| event.event == "limit-load").count(), 2);
     let top = (0..energy.len()).max_by(|&a, &b| energy[a].total_cmp(&energy[b])).unwrap();
     let after = energy[top..].iter().copied().fold(f64::INFINITY, f64::min);
     assert!(energy[0] < 1e-12 && after < 0.7 * energy[top] && energy[energy.len() - 1] > after, "{energy:?}");
@@ -172,9 +148,9 @@ fn a_waterbomb_base_snaps() {
 /// are mirror images, so that their extrema agree to the 1e-9 to which they are located.
 #[test]
 fn storeys_snap_one_after_the_other() {
-    let run = Run::of("bellows");
+    let run = Path::of(Scene::of("bellows"));
     run.works();
-    let branches = &run.result.branches;
+    let branches = &run.result().branches;
     assert_eq!(
         branches.iter().map(|branch| branch.end.as_str()).collect::<Vec<_>>(),
         ["arrived", "returned", "returned"]

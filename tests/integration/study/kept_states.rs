@@ -1,6 +1,6 @@
 //! States on the way of a relaxation: `keep_every` of scenes and of the library.
 
-use crate::common::mesh;
+use crate::common::{Scene, mesh};
 use foldwell::analysis::relax::{Method, RelaxOptions, Relaxed, relax_from};
 use foldwell::analysis::state::State;
 use foldwell::kinematics::folding_modes;
@@ -8,10 +8,7 @@ use foldwell::model::{Gauge, Model, TermKind};
 use foldwell::sheet::fold;
 use foldwell::{Assembly, RIGID, Rest};
 use serde_json::Value;
-use std::fs;
 use std::num::NonZeroUsize;
-use std::path::Path;
-use std::process::Command;
 
 use crate::sheet::targets::FLAT as WATERBOMB;
 
@@ -91,29 +88,16 @@ fn a_state_for_each_step() {
     assert_eq!(used, expected, "the ways that the claim names were taken");
 }
 
-fn foldwell(folder: &Path, words: &[&str]) -> std::process::Output {
-    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
-}
-
-/// Runs a relaxation of four by four star cells with these keys; returns the folder, with the run in `out`.
-fn run(keys: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+/// Returns a relaxation of four by four star cells with these keys.
+fn scene(keys: &str) -> Scene {
     let rest = "{ mode = [0.0, 0.1, 0.0], amplitude = 1.0 }";
-    let scene = format!(
-        "[sheet]\nmesh = {mesh:?}\ncells = [4, 4]\n[energy]\nbars = {{ stiffness = inf }}\n\
-         creases = {{ stiffness = 1.0, rest = {rest} }}\n[[study]]\nname = \"r\"\nkind = \"relax\"\n{keys}\n"
-    );
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
-    let said = foldwell(folder.path(), &["run", "s.toml", "--out", "out", "--quiet"]);
-    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
-    folder
-}
-
-fn column(table: &str, name: &str) -> Vec<f64> {
-    let mut lines = table.lines();
-    let at = lines.next().unwrap().split(',').position(|column| column == name).unwrap();
-    lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
+    Scene::on(
+        "mesh = \"open-star.fold\"\ncells = [4, 4]",
+        &format!(
+            "[energy]\nbars = {{ stiffness = inf }}\ncreases = {{ stiffness = 1.0, rest = {rest} }}\n\
+             [[study]]\nname = \"r\"\nkind = \"relax\"\n{keys}"
+        ),
+    )
 }
 
 /// Claim: `keep_every = 2` writes the iterates 0, 2, 4, ... and the last one: as rows of the table with their iterations
@@ -122,42 +106,35 @@ fn column(table: &str, name: &str) -> Vec<f64> {
 /// 1e-12 of a length, at tensions of some hundred torques, 1e-10.
 #[test]
 fn tables_series_pages_and_films_show_the_way() {
-    let folder = run("keep_every = 2\ndraw = [\"vtk\", \"html\"]");
-    let out = folder.path().join("out");
-    let summary: Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
-    let history: Vec<f64> = summary["studies"][0]["history"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|row| row["energy"].as_f64().unwrap())
-        .collect();
+    let ran = scene("keep_every = 2\ndraw = [\"vtk\", \"html\"]").converged();
+    let out = &ran.out;
+    let history: Vec<f64> = ran.relaxed("r").history.iter().map(|row| row.energy).collect();
     let last = history.len() - 1;
     let expected: Vec<usize> = (0..last).step_by(2).chain([last]).collect();
     assert!(last >= 4, "{last} iterations are enough for this test");
 
-    let table = fs::read_to_string(out.join("r.csv")).unwrap();
-    let steps: Vec<usize> = column(&table, "step").iter().map(|&step| step as usize).collect();
+    let table = out.table("r.csv");
+    let steps: Vec<usize> = table.column("step").iter().map(|&step| step as usize).collect();
     assert_eq!(steps, expected);
-    let energies = column(&table, "energy_total");
+    let energies = table.column("energy_total");
     assert!((energies[0] - history[0]).abs() < 1e-12 * history[0]);
     assert!((energies[steps.len() - 1] - history[last]).abs() < 1e-10 * history[last]);
 
-    let series = fs::read_to_string(out.join("r.pvd")).unwrap();
+    let series = out.text("r.pvd");
     let times: Vec<f64> =
         series.split("timestep=\"").skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
     assert_eq!(times, expected.iter().map(|&step| step as f64).collect::<Vec<_>>());
-    let files: Vec<_> = (0..=expected.len()).map(|row| out.join(format!("r/r_{row:04}.vtu")).is_file()).collect();
+    let files: Vec<_> = (0..=expected.len()).map(|row| out.has(format!("r/r_{row:04}.vtu"))).collect();
     assert!(!files[expected.len()] && files[..expected.len()].iter().all(|there| *there));
-    let plain = run("draw = [\"vtk\"]");
-    let end = fs::read(plain.path().join("out/r/r_0001.vtu")).unwrap();
-    assert!(fs::read(out.join(format!("r/r_{:04}.vtu", expected.len() - 1))).unwrap() == end);
+    let end = scene("draw = [\"vtk\"]").converged().out.bytes("r/r_0001.vtu");
+    assert!(out.bytes(format!("r/r_{:04}.vtu", expected.len() - 1)) == end);
 
-    let page = fs::read_to_string(out.join("r.html")).unwrap();
+    let page = out.text("r.html");
     let (_, data) = page.split_once("id=\"data\">").unwrap();
     let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
     assert_eq!(data["studies"][0]["sheet"]["states"].as_array().unwrap().len(), expected.len());
-    assert!(foldwell(folder.path(), &["film", "out/r.pvd", "--size", "100"]).status.success());
-    let mut film = gif::DecodeOptions::new().read_info(fs::File::open(out.join("r.gif")).unwrap()).unwrap();
+    out.foldwell("film r.pvd --size 100").well();
+    let mut film = gif::DecodeOptions::new().read_info(std::fs::File::open(out.file("r.gif")).unwrap()).unwrap();
     let mut frames = 0;
     while film.read_next_frame().unwrap().is_some() {
         frames += 1;
@@ -168,16 +145,11 @@ fn tables_series_pages_and_films_show_the_way() {
 /// Claim: a relaxation that finds no equilibrium shows its way too, up to its last state.
 #[test]
 fn a_way_without_end() {
-    let folder = tempfile::tempdir().unwrap();
     let scene = "[sheet]\ngenerate = { pattern = \"miura\" }\ncells = [2, 2]\n[energy]\nbars = { stiffness = inf }\n\
                  creases = { stiffness = 1.0, rest = \"flat\" }\n[[study]]\nname = \"r\"\nkind = \"relax\"\n\
                  keep_every = 1\ntolerance = 1e-300\n";
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
-    assert_eq!(foldwell(folder.path(), &["run", "s.toml", "--out", "out", "--quiet"]).status.code(), Some(1));
-    let out = folder.path().join("out");
-    let summary: Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
-    let iterations = summary["studies"][0]["history"].as_array().unwrap().len();
-    let table = fs::read_to_string(out.join("r.csv")).unwrap();
+    let out = Scene::new(scene).program("--quiet").ends(1).folder;
+    let iterations = out.studies()[0]["history"].as_array().unwrap().len();
     assert!(iterations > 2);
-    assert_eq!(column(&table, "step"), (0..iterations).map(|step| step as f64).collect::<Vec<_>>());
+    assert_eq!(out.table("r.csv").column("step"), (0..iterations).map(|step| step as f64).collect::<Vec<_>>());
 }

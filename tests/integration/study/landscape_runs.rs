@@ -1,28 +1,16 @@
 //! Runs of landscapes: files, resuming, refusals.
 
-use crate::common;
+use crate::common::{Folder, Scene, mesh};
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::kinematics::folding_modes_with_locked;
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::generate::{Pattern, generate};
 use foldwell::sheet::{Edge, EdgeKind};
-use foldwell::study::{StudyResult, StudySummary};
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 const MAP: &str = "modes = [[1, 1, 0]]\namplitudes = [0.001]\nmap = { amplitude = 0.01, rings = 3 }";
 
-fn scene(folder: &Path, sheet: &str, energy: &str, study: &str) -> PathBuf {
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    for mesh in ["open-star.fold", "star-wave.fold"] {
-        fs::copy(meshes.join(mesh), folder.join(mesh)).unwrap();
-    }
-    let text =
-        format!("[sheet]\n{sheet}\n[energy]\n{energy}\n[[study]]\nname = \"a\"\nkind = \"landscape\"\n{study}\n");
-    fs::write(folder.join("scene.toml"), text).unwrap();
-    folder.join("scene.toml")
+fn scene(sheet: &str, energy: &str, study: &str) -> Scene {
+    let study = format!("[energy]\n{energy}\n[[study]]\nname = \"a\"\nkind = \"landscape\"\n{study}");
+    Scene::on(sheet, &study).threads(1)
 }
 
 const PATCH: &str = "mesh = \"open-star.fold\"\ndomain = \"patch\"\ncells = [3, 3]";
@@ -30,44 +18,30 @@ const TORUS: &str = "mesh = \"star-wave.fold\"\ndomain = \"torus\"\ncells = [5, 
 const RIGID: &str = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0 }";
 const SOFT: &str = "bars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0 }";
 
-fn run(scene: &Path, out: &Path, (threads, resume): (usize, bool), most_steps: usize) -> StudySummary {
-    let options = RunOptions { out: Some(out.into()), threads: Some(threads), resume };
-    let seen = AtomicUsize::new(0);
-    let observer = |_: &_| {
-        let go_on = seen.fetch_add(1, Ordering::Relaxed) < most_steps;
-        if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    };
-    run_scene(scene, &options, &observer).unwrap().summary.studies.remove(0)
-}
-
 /// Claim: a map has a sample for every direction and its zeros on the exact cone; an interrupted map is continued and
 /// ends with the same bytes, also with another number of threads and where its log was damaged.
 #[test]
 fn maps_go_on_where_they_stopped() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene(folder.path(), PATCH, RIGID, MAP);
-    let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
-    let found = run(&scene, &whole, (2, false), usize::MAX);
-    let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
-    let map = landscape.map.unwrap();
-    assert!(found.converged && map.samples == 62 && map.failed == 0);
+    let scene = scene(PATCH, RIGID, MAP);
+    let (whole, parts) = (scene.clone().out("whole").threads(2).converged(), scene.out("parts"));
+    let map = whole.landscape("a").map.as_ref().unwrap();
+    assert!(map.samples == 62 && map.failed == 0);
     assert!(map.cone_points == 192 && map.cone_distance.unwrap() <= 1e-6, "{map:?}");
 
-    let interrupted = run(&scene, &parts, (1, false), 40);
-    assert!(!interrupted.converged);
-    let lines = |folder: &Path| fs::read_to_string(folder.join("a-map.csv")).unwrap().lines().count();
-    let (done, all) = (lines(&parts), lines(&whole));
+    let interrupted = parts.clone().stopped_after(40).ran();
+    assert!(!interrupted.study("a").converged);
+    let (whole, out) = (whole.out, interrupted.out);
+    let [done, all] = [&out, &whole].map(|out| out.text("a-map.csv").lines().count());
     assert!(1 < done && done < all, "{done} of {all}");
     // a sample whose energy was changed, and those after it, are not used
-    let log = parts.join("a.map.jsonl");
-    let kept = fs::read_to_string(&log).unwrap();
+    let kept = out.text("a.map.jsonl");
     let damaged = kept.lines().nth(done / 2).unwrap();
-    fs::write(&log, kept.replace(damaged, &damaged.replacen("e-", "e-1", 1))).unwrap();
+    out.write("a.map.jsonl", kept.replace(damaged, &damaged.replacen("e-", "e-1", 1)));
     assert!(damaged.contains("e-"), "{damaged}");
-    let resumed = run(&scene, &parts, (1, true), usize::MAX);
-    assert!(resumed.converged && !log.exists());
+    parts.resumed().converged();
+    assert!(!out.has("a.map.jsonl"));
     for file in ["a.csv", "a-map.csv", "a.svg", "a-map.svg", "a.pvd", "a/a_map.vtp"] {
-        assert_eq!(fs::read(whole.join(file)).unwrap(), fs::read(parts.join(file)).unwrap(), "{file}");
+        assert_eq!(whole.bytes(file), out.bytes(file), "{file}");
     }
 }
 
@@ -75,35 +49,26 @@ fn maps_go_on_where_they_stopped() {
 /// between was stopped before it began its own.
 #[test]
 fn maps_of_other_scenes_are_not_continued() {
-    let folder = tempfile::tempdir().unwrap();
-    let [fresh, shared] = ["fresh", "shared"].map(|name| folder.path().join(name));
     // the study before the map is the one that is stopped
+    let folder = Folder::new();
     let after_a_relaxation = |energy: &str| {
-        let path = scene(folder.path(), PATCH, energy, MAP);
-        let text = fs::read_to_string(&path).unwrap();
         let relaxed = "[[study]]\nname = \"first\"\nkind = \"relax\"\n[[study]]\nname = \"a\"";
-        fs::write(&path, text.replace("[[study]]\nname = \"a\"", relaxed)).unwrap();
-        path
+        let scene = scene(PATCH, energy, MAP).replaced("[[study]]\nname = \"a\"", relaxed);
+        scene.within(&folder).threads(2)
     };
-    let soft = after_a_relaxation(SOFT);
-    assert!(run(&soft, &shared, (2, false), usize::MAX).converged);
+    after_a_relaxation(SOFT).converged();
     let rigid = after_a_relaxation(RIGID);
-    assert!(!run(&rigid, &shared, (2, false), 0).converged);
-    assert!(run(&rigid, &shared, (2, true), usize::MAX).converged);
-    assert!(run(&rigid, &fresh, (2, false), usize::MAX).converged);
-    let map = |folder: &Path| fs::read_to_string(folder.join("a-map.csv")).unwrap();
-    assert!(map(&shared) == map(&fresh));
+    assert!(!rigid.clone().stopped_after(0).ran().study("first").converged);
+    let map = rigid.clone().resumed().converged().out.text("a-map.csv");
+    assert!(map == rigid.out("fresh").converged().out.text("a-map.csv"));
 }
 
 /// Claim: a wave on a torus is named, relaxed and predicted; its summary gives the wave, and no curvature.
 #[test]
 fn waves_are_named() {
-    let folder = tempfile::tempdir().unwrap();
-    let study = "modes = [{ wave = [2, 3] }]\namplitudes = [0.001, 0.0005]";
-    let found = run(&scene(folder.path(), TORUS, SOFT, study), &folder.path().join("out"), (1, false), usize::MAX);
-    let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
-    let mode = &landscape.modes[0];
-    assert!(found.converged && mode.wave == Some([2, 3]) && mode.mode.is_none() && mode.defect.is_none());
+    let ran = scene(TORUS, SOFT, "modes = [{ wave = [2, 3] }]\namplitudes = [0.001, 0.0005]").converged();
+    let mode = &ran.landscape("a").modes[0];
+    assert!(mode.wave == Some([2, 3]) && mode.mode.is_none() && mode.defect.is_none());
     assert!(abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 0.05), "{mode:?}");
     assert_eq!(mode.samples.iter().map(|sample| sample.amplitude).collect::<Vec<_>>(), [0.0005, 0.001]);
 }
@@ -111,19 +76,16 @@ fn waves_are_named() {
 /// Claim: a mode given by its rates is the same as that given by its curvatures.
 #[test]
 fn modes_by_rates() {
-    let folder = tempfile::tempdir().unwrap();
     let both = "modes = [[1, 1, 0], { rates = \"mode.csv\" }]\namplitudes = [0.001]";
-    let path = scene(folder.path(), PATCH, RIGID, both);
-    let sheet = foldwell::sheet::fold::read(&folder.path().join("open-star.fold")).unwrap();
+    let sheet = mesh("open-star");
     let rates = foldwell::kinematics::folding_modes(&sheet).unwrap().named([1.0, 1.0, 0.0]).unwrap();
     let row = |(edge, rate): (&foldwell::sheet::Edge, &f64)| {
         let key = &edge.key;
         format!("{},{},{},{},{rate:?}\n", key.i, key.j, key.shift[0], key.shift[1])
     };
     let rows: String = sheet.edges.iter().zip(&rates).map(row).collect();
-    fs::write(folder.path().join("mode.csv"), format!("i,j,n1,n2,rate\n{rows}")).unwrap();
-    let found = run(&path, &folder.path().join("out"), (1, false), usize::MAX);
-    let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
+    let ran = scene(PATCH, RIGID, both).with("mode.csv", format!("i,j,n1,n2,rate\n{rows}")).ran();
+    let landscape = ran.landscape("a");
     let [one, other] = [0, 1].map(|k| landscape.modes[k].samples[0].energy.unwrap());
     assert!(abs_diff_eq!(one / other, 1.0, epsilon = 1e-9), "{one:e} {other:e}");
     let tensor = landscape.modes[1].mode.unwrap();
@@ -157,7 +119,7 @@ fn refusals() {
         (PATCH, "bars = { stiffness = 1.0 }", "modes = [[1, 0, 0]]\namplitudes = [0.1]", "bars and creases"),
     ];
     for (sheet, energy, study, expected) in cases {
-        common::assert_refused(|folder| scene(folder, sheet, energy, study), expected);
+        scene(sheet, energy, study).refused(expected);
     }
 }
 
@@ -167,20 +129,18 @@ fn refusals() {
 /// thousandths of the energy at an amplitude of 1e-3 (5.9985 was found; with rounding errors in the fit, 5.773).
 #[test]
 fn rounding_is_not_fitted() {
-    let folder = tempfile::tempdir().unwrap();
-    let along = |mode: &str, amplitudes: &str, out: &str| {
-        let scene = scene(folder.path(), PATCH, RIGID, &format!("modes = [{mode}]\namplitudes = {amplitudes}"));
-        let found = run(&scene, &folder.path().join(out), (1, false), usize::MAX);
-        let Some(StudyResult::Landscape(mut landscape)) = found.result else { panic!("{:?}", found.reason) };
-        (found.converged, found.reason.unwrap_or_default(), landscape.modes.remove(0))
+    let along = |mode: &str, amplitudes: &str| {
+        let ran = scene(PATCH, RIGID, &format!("modes = [{mode}]\namplitudes = {amplitudes}")).ran();
+        let study = ran.study("a");
+        (study.converged, study.reason.clone().unwrap_or_default(), ran.landscape("a").modes[0].clone())
     };
-    for (amplitudes, out) in [("[1e-9, 1e-8]", "noise"), ("[1e-9, 1e-3]", "half")] {
-        let (converged, reason, mode) = along("[1, 1, 0]", amplitudes, out);
+    for amplitudes in ["[1e-9, 1e-8]", "[1e-9, 1e-3]"] {
+        let (converged, reason, mode) = along("[1, 1, 0]", amplitudes);
         assert!(!converged && reason.contains("larger amplitudes"), "{reason}");
         assert_eq!((mode.exponent, mode.coefficient, mode.fit_agrees), (None, None, None));
         assert!(mode.samples[0].below_rounding && mode.below_rounding > 0);
     }
-    let (converged, reason, mode) = along("[1, 0, 0]", "[1e-5, 1e-4, 1e-3]", "cylinder");
+    let (converged, reason, mode) = along("[1, 0, 0]", "[1e-5, 1e-4, 1e-3]");
     assert!(converged, "{reason}");
     assert_eq!((mode.below_rounding, mode.fit_agrees), (1, Some(true)), "{mode:?}");
     assert_abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 5e-3);
@@ -192,39 +152,28 @@ fn rounding_is_not_fitted() {
 /// 4 or 6 to the next order at these amplitudes.
 #[test]
 fn rates_of_facets_name_modes() {
-    let folder = tempfile::tempdir().unwrap();
     let sheet = generate(&Pattern::Eggbox(Default::default())).unwrap();
     let modes = folding_modes_with_locked(&sheet, &[]).unwrap();
     assert_eq!(modes.basis.ncols(), 3);
     let energy = format!("{RIGID}\nfacets = {{ stiffness = 1.0 }}");
     let patch = "generate = { pattern = \"eggbox\" }\ndomain = \"patch\"\ncells = [4, 4]";
     let study = "modes = [{ rates = \"rates.csv\" }]\namplitudes = [0.0005, 0.001, 0.002]";
-    let scene = scene(folder.path(), patch, &energy, study);
-    let write = |rates: &dyn Fn(usize) -> f64, facets: bool| {
+    let scene = |rates: &dyn Fn(usize) -> f64, facets: bool| {
         let rows = sheet.edges.iter().enumerate().filter(|(_, edge)| facets || edge.kind == EdgeKind::Crease);
         let row = |(k, edge): (usize, &Edge)| {
             let [n1, n2] = edge.key.shift;
             format!("{},{},{n1},{n2},{:e}\n", edge.key.i, edge.key.j, rates(k))
         };
         let text = format!("i,j,n1,n2,rate\n{}", rows.map(row).collect::<String>());
-        fs::write(folder.path().join("rates.csv"), text).unwrap();
+        scene(patch, &energy, study).with("rates.csv", text)
     };
     for mode in 0..3 {
-        write(&|k| modes.basis[(k, mode)], true);
-        let found = run(&scene, &folder.path().join(format!("mode-{mode}")), (1, false), usize::MAX);
-        let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
-        let along = &landscape.modes[0];
+        let ran = scene(&|k| modes.basis[(k, mode)], true).ran();
+        let (found, along) = (ran.study("a"), &ran.landscape("a").modes[0]);
         println!("mode {mode}: {:?} {along:?}", found.reason);
         assert!(along.samples.iter().all(|sample| sample.converged), "{:?}", found.reason);
         assert!(along.predicted_coefficient.is_some() && along.fit_agrees != Some(false), "{along:?}");
     }
-    let refused = |expected: &str| {
-        let options = RunOptions { out: Some(folder.path().join("none")), threads: Some(1), ..RunOptions::default() };
-        let error = run_scene(&scene, &options, &|_: &_| ControlFlow::Continue(())).unwrap_err();
-        assert!(error.exit_status() == 2 && error.to_string().contains(expected), "{error}");
-    };
-    write(&|k| modes.basis[(k, 0)], false);
-    refused("of 3 modes open");
-    write(&|_| 0.0, true);
-    refused("all zero");
+    scene(&|k| modes.basis[(k, 0)], false).refused("of 3 modes open");
+    scene(&|_| 0.0, true).refused("all zero");
 }

@@ -1,17 +1,13 @@
 //! Laws of bars and hinges against closed forms, at every stiffness.
 
+use crate::common::Scene;
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
 use foldwell::model::{
     Assembly, Builder, Drive, Driven, GreenLagrange, Law, Length, Ogden, OwnTerm, Site, Spring, Stiffening,
 };
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKind, Sheet, fold};
-use foldwell::study::{StudyResult, StudySummary};
 use foldwell::{Pattern, RIGID, Rest, generate, relax};
 use std::f64::consts::PI;
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 /// Two triangles of sides of length 2 along x, joined there.
 fn hinge() -> Sheet {
@@ -119,18 +115,13 @@ fn rest_angles_do_work_against_laws() {
     }
 }
 
-/// Runs a scene with laws, with these studies; its summary, and the message where it is refused.
-fn run(folder: &Path, law: &str, studies: &str) -> Result<Vec<StudySummary>, String> {
-    let text = format!(
+/// Returns a scene with laws, with these studies.
+fn scene(law: &str, studies: &str) -> Scene {
+    Scene::new(format!(
         "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ncells = [2, 2]\n[energy]\n\
          bars = {{ stiffness = 1e3, law = {{ kind = \"ogden\", exponents = [5.0, 1.0] }} }}\n\
          creases = {{ stiffness = 1.0, rest = \"assigned\", law = {{ {law} }} }}\nfacets = {{ stiffness = 10.0 }}\n{studies}"
-    );
-    let scene = folder.join("scene.toml");
-    fs::write(&scene, text).unwrap();
-    let options = RunOptions { out: Some(folder.join("out")), ..RunOptions::default() };
-    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(()));
-    report.map(|report| report.summary.studies).map_err(|error| error.to_string())
+    ))
 }
 
 /// Claim: a scene with laws that rests folded flat is relaxed, starts again from its file where it is, is driven by its rest angles to an
@@ -138,26 +129,20 @@ fn run(folder: &Path, law: &str, studies: &str) -> Result<Vec<StudySummary>, Str
 /// Tolerance: that of relaxations.
 #[test]
 fn scenes_have_laws() {
-    let folder = tempfile::tempdir().unwrap();
     let studies = "[[drive]]\nname = \"fold\"\nrest = true\nto = 1.0\n[[study]]\nname = \"relaxed\"\nkind = \"relax\"\n\
         [[study]]\nname = \"again\"\nkind = \"relax\"\nstart = \"relaxed\"\n\
         [[study]]\nname = \"path\"\nkind = \"path\"\ndrive = \"fold\"\n\
         [[study]]\nname = \"wells\"\nkind = \"wells\"\nstarts = 8\n";
     let limits = "kind = \"stiffening\", limits = [-2.5, \"140 deg\"]";
-    let found = run(folder.path(), limits, studies).unwrap();
-    assert!(found.iter().all(|study| study.converged), "{found:?}");
-    let relaxed = |study: &StudySummary| match &study.result {
-        Some(StudyResult::Relax(found)) => (found.energy.total, found.iterations),
-        other => panic!("{other:?}"),
-    };
-    let [first, again] = [relaxed(&found[0]), relaxed(&found[1])];
+    let ran = scene(limits, studies).converged();
+    let [first, again] =
+        ["relaxed", "again"].map(|name| (ran.relaxed(name).energy.total, ran.relaxed(name).iterations));
     assert!((first.0 - again.0).abs() <= 1e-10 * first.0 && again.1 == 0, "{first:?} {again:?}");
 }
 
 /// Claim: what needs springs says so by the name of the term, and a law that is none is refused.
 #[test]
 fn laws_are_refused_by_name() {
-    let folder = tempfile::tempdir().unwrap();
     let limits = "kind = \"stiffening\", limits = [-2.5, 2.5]";
     for (law, study, said) in [
         (limits, "kind = \"landscape\"\nmodes = [[1.0, 0.0, 0.0]]\namplitudes = [0.1]", "here is another: bars"),
@@ -165,8 +150,7 @@ fn laws_are_refused_by_name() {
         ("kind = \"stiffening\", limits = [0.5, 2.5]", "kind = \"relax\"", "the limits are 0.5 and 2.5 rad"),
         ("kind = \"stiff\"", "kind = \"relax\"", "unknown word `stiff`"),
     ] {
-        let error = run(folder.path(), law, &format!("[[study]]\nname = \"a\"\n{study}\n")).unwrap_err();
-        assert!(error.contains(said), "{error}");
+        scene(law, &format!("[[study]]\nname = \"a\"\n{study}\n")).refused(said);
     }
 }
 
@@ -176,38 +160,28 @@ fn laws_are_refused_by_name() {
 /// relaxations.
 #[test]
 fn springs_between_vertices() {
-    let folder = tempfile::tempdir().unwrap();
-    let relaxed = |spring: &str| -> Result<_, String> {
-        let text = format!(
+    let scene = |spring: &str| {
+        Scene::new(format!(
             "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ncells = [2, 2]\n\
              [energy]\nbars = {{ stiffness = inf }}\ncreases = {{ stiffness = 1.0 }}\n{spring}\n\
              [[study]]\nname = \"relaxed\"\nkind = \"relax\"\ndraw = []\n"
-        );
-        let scene = folder.path().join("scene.toml");
-        fs::write(&scene, text).unwrap();
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-        let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).map_err(|error| error.to_string())?;
-        let table = fs::read_to_string(folder.path().join("out/relaxed.csv")).unwrap();
-        match &report.summary.studies[0].result {
-            Some(StudyResult::Relax(found)) => Ok((found.energy.clone(), table)),
-            other => panic!("{other:?}"),
-        }
+        ))
     };
     let spring = |stiffness: &str, rest: f64| {
         format!("[[spring]]\nvertices = [[0, 0, 0], [0, 1, 1]]\nstiffness = {stiffness}\nrest = {rest}")
     };
-    let (energy, table) = relaxed(&spring("2.0", 1.0)).unwrap();
+    let ran = scene(&spring("2.0", 1.0)).ran();
+    let energy = &ran.relaxed("relaxed").energy;
     let springs = energy.others["springs"].unwrap();
     assert!(springs > 0.0 && (energy.creases.unwrap() + springs - energy.total).abs() <= 1e-15);
-    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    let last: Vec<&str> = table.lines().last().unwrap().split(',').collect();
-    let column = header.iter().position(|name| *name == "energy_springs").unwrap();
-    assert_eq!(header[column + 1], "energy_total");
-    assert_eq!(last[column].parse::<f64>().unwrap(), springs);
+    let table = ran.out.table("relaxed.csv");
+    assert_eq!(table.header[table.place("energy_springs") + 1], "energy_total");
+    assert_eq!(table.last("energy_springs"), springs);
     // at the distance d that it has reached a rigid spring gives the same creases; a little off it the sum is larger
     let reached = 1.0 + springs.sqrt();
     let at = |distance: f64| {
-        let (energy, _) = relaxed(&spring("inf", distance)).unwrap();
+        let ran = scene(&spring("inf", distance)).ran();
+        let energy = &ran.relaxed("relaxed").energy;
         assert_eq!(energy.others["springs"], Some(0.0));
         energy.creases.unwrap() + (distance - 1.0).powi(2)
     };
@@ -218,7 +192,6 @@ fn springs_between_vertices() {
         ("[[spring]]\nvertices = [0, [0, 2, 0]]\nstiffness = 1.0", "there is no cell [2, 0]"),
         ("[[spring]]\nvertices = [0, 1]\nstiffness = -1.0", "the stiffness is -1"),
     ] {
-        let error = relaxed(wrong).unwrap_err();
-        assert!(error.contains(said), "{error}");
+        scene(wrong).refused(said);
     }
 }

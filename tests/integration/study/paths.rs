@@ -4,74 +4,12 @@
 //! with `l^2 = w^2 + z^2`; the drum of Kresling's pattern, whose bars have the lengths `sqrt(h^2 + 2 - 2 cos t)` and
 //! `sqrt(h^2 + 2 - 2 cos(t - pi/3))` at height `h` and twist `t`, minimised over the twist.
 
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::study::StudyResult;
-use foldwell::study::path::{PathBranchSummary, PathSummary};
-use std::collections::HashMap;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use crate::common::{Ran, Scene};
+use foldwell::study::path::PathBranchSummary;
 
-/// A run of a scene of `meshes`.
-struct Run {
-    folder: tempfile::TempDir,
-    results: HashMap<String, PathSummary>,
-}
-
-impl Run {
-    /// Runs a scene of the repository after replacing words of it.
-    fn of(scene: &str, replaced: &[(&str, &str)]) -> Self {
-        let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
-        let folder = tempfile::tempdir().unwrap();
-        for mesh in ["two-bars.fold", "drum.fold"] {
-            std::fs::copy(meshes.join(mesh), folder.path().join(mesh)).unwrap();
-        }
-        let mut text = std::fs::read_to_string(meshes.join(scene)).unwrap();
-        for (old, new) in replaced {
-            assert!(text.contains(old), "{old}");
-            text = text.replace(old, new);
-        }
-        std::fs::write(folder.path().join("s.toml"), text).unwrap();
-        Self::again(folder)
-    }
-
-    fn again(folder: tempfile::TempDir) -> Self {
-        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-        let report = run_scene(&folder.path().join("s.toml"), &options, &|_| ControlFlow::Continue(())).unwrap();
-        let mut results = HashMap::new();
-        for study in report.summary.studies {
-            assert!(study.converged, "{}: {:?}", study.name, study.reason);
-            if let Some(StudyResult::Path(path)) = study.result {
-                results.insert(study.name, path);
-            }
-        }
-        Self { folder, results }
-    }
-
-    fn branch(&self, study: &str) -> &PathBranchSummary {
-        &self.results[study].branches[0]
-    }
-
-    fn file(&self, name: &str) -> PathBuf {
-        self.folder.path().join("out").join(name)
-    }
-
-    /// Returns the rows of a table by the names of its columns.
-    fn table(&self, study: &str) -> Vec<HashMap<String, String>> {
-        rows(&self.file(&format!("{study}.csv")))
-    }
-}
-
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    let text = std::fs::read_to_string(path).unwrap();
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let row =
-        |line: &str| header.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(str::to_owned)).collect();
-    lines.map(row).collect()
-}
-
-fn number(row: &HashMap<String, String>, column: &str) -> f64 {
-    row[column].parse().unwrap_or(f64::NAN)
+/// Returns the only branch of a path.
+fn branch<'a>(ran: &'a Ran, study: &str) -> &'a PathBranchSummary {
+    &ran.path(study).branches[0]
 }
 
 /// Returns the drives and reactions of the events of a kind.
@@ -93,8 +31,8 @@ fn force(z: f64) -> f64 {
 /// the closed form, and the path arrives. Tolerance: limit points are located to 1e-10; states balance to 1e-12 of the largest force.
 #[test]
 fn two_bars_are_pushed_through() {
-    let run = Run::of("two-bars-push.toml", &[]);
-    let branch = run.branch("pushed");
+    let ran = Scene::of("two-bars-push").converged();
+    let branch = branch(&ran, "pushed");
     assert_eq!(branch.end, "arrived");
     assert!(branch.stable, "a single vertex that is held has no unstable state");
     let found = events(branch, "limit-load");
@@ -103,14 +41,13 @@ fn two_bars_are_pushed_through() {
         assert!((0.3 + drive - side * LIMIT[0]).abs() < 1e-10, "{drive}");
         assert!((reaction + side * LIMIT[1]).abs() < 1e-11, "{reaction}");
     }
-    let table = run.table("pushed");
-    for row in &table {
-        let z = 0.3 + number(row, "drive");
-        assert!((number(row, "reaction") - force(z)).abs() < 1e-11, "{row:?}");
-        assert!((number(row, "work") - number(row, "energy_total")).abs() < 1e-8 * LIMIT[1], "{row:?}");
+    let table = ran.out.table("pushed.csv");
+    for row in 0..table.len() {
+        let at = |column: &str| table.at(row, column);
+        assert!((at("reaction") - force(0.3 + at("drive"))).abs() < 1e-11, "{:?}", table.rows[row]);
+        assert!((at("work") - at("energy_total")).abs() < 1e-8 * LIMIT[1], "{:?}", table.rows[row]);
     }
-    let last = table.last().unwrap();
-    assert!((number(last, "drive") + 0.7).abs() < 1e-12);
+    assert!((table.last("drive") + 0.7).abs() < 1e-12);
 }
 
 /// Claim: two bars under a growing load lose stability at the limit load, are unstable between the two limit points, and
@@ -118,8 +55,8 @@ fn two_bars_are_pushed_through() {
 /// `-dE/dz` and its conjugate is the height's fall.
 #[test]
 fn two_bars_under_a_load_snap_through() {
-    let run = Run::of("two-bars-load.toml", &[]);
-    let branch = run.branch("loaded");
+    let ran = Scene::of("two-bars-load").converged();
+    let branch = branch(&ran, "loaded");
     assert_eq!(branch.end, "arrived");
     assert!(!branch.stable);
     let found = events(branch, "limit-load");
@@ -127,11 +64,11 @@ fn two_bars_under_a_load_snap_through() {
     for ([factor, _], side) in found.iter().zip([1.0, -1.0]) {
         assert!((factor - side * LIMIT[1]).abs() < 1e-11, "{factor}");
     }
-    let table = run.table("loaded");
-    let limits: Vec<usize> = (0..table.len()).filter(|&k| table[k]["event"] == "limit-load").collect();
-    for (k, row) in table.iter().enumerate().filter(|(_, row)| row["event"].is_empty()) {
+    let table = ran.out.table("loaded.csv");
+    let limits: Vec<usize> = (0..table.len()).filter(|&k| table.field(k, "event") == "limit-load").collect();
+    for k in (0..table.len()).filter(|&k| table.field(k, "event").is_empty()) {
         let between = (limits[0]..limits[1]).contains(&k);
-        assert_eq!(row["negative_eigenvalues"], if between { "1" } else { "0" }, "{k}");
+        assert_eq!(table.field(k, "negative_eigenvalues"), if between { "1" } else { "0" }, "{k}");
     }
 }
 
@@ -146,8 +83,8 @@ const SECOND_STATE: f64 = 0.877_968_604 - 1.2;
 /// force is that distance times a stiffness of 0.017, and the energy half of both together.
 #[test]
 fn a_drum_is_crushed() {
-    let run = Run::of("drum-path.toml", &[("to = -0.4", &format!("to = {SECOND_STATE}"))]);
-    let branch = run.branch("crush");
+    let ran = Scene::of("drum-path").replaced("to = -0.4", &format!("to = {SECOND_STATE}")).converged();
+    let branch = branch(&ran, "crush");
     assert_eq!(branch.end, "arrived");
     let found = events(branch, "limit-load");
     assert_eq!(found.len(), 2, "{found:?}");
@@ -155,15 +92,16 @@ fn a_drum_is_crushed() {
         assert!((drive - height).abs() < 1e-10, "{drive} {height}");
         assert!((reaction - force).abs() < 1e-13, "{reaction} {force}");
     }
-    let last = run.table("crush").pop().unwrap();
-    assert!(number(&last, "energy_total").abs() < 1e-16 && number(&last, "reaction").abs() < 1e-10, "{last:?}");
+    let [energy, reaction] = ["energy_total", "reaction"].map(|column| ran.out.table("crush.csv").last(column));
+    assert!(energy.abs() < 1e-16 && reaction.abs() < 1e-10, "{energy} {reaction}");
 }
 
 /// Claim: a path ends exactly at a stop, with an event of its own.
 #[test]
 fn a_path_stops() {
-    let run = Run::of("two-bars-push.toml", &[("max_step = 0.05", "max_step = 0.05\nstop = { arc_length = 0.31 }")]);
-    let branch = run.branch("pushed");
+    let stop = "max_step = 0.05\nstop = { arc_length = 0.31 }";
+    let ran = Scene::of("two-bars-push").replaced("max_step = 0.05", stop).converged();
+    let branch = branch(&ran, "pushed");
     assert_eq!(branch.end, "stop");
     let last = branch.events.last().unwrap();
     assert!(last.event == "stop" && (last.arc_length - 0.31).abs() < 1e-9, "{last:?}");
@@ -174,12 +112,10 @@ fn a_path_stops() {
 #[test]
 fn a_relaxation_starts_from_a_path() {
     let relax = "\n[[study]]\nname = \"released\"\nkind = \"relax\"\nstart = \"crush\"\n";
-    let run = Run::of(
-        "drum-path.toml",
-        &[("to = -0.4", "to = -0.33"), ("max_step = 0.05", &format!("max_step = 0.05{relax}"))],
-    );
-    let last = rows(&run.file("released.csv")).pop().unwrap();
-    assert!(number(&last, "energy_total").abs() < 1e-15, "{last:?}");
+    let scene = Scene::of("drum-path").replaced("to = -0.4", "to = -0.33");
+    let ran = scene.replaced("max_step = 0.05", &format!("max_step = 0.05{relax}")).converged();
+    let energy = ran.out.table("released.csv").last("energy_total");
+    assert!(energy.abs() < 1e-15, "{energy}");
 }
 
 /// Claim: a path goes on from where another one ended: its drive counts from there, and both together do the work of one
@@ -187,50 +123,47 @@ fn a_relaxation_starts_from_a_path() {
 #[test]
 fn a_path_goes_on() {
     let more = "\n[[study]]\nname = \"on\"\nkind = \"path\"\nstart = \"pushed\"\n";
-    let run = Run::of(
-        "two-bars-push.toml",
-        &[("to = -0.7", "to = -0.35"), ("max_step = 0.05", &format!("max_step = 0.05{more}"))],
-    );
-    let (first, second) = (run.table("pushed"), run.table("on"));
-    let [a, b] = [first.last().unwrap(), second.first().unwrap()];
-    assert!(number(b, "drive") == 0.0 && (number(b, "reaction") - number(a, "reaction")).abs() < 1e-12, "{b:?}");
-    let last = second.last().unwrap();
-    assert!((number(last, "reaction") - force(-0.4)).abs() < 1e-11, "{last:?}");
+    let scene = Scene::of("two-bars-push").replaced("to = -0.7", "to = -0.35");
+    let ran = scene.replaced("max_step = 0.05", &format!("max_step = 0.05{more}")).converged();
+    let [first, second] = ["pushed.csv", "on.csv"].map(|name| ran.out.table(name));
+    let begins = second.at(0, "reaction");
+    assert!(second.at(0, "drive") == 0.0 && (begins - first.last("reaction")).abs() < 1e-12, "{begins}");
+    assert!((second.last("reaction") - force(-0.4)).abs() < 1e-11, "{}", second.last("reaction"));
 }
 
 /// Claim: the files of a path are those that its chapter lists: a row for each state, pictures of events and ends with
 /// the numbers of their rows, and the columns in their order.
 #[test]
 fn files_of_a_path() {
-    let run = Run::of("two-bars-push.toml", &[("kind = \"path\"", "kind = \"path\"\ncheck = [\"self-intersection\"]")]);
-    let header = std::fs::read_to_string(run.file("pushed.csv")).unwrap();
+    let check = "kind = \"path\"\ncheck = [\"self-intersection\"]";
+    let ran = Scene::of("two-bars-push").replaced("kind = \"path\"", check).converged();
+    let header = ran.out.text("pushed.csv");
     let expected = "branch,step,arc_length,drive,reaction,work,energy_bars,energy_creases,energy_facets,energy_total,\
                     residual_force,residual_length,negative_eigenvalues,event,self_intersecting,state,fold_0_1_0_0,";
     assert!(header.starts_with(expected), "{header}");
-    let table = run.table("pushed");
-    assert_eq!(table.len(), run.branch("pushed").steps);
-    let numbers: Vec<String> = (0..table.len()).map(|row| row.to_string()).collect();
-    assert!(table.iter().map(|row| &row["state"]).eq(&numbers), "the column `state` numbers the rows");
-    assert_eq!(run.branch("pushed").self_intersecting, Some(false));
-    let series = std::fs::read_to_string(run.file("pushed.pvd")).unwrap();
-    for (row, _) in
-        table.iter().enumerate().filter(|(row, state)| *row + 1 == table.len() || !state["event"].is_empty())
-    {
+    let table = ran.out.table("pushed.csv");
+    assert_eq!(table.len(), branch(&ran, "pushed").steps);
+    assert!((0..table.len()).all(|row| table.field(row, "state") == row.to_string()), "`state` numbers the rows");
+    assert_eq!(branch(&ran, "pushed").self_intersecting, Some(false));
+    let series = ran.out.text("pushed.pvd");
+    let shown = |row: &usize| *row + 1 == table.len() || !table.field(*row, "event").is_empty();
+    for row in (0..table.len()).filter(shown) {
         assert!(series.contains(&format!("timestep=\"{row}.0\"")), "{row}: {series}");
-        assert!(run.file(&format!("pushed/pushed_{row:04}.vtu")).exists(), "{row}");
+        assert!(ran.out.has(format!("pushed/pushed_{row:04}.vtu")), "{row}");
     }
     for picture in ["pushed.svg", "pushed-reaction.svg"] {
-        assert!(run.file(picture).exists(), "{picture}");
+        assert!(ran.out.has(picture), "{picture}");
     }
 }
 
 /// Claim: stiffness is driven to exactly rigid bars, where a state of the truss at rest stays as it is.
 #[test]
 fn stiffness_is_driven_to_rigid() {
-    let drive = [("vertices = \"apex\"\naxis = \"z\"\nto = -0.7", "stiffness = \"bars\"\nto = inf")];
-    let run = Run::of("two-bars-push.toml", &drive);
-    let branch = run.branch("pushed");
+    let [old, new] = ["vertices = \"apex\"\naxis = \"z\"\nto = -0.7", "stiffness = \"bars\"\nto = inf"];
+    let ran = Scene::of("two-bars-push").replaced(old, new).converged();
+    let branch = branch(&ran, "pushed");
     assert_eq!((branch.end.as_str(), branch.drive), ("arrived", None));
-    let last = run.table("pushed").pop().unwrap();
-    assert!(last["drive"] == "inf" && number(&last, "energy_total").abs() < 1e-20, "{last:?}");
+    let table = ran.out.table("pushed.csv");
+    let energy = table.last("energy_total");
+    assert!(table.field(table.len() - 1, "drive") == "inf" && energy.abs() < 1e-20, "{energy}");
 }

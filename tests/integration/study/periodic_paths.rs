@@ -4,22 +4,16 @@
 //! ratios, in its plane `-cos^2(g) tan^2(t)` with the sector angle `t`, of bending the opposite (M. Schenk, S. D. Guest,
 //! PNAS 110, 3276 (2013)); relaxations with the lock held at another angle, which share neither tangents nor steps with a path.
 
-use crate::common::{mesh, turned};
+use crate::common::{Scene, mesh, mesh_folder, turned};
 use foldwell::analysis::path::{PathOptions, PathPoint, follow_path};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Drive, Driven, Gauge};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{build, parse};
 use foldwell::solver::Options;
-use foldwell::study::StudyResult;
-use foldwell::study::path::PathSummary;
 use foldwell::{RIGID, relax};
 use nalgebra::Rotation3;
-use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_3;
-use std::ops::ControlFlow;
-use std::path::Path;
 
 /// The fold angle as drawn of the crease [0, 1, 0, 0], which is locked and driven.
 const DRAWN: f64 = -0.5433931680006628;
@@ -30,8 +24,7 @@ fn rolled(tables: &str) -> Assembly {
         "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"screw\"\ncells = [4, 4]\n[energy]\nbars = {{ stiffness = inf }}\n\
          creases = {{ stiffness = 1.0, rest = {{ mode = [0.0, 0.3, 0.0], amplitude = 1.0 }} }}\n{tables}"
     );
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    build::assembly(&parse(&text, meshes.join("s.toml")).unwrap()).unwrap()
+    build::assembly(&parse(&text, mesh_folder().join("s.toml")).unwrap()).unwrap()
 }
 
 /// The same with one crease locked at an angle.
@@ -113,33 +106,6 @@ fn straight_cells_begin_to_bend() {
     }
 }
 
-/// Runs a scene; returns its paths and tables by study, rows by column.
-fn run(text: &str) -> HashMap<String, (PathSummary, Vec<HashMap<String, f64>>)> {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::copy(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold"),
-        folder.path().join("open-star.fold"),
-    )
-    .unwrap();
-    let scene = folder.path().join("s.toml");
-    std::fs::write(&scene, text).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
-    let mut found = HashMap::new();
-    for study in report.summary.studies {
-        assert!(study.converged, "{}: {:?}", study.name, study.reason);
-        let Some(StudyResult::Path(path)) = study.result else { continue };
-        let table = std::fs::read_to_string(folder.path().join("out").join(format!("{}.csv", study.name))).unwrap();
-        let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-        let header = lines.next().unwrap();
-        let row = |line: Vec<&str>| {
-            header.iter().zip(line).map(|(name, value)| (name.to_string(), value.parse().unwrap_or(f64::NAN))).collect()
-        };
-        found.insert(study.name, (path, lines.map(row).collect()));
-    }
-    found
-}
-
 const MIURA: &str = r#"
 [sheet]
 generate = { pattern = "miura", fold = 0.6 }
@@ -167,12 +133,12 @@ response = "bending"
 /// value.
 #[test]
 fn folding_of_a_miura_ori() {
-    let found = run(MIURA);
-    let (summary, rows) = &found["press"];
-    assert_eq!(summary.branches[0].end, "arrived");
+    let ran = Scene::new(MIURA).converged();
+    assert_eq!(ran.path("press").branches[0].end, "arrived");
+    let table = ran.out.table("press.csv");
     let tan = |angle: f64| (0.5 * angle).tan();
-    for row in rows {
-        let at = |name: &str| row[name];
+    for row in 0..table.len() {
+        let at = |name: &str| table.at(row, name);
         let (zigzag, straight) = (at("fold_0_1_0_0"), at("fold_1_3_0_0"));
         assert!((tan(straight) - FRAC_PI_3.cos() * tan(zigzag)).abs() < 1e-9, "{zigzag} {straight}");
         assert!(at("fold_1_2_0_0").abs() < 1e-9 && at("curvature") == 0.0);
@@ -187,7 +153,7 @@ fn folding_of_a_miura_ori() {
         let torque = 4.0 * (zigzag - 1.2 + (straight - rest) * rate);
         assert!((at("reaction") - torque).abs() < 1e-9, "{} for {torque}", at("reaction"));
     }
-    assert!(rows.len() > 15 && (rows.last().unwrap()["drive"] - 0.3).abs() < 1e-12);
+    assert!(table.len() > 15 && (table.last("drive") - 0.3).abs() < 1e-12);
 }
 
 const CYLINDER: &str = r#"
@@ -227,11 +193,12 @@ start = "full"
 /// of located states; 1e-9 for energies from residuals of 1e-12.
 #[test]
 fn rolling_and_stiffening() {
-    let found = run(CYLINDER);
-    let last = |study: &str| found[study].1.last().unwrap().clone();
-    assert_eq!(found["rolling"].0.branches[0].end, "stop");
-    assert!((last("rolling")["curvature"].abs() - 0.25).abs() < 1e-9, "{}", last("rolling")["curvature"]);
-    assert_eq!(found["rolling"].1[0]["curvature"], 0.0);
+    let ran = Scene::new(CYLINDER).converged();
+    let rolling = ran.out.table("rolling.csv");
+    assert_eq!(ran.path("rolling").branches[0].end, "stop");
+    assert!((rolling.last("curvature").abs() - 0.25).abs() < 1e-9, "{}", rolling.last("curvature"));
+    assert_eq!(rolling.at(0, "curvature"), 0.0);
+    let rigid = ran.out.table("rigid.csv").last("energy_total");
     let relaxed = relax(&rolled("")).unwrap().state.total();
-    assert!((last("rigid")["energy_total"] - relaxed).abs() < 1e-9, "{} for {relaxed}", last("rigid")["energy_total"]);
+    assert!((rigid - relaxed).abs() < 1e-9, "{rigid} for {relaxed}");
 }

@@ -1,7 +1,7 @@
 //! Wells and barriers of sheets that pins hold and loads pull, compared with closed forms, and with those of free sheets
 //! where pins hold no shape.
 
-use crate::common::{self, Testing, on};
+use crate::common::{self, Scene, Testing, case_folder, on};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::wells::barrier::{BarrierError, barrier};
 use foldwell::analysis::wells::merge::{Comparison, Well, wells};
@@ -9,14 +9,8 @@ use foldwell::analysis::wells::placement::free_rigid_motions;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Terms};
-use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{Sheet, fold};
 use foldwell::solver::Options;
-use foldwell::study::StudyResult;
-use foldwell::study::wells::WellsSummary;
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
 
 /// Height of the pyramid as drawn; its base has half diagonals of 1, its bars EA = 1.
 const HEIGHT: f64 = 0.3;
@@ -74,18 +68,6 @@ impl OnAxis {
     }
 }
 
-/// Runs a study of wells; returns its results.
-fn run(folder: &Path, mesh: &str, rest: &str) -> WellsSummary {
-    let scene = folder.join("scene.toml");
-    fs::write(folder.join("mesh.fold"), mesh).unwrap();
-    fs::write(&scene, format!("[sheet]\nmesh = \"mesh.fold\"\n{rest}")).unwrap();
-    let options = RunOptions { out: Some(folder.join("out")), ..RunOptions::default() };
-    let study = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies.remove(0);
-    assert!(study.converged, "{:?}", study.reason);
-    let Some(StudyResult::Wells(found)) = study.result else { panic!("a study of wells") };
-    found
-}
-
 /// Claim: a pinned pyramid that snaps through has two wells and one pass, with the energies of the closed form above,
 /// without a load and with one below the load at which it snaps; the energy is the elastic one less the work of the
 /// load, which the table of states, of elastic energies, does not contain. Source: the energy along the axis, and that
@@ -102,8 +84,8 @@ fn a_pyramid_snaps_through() {
         let pull =
             if load > 0.0 { format!("[[load]]\nvertex = 0\nforce = [0.0, 0.0, {:e}]\n", -load) } else { String::new() };
         let study = "[[study]]\nname = \"a\"\nkind = \"wells\"\nstarts = 100\nbarriers = [[0, 1]]\n";
-        let folder = tempfile::tempdir().unwrap();
-        let found = run(folder.path(), PYRAMID, &format!("{energy}{pull}{study}"));
+        let ran = Scene::on("mesh = \"cases/pyramid.fold\"", &format!("{energy}{pull}{study}")).converged();
+        let found = ran.wells("a");
         let energies: Vec<f64> = found.wells.iter().map(|well| well.energy).collect();
         assert_eq!(energies.len(), 2, "{load}: {energies:?}");
         for (found, expected) in energies.iter().zip(expected) {
@@ -116,10 +98,7 @@ fn a_pyramid_snaps_through() {
         assert_eq!((barrier.bars, barrier.singular), (Some(1.0), false));
         let elastic = OnAxis { creases, load: 0.0 };
         let lowest = if exact.energy(above) < exact.energy(below) { above } else { below };
-        let table = fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
-        let (names, row) = (table.lines().next().unwrap(), table.lines().nth(1).unwrap());
-        let column = names.split(',').position(|name| name == "energy_total").unwrap();
-        let total: f64 = row.split(',').nth(column).unwrap().parse().unwrap();
+        let total = ran.out.table("a.csv").at(0, "energy_total");
         assert!(abs_diff_eq!(total, elastic.energy(lowest), epsilon = 1e-12), "{load}: {total:e}");
     }
 }
@@ -139,8 +118,7 @@ fn reached(assembly: &Assembly, count: usize) -> Vec<Well> {
 /// Tolerance: that of passes, 1e-11 of the forces.
 #[test]
 fn pins_that_hold_no_shape() {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases/drum.fold");
-    let case = on(fold::read(&path).unwrap(), [1, 1], Boundary::Patch);
+    let case = on(fold::read(&case_folder().join("drum.fold")).unwrap(), [1, 1], Boundary::Patch);
     let free = Terms::bars_and_creases(1.0, 1e-6, case.drawn_angles().to_vec());
     let free = Terms { facets: case.facets(f64::INFINITY), ..free };
     let pins = vec![(0, [true; 3]), (1, [true, false, true]), (2, [false, false, true])];
@@ -199,21 +177,16 @@ fn one_shape_in_two_places() {
 /// with what would be right; so are rigid wells of a pinned sheet, since fold angles do not know of pins.
 #[test]
 fn loads_need_pins_that_hold() {
-    let scene = |folder: &Path, more: &str, study: &str| {
-        fs::write(folder.join("mesh.fold"), PYRAMID).unwrap();
-        let path = folder.join("a.toml");
+    let scene = |more: &str, study: &str| {
         let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-3 }";
-        let text = format!(
-            "[sheet]\nmesh = \"mesh.fold\"\n{energy}\n{more}[[study]]\nname = \"a\"\nkind = \"wells\"\n{study}"
-        );
-        fs::write(&path, text).unwrap();
-        path
+        let study = format!("{energy}\n{more}[[study]]\nname = \"a\"\nkind = \"wells\"\n{study}");
+        Scene::on("mesh = \"cases/pyramid.fold\"", &study)
     };
     let pin = |vertex: usize| format!("[[pin]]\nvertex = {vertex}\n");
     let load = "[[load]]\nvertex = 0\nforce = [0.0, 0.0, -1e-3]\n";
     let two = format!("{}{}{load}", pin(1), pin(3));
-    common::assert_refused(|folder| scene(folder, &two, ""), "a sheet that pins hold in place");
-    common::assert_refused(|folder| scene(folder, &pin(1), "rigid = true"), "which pins, parts and loads do not know");
+    scene(&two, "").refused("a sheet that pins hold in place");
+    scene(&pin(1), "rigid = true").refused("which pins, parts and loads do not know");
     let pull = Vec3::new(0.0, 0.0, -1e-3);
     let case = on(parse(PYRAMID), [1, 1], Boundary::Patch);
     let held = |vertices: &[usize]| {

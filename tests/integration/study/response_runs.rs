@@ -1,43 +1,7 @@
 //! Studies of kind `response` as a user runs them: files, summary, starts and refusals.
 
-use crate::common::assert_refused;
+use crate::common::{Scene, Table};
 use foldwell::output::vtk::read_vtu;
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::study::response::ResponseSummary;
-use foldwell::study::{StudyResult, StudySummary};
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-
-fn meshes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes")
-}
-
-/// Runs a scene of `meshes`, or a text beside its meshes, into a folder; returns its studies.
-fn run(scene: &Path, out: &Path) -> Vec<StudySummary> {
-    let options = RunOptions { out: Some(out.to_owned()), ..RunOptions::default() };
-    run_scene(scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies
-}
-
-fn run_text(text: &str) -> (Vec<StudySummary>, tempfile::TempDir) {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("s.toml");
-    std::fs::write(&scene, text).unwrap();
-    (run(&scene, &folder.path().join("out")), folder)
-}
-
-fn response(study: &StudySummary) -> &ResponseSummary {
-    assert!(study.converged, "{:?}", study.reason);
-    let Some(StudyResult::Response(found)) = &study.result else { panic!("{} is no response", study.name) };
-    found
-}
-
-/// Reads a table: its header and its rows, empty fields as NaN.
-fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
-    let text = std::fs::read_to_string(path).unwrap();
-    let mut lines = text.lines();
-    let header = lines.next().unwrap().split(',').map(str::to_owned).collect();
-    (header, lines.map(|line| line.split(',').map(|field| field.parse().unwrap_or(f64::NAN)).collect()).collect())
-}
 
 /// Claim: the scenes of the book give what their chapter says: Miura-ori and the eggbox opposite ratios of the closed
 /// forms in every direction of the table, the reference cell none; every mode is a state whose displacement is its
@@ -45,13 +9,12 @@ fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
 #[test]
 fn scenes_of_the_book() {
     for (scene, cells, expected) in [("miura", 25, -2.043536631715009), ("eggbox", 16, 0.4329769047953801)] {
-        let folder = tempfile::tempdir().unwrap();
-        let studies = run(&meshes().join(format!("{scene}-response.toml")), folder.path());
-        let found = response(&studies[0]);
+        let ran = Scene::of(&format!("{scene}-response")).converged();
+        let (found, out) = (ran.response("elastic"), &ran.out);
         let [in_plane, bending] = [found.poisson.in_plane.unwrap(), found.poisson.bending.unwrap()];
         assert!((in_plane - expected).abs() <= 1e-10 && (in_plane + bending).abs() <= 1e-10, "{in_plane} {bending}");
         assert_eq!((found.poisson.opposite, found.table_rank), (Some(true), 3));
-        assert!(studies[0].error.unwrap() <= 1e-12);
+        assert!(ran.study("elastic").error.unwrap() <= 1e-12);
         let moduli = found.moduli.as_ref().unwrap();
         assert_eq!((moduli.rigid_modes.len(), moduli.softest.len(), &found.no_moduli), (3, 3, &None));
         assert_eq!(moduli.stretching.is_some(), scene == "miura", "rigid bars make them infinite");
@@ -59,32 +22,32 @@ fn scenes_of_the_book() {
             assert!((soft.ratio.unwrap() - soft.stiffness / rigid.stiffness).abs() <= 1e-14);
             assert!(soft.ratio.unwrap() <= 1.0 + 1e-12 && soft.ratio.unwrap() > 0.5);
         }
-        let (header, rows) = table(&folder.path().join("elastic-ratios.csv"));
+        let table = out.table("elastic-ratios.csv");
         assert_eq!(
-            (header.join(","), rows.len()),
+            (table.header.join(","), table.len()),
             ("direction,in_plane,bending,no_in_plane,no_bending".to_owned(), 72)
         );
-        for row in &rows {
+        for row in table.numbers() {
             let (s, c) = row[0].sin_cos();
             let expected = -(s * s - c * c * in_plane) / (c * c - s * s * in_plane);
             assert!((row[1] - expected).abs() <= 1e-10 * expected.abs().max(1.0), "{row:?} for {expected}");
             assert!((row[1] + row[2]).abs() <= 1e-10 * expected.abs().max(1.0));
         }
-        let (header, rows) = table(&folder.path().join("elastic.csv"));
-        assert_eq!((header.len(), rows.len()), (1 + 6 + 6 + 12, 3));
-        for (mode, row) in found.linear_modes.iter().zip(&rows) {
+        let table = out.table("elastic.csv");
+        assert_eq!((table.header.len(), table.len()), (1 + 6 + 6 + 12, 3));
+        for (mode, row) in found.linear_modes.iter().zip(table.numbers()) {
             assert_eq!(&row[1..7], &[mode.strain, mode.curvature].concat()[..]);
         }
-        let (_, stresses) = table(&folder.path().join("elastic-stresses.csv"));
-        assert_eq!((stresses.len(), stresses[0].len()), (3, 1 + 6 + 24));
+        let stresses = out.table("elastic-stresses.csv");
+        assert_eq!((stresses.len(), stresses.rows[0].len()), (3, 1 + 6 + 24));
         for mode in 0..3 {
-            let picture = read_vtu(&folder.path().join(format!("elastic/elastic_{mode:04}.vtu"))).unwrap();
+            let picture = read_vtu(&out.file(format!("elastic/elastic_{mode:04}.vtu"))).unwrap();
             assert!(picture.points.len() >= 4 * cells, "{} points", picture.points.len());
         }
-        let picture = std::fs::read_to_string(folder.path().join("elastic.svg")).unwrap();
+        let picture = out.text("elastic.svg");
         assert!(picture.contains("mode 2 with curvature [0, 0, 1], drawn"), "rounding is not shown as curvature");
         for file in ["elastic.svg", "elastic-ratios.svg", "elastic.pvd"] {
-            assert!(folder.path().join(file).exists(), "{file}");
+            assert!(out.has(file), "{file}");
         }
     }
 }
@@ -93,18 +56,16 @@ fn scenes_of_the_book() {
 /// that of the relaxed state; the curvature is that of its table.
 #[test]
 fn a_rolled_up_state() {
-    let folder = tempfile::tempdir().unwrap();
-    let studies = run(&meshes().join("star-response.toml"), folder.path());
-    let [periodic, cylinder] = [response(&studies[0]), response(&studies[2])];
+    let ran = Scene::of("star-response").converged();
+    let [periodic, cylinder] = ["periodic", "cylinder"].map(|name| ran.response(name));
     assert_eq!((periodic.linear_modes.len(), periodic.table_rank, periodic.lattice.axis), (3, 3, None));
     assert_eq!((cylinder.linear_modes.len(), cylinder.table_rank), (2, 2));
     assert_eq!(cylinder.no_moduli.as_deref(), Some("the sheet is rolled up"));
     assert!(periodic.moduli.is_none(), "its creases rest elsewhere");
     assert!(cylinder.poisson.in_plane.is_none() && cylinder.poisson.because.contains("rolled up"));
-    let (header, rows) = table(&folder.path().join("rolled.csv"));
-    let last = |name: &str| rows[rows.len() - 1][header.iter().position(|column| column == name).unwrap()];
-    assert!((cylinder.lattice.curvature - last("curvature")).abs() <= 1e-12);
-    assert!((cylinder.lattice.theta[1] - last("theta2")).abs() <= 1e-12);
+    let table = ran.out.table("rolled.csv");
+    assert!((cylinder.lattice.curvature - table.last("curvature")).abs() <= 1e-12);
+    assert!((cylinder.lattice.theta[1] - table.last("theta2")).abs() <= 1e-12);
     let axis = cylinder.lattice.axis.unwrap();
     assert!((axis.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-14);
 }
@@ -117,43 +78,35 @@ fn a_stretched_state() {
                 bars = { stiffness = 50.0 }\ncreases = { stiffness = 1.0, rest = \"flat\" }\nfacets = { stiffness = 5.0 }\n\
                 [[study]]\nname = \"on\"\nkind = \"relax\"\ndraw = []\n\
                 [[study]]\nname = \"there\"\nkind = \"response\"\nstart = \"on\"\ndraw = []\n";
-    let (studies, _folder) = run_text(text);
-    let found = response(&studies[1]);
+    let ran = Scene::new(text).converged();
+    let found = ran.response("there");
     assert_eq!((found.linear_modes.len(), found.poisson.opposite), (3, Some(true)));
     assert!(found.moduli.is_none() && found.no_moduli.as_ref().unwrap().contains("under stress"));
     assert!((found.poisson.in_plane.unwrap() - 0.43297691).abs() > 1e-2, "another state than the drawn one");
-    assert!(studies[1].error.unwrap() <= 1e-12);
+    assert!(ran.study("there").error.unwrap() <= 1e-12);
 }
 
 /// Claim: sheets without a response are refused before anything is computed, with what would be right.
 #[test]
 fn what_has_no_response_is_refused() {
-    let study = "[[study]]\nname = \"a\"\nkind = \"response\"\n";
-    let scene = |sheet: &str, more: &str| {
-        let text = format!("[sheet]\n{sheet}\n{study}{more}");
-        move |folder: &Path| {
-            std::fs::copy(meshes().join("kirigami.fold"), folder.join("kirigami.fold")).unwrap();
-            let path = folder.join("s.toml");
-            std::fs::write(&path, &text).unwrap();
-            path
-        }
+    let refused = |sheet: &str, more: &str, expected: &str| {
+        let study = format!("[[study]]\nname = \"a\"\nkind = \"response\"\n{more}");
+        Scene::on(sheet, &study).refused(expected);
     };
     let miura = "generate = { pattern = \"miura\" }\n";
-    assert_refused(scene(&format!("{miura}domain = \"patch\""), ""), "that of a periodic sheet");
-    assert_refused(scene("mesh = \"kirigami.fold\"\ndomain = \"torus\"", ""), "openings");
+    refused(&format!("{miura}domain = \"patch\""), "", "that of a periodic sheet");
+    refused("mesh = \"kirigami.fold\"\ndomain = \"torus\"", "", "openings");
     let torus = format!("{miura}domain = \"torus\"\ncells = [2, 2]");
-    assert_refused(scene(&torus, "start = { random = 0.1, seed = 1 }\n"), "one cell");
-    assert_refused(scene(&torus, "directions = 0\n"), "the number is 0");
-    assert_refused(scene(&torus, "grid = [2, 2]\n"), "grid");
+    refused(&torus, "start = { random = 0.1, seed = 1 }\n", "one cell");
+    refused(&torus, "directions = 0\n", "the number is 0");
+    refused(&torus, "grid = [2, 2]\n", "grid");
 }
 
 /// Returns the fold angle of a zigzag crease of Miura-ori (which runs in the plane of the sheet, along x and y), and both
 /// ratios, of every row of a table.
-fn ratios_along(path: &Path) -> Vec<[f64; 3]> {
-    let (header, rows) = table(path);
-    let at = |name: &str| header.iter().position(|column| column == name).unwrap();
-    let (zigzag, in_plane, bending) = (at("fold_0_1_0_0"), at("poisson_in_plane"), at("poisson_bending"));
-    rows.iter().map(|row| [row[zigzag], row[in_plane], row[bending]]).collect()
+fn ratios_along(table: &Table) -> Vec<[f64; 3]> {
+    let columns = ["fold_0_1_0_0", "poisson_in_plane", "poisson_bending"];
+    (0..table.len()).map(|row| columns.map(|name| table.at(row, name))).collect()
 }
 
 /// Claim: a trace has both ratios of every state as columns: those of the closed form `-(cos g tan t)^2` with
@@ -162,8 +115,6 @@ fn ratios_along(path: &Path) -> Vec<[f64; 3]> {
 /// singular value.
 #[test]
 fn ratios_along_trajectories() {
-    let folder = tempfile::tempdir().unwrap();
-    run(&meshes().join("miura-poisson.toml"), folder.path());
     let closed = |fold: f64| -((0.5 * fold).cos() * std::f64::consts::FRAC_PI_3.tan()).powi(2);
     let check = |rows: &[[f64; 3]], bends: bool| {
         let mut known = 0;
@@ -179,19 +130,12 @@ fn ratios_along_trajectories() {
         }
         known
     };
-    let trace = ratios_along(&folder.path().join("folding.csv"));
+    let trace = ratios_along(&Scene::of("miura-poisson").ran().out.table("folding.csv"));
     assert!(check(&trace, true) > 50, "{} rows", trace.len());
     let folds = trace.iter().map(|row| row[0].abs());
     assert!(folds.clone().fold(0.0, f64::max) > 2.0 && folds.fold(9.0, f64::min) < 0.3);
-    let text = std::fs::read_to_string(meshes().join("miura-poisson.toml")).unwrap();
-    let (_, folder) = run_text(&text.replace("\"bending\"", "\"rigid\""));
-    assert!(check(&ratios_along(&folder.path().join("out/folding.csv")), false) > 50);
-    let scene = |folder: &Path| {
-        let path = folder.join("s.toml");
-        let text = "[sheet]\ngenerate = { pattern = \"miura-patch\" }\n[[study]]\nname = \"a\"\nkind = \"trace\"\n\
-                    response = \"rigid\"\n";
-        std::fs::write(&path, text).unwrap();
-        path
-    };
-    assert_refused(scene, "one cell of a periodic sheet");
+    let rigid = Scene::of("miura-poisson").replaced("\"bending\"", "\"rigid\"").ran();
+    assert!(check(&ratios_along(&rigid.out.table("folding.csv")), false) > 50);
+    let study = "[[study]]\nname = \"a\"\nkind = \"trace\"\nresponse = \"rigid\"\n";
+    Scene::on("generate = { pattern = \"miura-patch\" }", study).refused("one cell of a periodic sheet");
 }

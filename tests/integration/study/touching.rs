@@ -1,19 +1,13 @@
 //! Folded states whose layers touch: vertices of different faces that stand at one place.
 
-use foldwell::run::{RunOptions, convert, run_scene};
+use crate::common::{Scene, case_folder};
+use foldwell::run::convert;
 use foldwell::sheet::{EdgeKind, Info, Sheet, fold, obj};
 use foldwell::{Assembly, RIGID, Rest, relax};
 use std::f64::consts::PI;
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-
-fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/fold").join(name)
-}
 
 fn read(name: &str) -> Sheet {
-    fold::read(&path(name)).unwrap()
+    fold::read(&case_folder().join("fold").join(name)).unwrap()
 }
 
 /// Claim: vertices of different faces may stand at one place, also in drawings in the plane of a sheet folded flat, and
@@ -63,26 +57,20 @@ fn touching_sheets_relax() {
 /// goes to VTU and back.
 #[test]
 fn touching_layers_do_not_cross() {
-    let folder = tempfile::tempdir().unwrap();
     for name in ["diagonal-folded", "box", "pleat-state"] {
-        let scene = format!(
-            "[sheet]\nmesh = {:?}\n[energy]\nbars = {{ stiffness = 1e4 }}\ncreases = {{ stiffness = 1.0 }}\n\
+        let ran = Scene::on(
+            &format!("mesh = \"cases/fold/{name}.fold\""),
+            "[energy]\nbars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0 }\n\
              [[study]]\nname = \"a\"\nkind = \"relax\"\ncheck = [\"self-intersection\"]\n\
-             [[study]]\nname = \"b\"\nkind = \"modes\"\n",
-            path(&format!("{name}.fold"))
+             [[study]]\nname = \"b\"\nkind = \"modes\"",
         );
-        let file = folder.path().join(format!("{name}.toml"));
-        fs::write(&file, scene).unwrap();
-        let out = folder.path().join(name);
-        let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
-        let report = run_scene(&file, &options, &|_| ControlFlow::Continue(())).unwrap();
-        let text = report.summary.to_json();
-        assert!(report.summary.converged() && text.contains("\"self_intersecting\": false"), "{name}: {text}");
-        let svg = fs::read_to_string(out.join("a.svg")).unwrap();
+        let ran = ran.converged();
+        assert_eq!(ran.json()[0]["self_intersecting"], false, "{name}");
+        let svg = ran.out.text("a.svg");
         assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{name}");
-        let [vtu, back] = ["a/a_0001.vtu", "back.fold"].map(|file| out.join(file));
+        let [vtu, back] = ["a/a_0001.vtu", "back.fold"].map(|file| ran.out.file(file));
         convert(&vtu, &back, None).unwrap();
-        let (sheet, before) = (fold::read(&back).unwrap(), fold::read(&path(&format!("{name}.fold"))).unwrap());
+        let (sheet, before) = (fold::read(&back).unwrap(), read(&format!("{name}.fold")));
         assert_eq!(Info::new(&sheet).touching_vertices, Info::new(&before).touching_vertices);
     }
 }

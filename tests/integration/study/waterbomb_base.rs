@@ -5,15 +5,10 @@
 //! valley at `t` enclose a sector, `cos 45 = sin(-s) sin t + cos s cos t cos 45`; the fold angles follow from the normals of
 //! the faces. Source of the device: B. H. Hanna et al., Smart Materials and Structures 23 (2014) 094009.
 
-use crate::common::ForceCurve;
+use crate::common::{ForceCurve, Ran, Scene};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::math::Vec3;
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::study::StudyResult;
-use foldwell::study::wells::WellsSummary;
 use std::f64::consts::FRAC_PI_4;
-use std::fs;
-use std::ops::ControlFlow;
 
 /// Slope of the mountains in the drawn state, and energy of the flat state and of the second well in that of rigid faces, from
 /// the closed form in 17 digits; the digits of an independent computation are 1.2921304 and 0.6394808.
@@ -51,9 +46,8 @@ fn energy(slope: f64) -> f64 {
     2.0 * ((now[0] - rest[0]).powi(2) + (now[1] - rest[1]).powi(2))
 }
 
-/// Runs studies on the base, its corners on a table, its centre on its axis; returns their results and the folder.
-fn run(bars: &str, studies: &str) -> (Vec<StudyResult>, tempfile::TempDir) {
-    let folder = tempfile::tempdir().unwrap();
+/// Runs the studies of wells and of the path of the base, its corners on a table, its centre on its axis.
+fn run(bars: &str) -> Ran {
     let apex = Vec3::new(0.0, 0.0, SLOPE.sin());
     let points: Vec<[f64; 3]> = std::iter::once(apex)
         .chain(creases(elevations(SLOPE)).map(|along| apex + along))
@@ -61,27 +55,15 @@ fn run(bars: &str, studies: &str) -> (Vec<StudyResult>, tempfile::TempDir) {
         .collect();
     let faces: Vec<[usize; 3]> = (0..8).map(|k| [0, k + 1, (k + 1) % 8 + 1]).collect();
     let mesh = serde_json::json!({ "file_spec": 1.2, "vertices_coords": points, "faces_vertices": faces });
-    fs::write(folder.path().join("base.fold"), mesh.to_string()).unwrap();
     let pins = "[[pin]]\nvertices = [1, 3, 5, 7]\naxes = \"z\"\n[[pin]]\nvertex = 0\naxes = \"xy\"\n";
     let drive = "[[drive]]\nname = \"push\"\nvertices = [0]\naxis = \"z\"\nto = -0.3\n";
-    let text = format!(
-        "[sheet]\nmesh = \"base.fold\"\n[energy]\nbars = {{ stiffness = {bars} }}\ncreases = {{ stiffness = 1.0 }}\n{pins}{drive}{studies}"
-    );
-    let scene = folder.path().join("s.toml");
-    fs::write(&scene, text).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let studies = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies;
-    assert!(studies.iter().all(|study| study.converged), "{studies:?}");
-    (studies.into_iter().filter_map(|study| study.result).collect(), folder)
+    let energy = format!("[energy]\nbars = {{ stiffness = {bars} }}\ncreases = {{ stiffness = 1.0 }}\n");
+    let scene = Scene::on("mesh = \"base.fold\"", &[&energy, pins, drive, WELLS, PATH].concat());
+    scene.with("base.fold", mesh.to_string()).converged()
 }
 
 const WELLS: &str = "[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 32\nspread = 1.5\nbarriers = [[0, 1]]\n";
 const PATH: &str = "[[study]]\nname = \"p\"\nkind = \"path\"\nmax_step = 0.005\ndraw = []\n";
-
-fn wells(results: &[StudyResult]) -> &WellsSummary {
-    let Some(StudyResult::Wells(found)) = results.first() else { panic!("{results:?}") };
-    found
-}
 
 /// Claim: with rigid faces the base has two wells, the drawn state and the inverted one, and the barrier between them is the
 /// flat state, in which branches cross: it is singular, and its energy is the limit of passes in ever stiffer bars. The path of a
@@ -92,8 +74,8 @@ fn wells(results: &[StudyResult]) -> &WellsSummary {
 #[test]
 fn a_rigid_base_passes_the_flat_state() {
     assert!(abs_diff_eq!(energy(1e-9), FLAT, epsilon = 1e-8) && abs_diff_eq!(energy(SLOPE), 0.0, epsilon = 1e-20));
-    let (results, folder) = run("inf", &format!("{WELLS}{PATH}"));
-    let found = wells(&results);
+    let ran = run("inf");
+    let found = ran.wells("w");
     let lowest = (1..4000).map(|k| energy(-1e-4 * f64::from(k))).fold(f64::INFINITY, f64::min);
     assert!(abs_diff_eq!(lowest, SECOND_WELL, epsilon = 1e-7), "{lowest}");
     let energies: Vec<f64> = found.wells.iter().map(|well| well.energy).collect();
@@ -107,7 +89,7 @@ fn a_rigid_base_passes_the_flat_state() {
     let off = (barrier.limit.unwrap() - FLAT).abs();
     assert!(off <= 3e-6 && off <= 5.0 * barrier.limit_error.unwrap() && off > 0.0, "{barrier:?}");
     assert!(abs_diff_eq!(barrier.exponent.unwrap(), 1.0 / 3.0, epsilon = 1e-3));
-    let path = ForceCurve::read(&folder.path().join("out/p.csv"));
+    let path = ForceCurve::of(&ran.out.table("p.csv"));
     assert!(abs_diff_eq!(path.energy_at(-SLOPE.sin()), FLAT, epsilon = 1e-7), "{}", path.energy_at(-SLOPE.sin()));
     let height = |drive: f64| SLOPE.sin() + drive;
     let of_height = |z: f64| energy(z.asin());
@@ -136,9 +118,9 @@ fn a_soft_base_snaps_over_its_pass() {
     let rigid = (energy(f64::asin(near_flat)) - energy(f64::asin(2.0 * near_flat))) / near_flat;
     let mut forces = vec![];
     for bars in ["1e4", "1e6", "1e8"] {
-        let (results, folder) = run(bars, &format!("{WELLS}{PATH}"));
-        let barrier = &wells(&results).barriers[0];
-        let path = ForceCurve::read(&folder.path().join("out/p.csv"));
+        let ran = run(bars);
+        let barrier = &ran.wells("w").barriers[0];
+        let path = ForceCurve::of(&ran.out.table("p.csv"));
         assert!(!barrier.singular && barrier.energy.unwrap() < FLAT);
         assert_relative_eq!(barrier.energy.unwrap(), path.energy_without_force(), max_relative = 1e-6);
         forces.push(path.states.iter().map(|state| -state[1]).fold(0.0, f64::max));

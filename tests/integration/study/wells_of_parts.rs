@@ -4,17 +4,12 @@
 //! `sqrt(h^2 + 2 - 2 cos t)` and `sqrt(h^2 + 2 - 2 cos(t - pi/3))` at height `h` and twist `t`. Its creases are so soft
 //! (1e-12 of the bars) that they change no energy of bars by more than 1e-11.
 
-use crate::common::{ForceCurve, assert_refused};
+use crate::common::{ForceCurve, Ran, Scene};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::math::Vec3;
 use foldwell::output::vtk::read_vtu;
-use foldwell::run::{RunOptions, run_scene};
-use foldwell::study::StudyResult;
 use foldwell::study::wells::WellsSummary;
 use std::f64::consts::FRAC_PI_3;
-use std::fs;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
 
 const HEIGHT: f64 = 1.2;
 const TWIST: f64 = 1.9;
@@ -28,21 +23,14 @@ const UNSTABLE: f64 = 9.354_503_16e-5;
 const PLATES: &str = "[[part]]\nname = \"floor\"\nvertices = \"bottom\"\nfree = []\n\
                       [[part]]\nname = \"lid\"\nvertices = \"top\"\nfree = [\"z\", \"rz\"]\n";
 
-/// Runs a scene with a mesh; returns its folder and the results of its studies.
-fn run_on(folder: tempfile::TempDir, mesh: &str, rest: &str) -> (tempfile::TempDir, Vec<StudyResult>) {
-    fs::write(folder.path().join("mesh.fold"), mesh).unwrap();
-    let scene = folder.path().join("scene.toml");
-    fs::write(&scene, format!("[sheet]\nmesh = \"mesh.fold\"\n{rest}")).unwrap();
-    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
-    let studies = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies;
-    assert!(studies.iter().all(|study| study.converged), "{rest}\n{studies:?}");
-    (folder, studies.into_iter().filter_map(|study| study.result).collect())
+/// Returns a scene of a mesh of `meshes` or `tests/cases`.
+fn on(mesh: &str, rest: &str) -> Scene {
+    Scene::on(&format!("mesh = \"{mesh}\""), rest)
 }
 
-fn wells_in(results: &[StudyResult]) -> &WellsSummary {
-    let found =
-        results.iter().find_map(|result| if let StudyResult::Wells(wells) = result { Some(wells) } else { None });
-    found.expect("the scene has a study of wells")
+/// Returns a scene of a mesh of its own.
+fn on_own(mesh: &serde_json::Value, rest: &str) -> Scene {
+    on("own.fold", rest).with("own.fold", mesh.to_string())
 }
 
 fn energies(found: &WellsSummary) -> Vec<f64> {
@@ -79,8 +67,8 @@ fn stationary(mut at: [f64; 2], stiffness: [f64; 2], load: f64) -> [f64; 2] {
 }
 
 /// Height and twist of the lid in a state of the wells: the first corners of both plates.
-fn height_and_twist(folder: &Path, state: usize) -> [f64; 2] {
-    let points: Vec<Vec3> = read_vtu(&folder.join(format!("out/w/w_{state:04}.vtu"))).unwrap().points;
+fn height_and_twist(ran: &Ran, state: usize) -> [f64; 2] {
+    let points: Vec<Vec3> = read_vtu(&ran.out.file(format!("w/w_{state:04}.vtu"))).unwrap().points;
     let [below, above] = [points[0], points[6]];
     let twist = above.y.atan2(above.x) - below.y.atan2(below.x);
     [above.z - below.z, twist.rem_euclid(std::f64::consts::TAU)]
@@ -98,20 +86,20 @@ fn a_drum_between_plates() {
          part = \"lid\"\naxis = \"z\"\nto = -0.2\n[[study]]\nname = \"w\"\nkind = \"wells\"\nspread = 1.0\n\
          barriers = [[0, 1]]\n[[study]]\nname = \"p\"\nkind = \"path\"\nmax_step = 0.01\n"
     );
-    let (folder, results) = run_on(tempfile::tempdir().unwrap(), &drum_mesh(), &scene);
-    let found = wells_in(&results);
+    let ran = on("drum.fold", &scene).converged();
+    let found = ran.wells("w");
     assert_eq!(found.wells.len(), 2, "{:?}", energies(found));
     assert_eq!((found.failed, found.wells[0].reached + found.wells[1].reached), (0, found.starts));
     assert!(found.wells.iter().all(|well| well.energy.abs() < 1e-11 && !well.self_intersecting), "{:?}", found.wells);
-    let states = [0, 1].map(|well| height_and_twist(folder.path(), well));
+    let states = [0, 1].map(|well| height_and_twist(&ran, well));
     for (state, expected) in states.iter().zip([[HEIGHT, TWIST], SECOND]) {
         assert!((0..2).all(|k| abs_diff_eq!(state[k], expected[k], epsilon = 1e-8)), "{state:?} {expected:?}");
     }
     let pass = found.barriers[0].energy.unwrap();
     assert!(abs_diff_eq!(pass, UNSTABLE, epsilon = 1e-11), "{pass:e}");
-    let path = ForceCurve::read(&folder.path().join("out/p.csv")).energy_without_force();
+    let path = ForceCurve::of(&ran.out.table("p.csv")).energy_without_force();
     assert_relative_eq!(pass, path, max_relative = 1e-8);
-    let unstable = height_and_twist(folder.path(), 2);
+    let unstable = height_and_twist(&ran, 2);
     assert!(abs_diff_eq!(unstable[1], 2.0 * FRAC_PI_3, epsilon = 1e-8), "{unstable:?}");
 }
 
@@ -133,10 +121,8 @@ fn bars_of_two_sorts_and_a_load() {
              [[study]]\nname = \"w\"\nkind = \"wells\"\nspread = 1.0\nbarriers = [[0, 1]]\n",
             if load == 0.0 { "" } else { &pull }
         );
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("bars.csv"), by_sort(stiffness)).unwrap();
-        let (_folder, results) = run_on(folder, &drum_mesh(), &scene);
-        let found = wells_in(&results);
+        let ran = on("drum.fold", &scene).with("bars.csv", by_sort(stiffness)).converged();
+        let found = ran.wells("w");
         let at = |near: [f64; 2]| energy(stationary(near, stiffness, load), stiffness, load);
         let mut expected = [at([HEIGHT, TWIST]), at(SECOND)];
         expected.sort_by(f64::total_cmp);
@@ -154,13 +140,12 @@ fn bars_of_two_sorts_and_a_load() {
 /// base. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces.
 #[test]
 fn a_held_part_is_pinned() {
-    let pyramid = include_str!("../../cases/pyramid.fold");
     let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-4 }\n";
     let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 30\nbarriers = [[0, 1]]\n";
     let held =
         ["[[pin]]\nvertices = [1, 2, 3, 4]\n", "[[part]]\nname = \"base\"\nvertices = [1, 2, 3, 4]\nfree = []\n"];
-    let results = held.map(|held| run_on(tempfile::tempdir().unwrap(), pyramid, &format!("{energy}{held}{study}")).1);
-    let [pinned, part] = [0, 1].map(|k| wells_in(&results[k]));
+    let ran = held.map(|held| on("cases/pyramid.fold", &format!("{energy}{held}{study}")).converged());
+    let [pinned, part] = ran.each_ref().map(|ran| ran.wells("w"));
     assert_eq!((pinned.wells.len(), part.wells.len()), (2, 2));
     for (a, b) in pinned.wells.iter().zip(&part.wells) {
         assert!(a.reached == b.reached && abs_diff_eq!(a.energy, b.energy, epsilon = 1e-12), "{a:?} {b:?}");
@@ -186,9 +171,8 @@ fn guides_are_pins_that_are_turned() {
     let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 30\nbarriers = [[0, 1]]\n";
     let upright = format!("{energy}[[pin]]\nvertex = 0\naxes = \"x\"\n{study}");
     let leaning = format!("{energy}[[pin]]\nvertex = 0\nnormal = [{cos}, 0, {}]\n{study}", -sin);
-    let run = |mesh: &serde_json::Value, scene: &str| run_on(tempfile::tempdir().unwrap(), &mesh.to_string(), scene).1;
-    let (upright, leaning) = (run(&pyramid, &upright), run(&turned, &leaning));
-    let [upright, leaning] = [wells_in(&upright), wells_in(&leaning)];
+    let ran = [on_own(&pyramid, &upright).converged(), on_own(&turned, &leaning).converged()];
+    let [upright, leaning] = ran.each_ref().map(|ran| ran.wells("w"));
     assert_eq!((upright.wells.len(), leaning.wells.len()), (2, 2));
     for (a, b) in energies(upright).iter().zip(energies(leaning)) {
         assert!(abs_diff_eq!(*a, b, epsilon = 1e-12), "{a:e} {b:e}");
@@ -205,10 +189,9 @@ fn free_plates() {
     let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nspread = 1.0\nstarts = 32\nbarriers = [[0, 1]]\n";
     let lid = "[[part]]\nname = \"lid\"\nvertices = \"top\"\n";
     let floor = "[[part]]\nname = \"floor\"\nvertices = \"bottom\"\n";
-    let [free, standing] = ["", "free = []\n"].map(|held| {
-        run_on(tempfile::tempdir().unwrap(), &drum_mesh(), &format!("{energy}{lid}{floor}{held}{study}")).1
-    });
-    let [free, standing] = [wells_in(&free), wells_in(&standing)];
+    let ran =
+        ["", "free = []\n"].map(|held| on("drum.fold", &format!("{energy}{lid}{floor}{held}{study}")).converged());
+    let [free, standing] = ran.each_ref().map(|ran| ran.wells("w"));
     let [a, b] = [free, standing].map(|found| (energies(found), found.barriers[0].energy.unwrap()));
     assert_eq!((a.0.len(), b.0.len()), (2, 2), "{a:?} {b:?}");
     assert!(a.0.iter().zip(&b.0).all(|(a, b)| abs_diff_eq!(*a, *b, epsilon = 1e-12)), "{a:?} {b:?}");
@@ -222,36 +205,35 @@ fn free_plates() {
 fn a_pass_of_parts_starts_again() {
     let energy = format!("[energy]\nbars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 1e-6 }}\n{PLATES}");
     let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 64\nbarriers = [[0, 1]]\n";
-    let (folder, results) = run_on(tempfile::tempdir().unwrap(), &drum_mesh(), &format!("{energy}{study}"));
-    let found = wells_in(&results);
+    let ran = on("drum.fold", &format!("{energy}{study}")).converged();
+    let found = ran.wells("w");
     let pass = found.barriers[0].energy.unwrap();
-    let file = folder.path().join(format!("out/w/w_{:04}.vtu", found.wells.len())).display().to_string();
+    let file = ran.out.file(format!("w/w_{:04}.vtu", found.wells.len())).display().to_string();
     let again = format!(
         "{energy}[[drive]]\nname = \"press\"\npart = \"lid\"\naxis = \"z\"\nto = -0.05\n[[study]]\nname = \"r\"\n\
          kind = \"relax\"\nstart = {file:?}\n[[study]]\nname = \"p\"\nkind = \"path\"\nstart = {file:?}\n"
     );
-    let (folder, results) = run_on(tempfile::tempdir().unwrap(), &drum_mesh(), &again);
-    let [StudyResult::Relax(relaxed), StudyResult::Path(path)] = &results[..] else { panic!("{results:?}") };
+    let ran = on("drum.fold", &again).converged();
+    let (relaxed, path) = (ran.relaxed("r"), ran.path("p"));
     assert!(relaxed.iterations <= 1 && relaxed.negative_eigenvalues == Some(1), "{relaxed:?}");
     assert_relative_eq!(relaxed.energy.total, pass, max_relative = 1e-12);
     assert!(path.branches[0].stable);
-    let [drive, reaction, energy] = ForceCurve::read(&folder.path().join("out/p.csv")).states[0];
+    let [drive, reaction, energy] = ForceCurve::of(&ran.out.table("p.csv")).states[0];
     assert!(drive == 0.0 && reaction.abs() < 1e-12, "{reaction:e}");
     assert_relative_eq!(energy, pass, max_relative = 1e-12);
 }
 
 /// Runs a study of wells of the drum between plates, with these stiffnesses of bars and creases.
-fn drum(mesh: &str, [bars, creases]: [&str; 2]) -> WellsSummary {
+fn drum(mesh: &serde_json::Value, [bars, creases]: [&str; 2]) -> WellsSummary {
     let scene = format!(
         "[energy]\nbars = {{ stiffness = {bars} }}\ncreases = {{ stiffness = {creases} }}\n{PLATES}[[study]]\n\
          name = \"w\"\nkind = \"wells\"\nstarts = 64\nbarriers = [[0, 1]]\n"
     );
-    let (_folder, results) = run_on(tempfile::tempdir().unwrap(), mesh, &scene);
-    wells_in(&results).clone()
+    on_own(mesh, &scene).converged().wells("w").clone()
 }
 
-fn drum_mesh() -> String {
-    fs::read_to_string(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes/drum.fold")).unwrap()
+fn drum_mesh() -> serde_json::Value {
+    serde_json::from_str(include_str!("../../../meshes/drum.fold")).unwrap()
 }
 
 /// Claim: equal stiffnesses in a table are one number, to the last bit; the unit of stiffness changes the unit of energy and
@@ -283,7 +265,7 @@ fn units_and_tables_of_stiffness() {
 /// are the same when these are reversed. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces.
 #[test]
 fn numbers_of_vertices_mean_nothing() {
-    let drawn: serde_json::Value = serde_json::from_str(&drum_mesh()).unwrap();
+    let drawn = drum_mesh();
     let mut reversed = drawn.clone();
     reversed["vertices_coords"].as_array_mut().unwrap().reverse();
     let last = reversed["vertices_coords"].as_array().unwrap().len() as u64 - 1;
@@ -293,7 +275,7 @@ fn numbers_of_vertices_mean_nothing() {
     reversed["faces_vertices"].as_array_mut().unwrap().iter_mut().for_each(renumber);
     reversed["foldwell:names"].as_object_mut().unwrap().values_mut().for_each(renumber);
     let stiffness = ["{ M = 1.0, V = 0.25, B = 2.0 }", "{ M = 1e-6, V = 4e-7 }"];
-    let [a, b] = [drawn, reversed].map(|mesh| drum(&mesh.to_string(), stiffness));
+    let [a, b] = [drawn, reversed].map(|mesh| drum(&mesh, stiffness));
     assert!(a.wells.len() >= 2 && b.wells.len() >= 2, "others pass through themselves, and few starts reach them");
     assert!(
         energies(&a)[..2].iter().zip(energies(&b)).all(|(a, b)| abs_diff_eq!(*a, b, epsilon = 1e-14)),
@@ -307,16 +289,14 @@ fn numbers_of_vertices_mean_nothing() {
 /// with bars. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces, closure to 1e-13.
 #[test]
 fn uneven_creases_in_fold_angles_alone() {
-    let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
-    let rest = meshes.join("star-wells-rest.csv").display().to_string();
-    let scene = format!(
-        "domain = \"screw\"\n[energy]\nbars = {{ stiffness = inf }}\ncreases = {{ stiffness = {{ M = 1.0, V = 1.5, F = 0.8 }}, \
-         rest = {{ file = {rest:?} }} }}\n[[study]]\nname = \"w\"\nkind = \"wells\"\nspread = 1.0\nrigid = true\n\
-         resolution = 40\nmax_curvature = 0.5\nbarriers = [[0, 1]]\n"
-    );
-    let star = fs::read_to_string(meshes.join("open-star.fold")).unwrap();
-    let (_folder, results) = run_on(tempfile::tempdir().unwrap(), &star, &scene);
-    let found = wells_in(&results);
+    let ran = on(
+        "open-star.fold",
+        "domain = \"screw\"\n[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = { M = 1.0, V = 1.5, F = 0.8 }, \
+         rest = { file = \"star-wells-rest.csv\" } }\n[[study]]\nname = \"w\"\nkind = \"wells\"\nspread = 1.0\nrigid = true\n\
+         resolution = 40\nmax_curvature = 0.5\nbarriers = [[0, 1]]\n",
+    )
+    .converged();
+    let found = ran.wells("w");
     let rigid = found.rigid.as_ref().unwrap();
     assert!(found.wells.len() == 3 && rigid.wells.len() >= 3, "{rigid:?}");
     for (k, well) in found.wells.iter().enumerate() {
@@ -332,13 +312,8 @@ fn uneven_creases_in_fold_angles_alone() {
 fn rigid_wells_know_no_parts() {
     let cases = ["[[part]]\nname = \"p\"\nvertices = [0, 1, 2]\n", "[[pin]]\nvertex = 0\nnormal = [0, 1, 1]\n"];
     for held in cases {
-        let scene = |folder: &Path| {
-            fs::write(folder.join("mesh.fold"), include_str!("../../cases/pyramid.fold")).unwrap();
-            let energy = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0 }\n";
-            let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nrigid = true\n";
-            fs::write(folder.join("s.toml"), format!("[sheet]\nmesh = \"mesh.fold\"\n{energy}{held}{study}")).unwrap();
-            folder.join("s.toml")
-        };
-        assert_refused(scene, "which pins, parts and loads do not know");
+        let energy = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0 }\n";
+        let study = "[[study]]\nname = \"w\"\nkind = \"wells\"\nrigid = true\n";
+        on("cases/pyramid.fold", &format!("{energy}{held}{study}")).refused("which pins, parts and loads do not know");
     }
 }
