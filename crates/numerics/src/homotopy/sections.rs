@@ -38,7 +38,7 @@ pub struct Section {
 /// The quadrics should be linearly independent.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve).
+/// [`HomotopyError`]: the quadrics do not fit the unknowns, or their solutions cannot be followed.
 pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, HomotopyError> {
     if unknowns == 0 {
         return Ok(Section::default());
@@ -64,7 +64,7 @@ pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, H
 /// them.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve).
+/// [`HomotopyError`]: the quadrics do not fit the unknowns, or their solutions cannot be followed.
 pub fn meets_real_points(quadrics: &[DenseMatrix], unknowns: usize, spaces: usize) -> Result<bool, HomotopyError> {
     let all = Quadrics::new(quadrics, unknowns)?;
     let mut random = ChaCha8Rng::seed_from_u64(u64::MAX);

@@ -51,7 +51,7 @@ pub struct SingularPoint {
 /// branches meet are not called isolated.
 ///
 /// # Errors
-/// Those of [`solve`](super::solve).
+/// [`HomotopyError`]: the quadrics do not fit the unknowns, or their solutions cannot be followed.
 pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<SingularPoint>>, HomotopyError> {
     let count = quadrics.len();
     let quadrics = Quadrics::new(quadrics, count + 2)?;
