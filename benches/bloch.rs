@@ -44,7 +44,8 @@ fn main() {
     println!("slowest zero lines of 200 cells: {:.2}", 1e3 * slowest(if measuring() { 200 } else { 1 }));
 }
 
-/// Returns the largest time in seconds of the lines of zeros among the random cells of `tests/integration/analysis/bloch.rs`.
+/// Returns the largest time in seconds of the lines of zeros among the random cells of
+/// `tests/integration/analysis/bloch.rs`.
 fn slowest(cells: u64) -> f64 {
     let sizes = (2..=4).flat_map(|a| (2..=4).map(move |b| [a, b])).cycle();
     let of = |(seed, size): (u64, [usize; 2])| {

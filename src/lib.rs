@@ -66,8 +66,8 @@
 //!
 //! # Modules
 //!
-//! The modules form layers; each imports only from lower ones. [`numerics`] and [`solver`] are crates of their own, which
-//! know no sheet:
+//! The modules form layers; each imports only from lower ones. [`numerics`] and [`solver`] are crates of their own,
+//! which know no sheet:
 //!
 //! | layer | modules | content |
 //! |---|---|---|

@@ -61,8 +61,8 @@ pub fn turned(mut sheet: Sheet, turn: &Matrix3<f64>) -> Sheet {
     sheet
 }
 
-/// Generates the cell of four parallelograms with sides `a`, `b` along the first direction and `c`, `d` along the second,
-/// turned into the plane. `a` and `b` point to the same side of the plane of `c` and `d`.
+/// Generates the cell of four parallelograms with sides `a`, `b` along the first direction and `c`, `d` along the
+/// second, turned into the plane. `a` and `b` point to the same side of the plane of `c` and `d`.
 pub fn four_parallelograms([a, b, c, d]: [Vec3; 4]) -> Sheet {
     let along = (c.normalize() + d.normalize()).normalize();
     let across = c.cross(&d).normalize();

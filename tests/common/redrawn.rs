@@ -1,4 +1,5 @@
-//! The same sheet drawn otherwise: its vertices in another order, in other cells, with other lattice vectors, or several copies of it.
+//! The same sheet drawn otherwise: its vertices in another order, in other cells, with other lattice vectors, or
+//! several copies of it.
 
 use super::common::Numbers;
 use foldwell::math::Vec3;
@@ -17,14 +18,16 @@ pub struct Redrawn {
     pub basis: [[i32; 2]; 2],
 }
 
-/// Returns the sheet with its vertices in random order, each in some cell in which a face has it, and with other lattice vectors.
+/// Returns the sheet with its vertices in random order, each in some cell in which a face has it, and with other
+/// lattice vectors.
 pub fn redrawn(sheet: &Sheet, numbers: &mut Numbers, basis: [[i32; 2]; 2]) -> Redrawn {
     let mut corners = drawn_corners(sheet);
     shuffle(&mut corners, numbers);
     from_corners(sheet, &[corners], &[Vec3::zeros()], basis)
 }
 
-/// Returns the sheet with its vertices in random order, each in the cell in which it was, and its faces in the opposite order.
+/// Returns the sheet with its vertices in random order, each in the cell in which it was, and its faces in the opposite
+/// order.
 pub fn renumbered(sheet: &Sheet, numbers: &mut Numbers) -> Redrawn {
     let mut other = sheet.clone();
     other.polygons.reverse();
@@ -102,8 +105,8 @@ impl Redrawn {
         self.sheet.edges.iter().map(|edge| old(&edge.key)).collect()
     }
 
-    /// Returns terms of a tiling of the other sheet as those of a tiling of this one with as many cells; `None` where diagonals were
-    /// drawn otherwise.
+    /// Returns terms of a tiling of the other sheet as those of a tiling of this one with as many cells; `None` where
+    /// diagonals were drawn otherwise.
     ///
     /// # Panics
     /// For terms that a scene with a relaxation does not have: stiffnesses of single edges, guides and parts.
@@ -123,7 +126,8 @@ impl Redrawn {
         Some(Terms { creases, facets, locks, pins, loads, ..terms.clone() })
     }
 
-    /// Returns what is at vertices of a tiling of the other sheet at the vertices of a tiling of this one that show them.
+    /// Returns what is at vertices of a tiling of the other sheet at the vertices of a tiling of this one that show
+    /// them.
     fn at_vertices<T: Copy>(&self, here: &Tiling, other: &Tiling, given: &[(usize, T)]) -> Vec<(usize, T)> {
         let number = |vertex: usize| {
             let (old, shift) = self.place(here, other, Site { vertex, shift: [0, 0] });

@@ -224,8 +224,8 @@ pub fn signal(child: &Child, name: &str) {
     assert!(Command::new("kill").args([name, &child.id().to_string()]).status().unwrap().success());
 }
 
-/// A scene that is to be run: by default in a folder of its own, into `out`. Files of `meshes`, and those of `tests` that it names
-/// as `cases/..`, are copied there.
+/// A scene that is to be run: by default in a folder of its own, into `out`. Files of `meshes`, and those of `tests`
+/// that it names as `cases/..`, are copied there.
 #[derive(Clone)]
 pub struct Scene {
     folder: Folder,

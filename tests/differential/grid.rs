@@ -1,10 +1,11 @@
-//! Every scene of the repository that relaxes, at parts of the way to its rest values and stiffnesses of its bars, each point drawn in
-//! several ways.
+//! Every scene of the repository that relaxes, at parts of the way to its rest values and stiffnesses of its bars, each
+//! point drawn in several ways.
 //!
-//! Where nothing else is asked for every point is drawn in one way beside its own. `FOLDWELL_GRID=all cargo test --release --test
-//! differential grid -- --nocapture` draws it in all ways and prints a summary; `FOLDWELL_GRID=write` writes the two tables anew:
-//! `tests/cases/grid.csv` with the exceptions and `tests/cases/grid-energies.csv` with the energies. A point without an answer that is new
-//! in the first is said to fail; `validation/independent.py --explain` finds out whether it has an equilibrium, and writes that there.
+//! Where nothing else is asked for every point is drawn in one way beside its own.
+//! `FOLDWELL_GRID=all cargo test --release --test differential grid -- --nocapture` draws it in all ways and prints a
+//! summary; `FOLDWELL_GRID=write` writes the two tables anew: `tests/cases/grid.csv` with the exceptions and
+//! `tests/cases/grid-energies.csv` with the energies. A point without an answer that is new in the first is said to
+//! fail; `validation/independent.py --explain` finds out whether it has an equilibrium, and writes that there.
 
 mod drawn;
 mod points;
@@ -29,7 +30,8 @@ struct Examined {
     others: Vec<(String, Result<f64, String>)>,
 }
 
-/// Relaxes a point and, where that has an answer, other drawings of it; energies of those are in the scene's own unit and of one piece.
+/// Relaxes a point and, where that has an answer, other drawings of it; energies of those are in the scene's own unit
+/// and of one piece.
 fn examine(number: usize, point: &Point, all_drawings: bool) -> Examined {
     let base = relaxed(&point.assembly);
     let wanted = |k: &usize| base.is_ok() && (all_drawings || number % WAYS.len() == *k);
@@ -40,7 +42,8 @@ fn examine(number: usize, point: &Point, all_drawings: bool) -> Examined {
     Examined { point: point.clone(), base, others }
 }
 
-/// Whether two energies are the same; rest values of creases are of order 1, and so are their energies where they are not relieved.
+/// Whether two energies are the same; rest values of creases are of order 1, and so are their energies where they are
+/// not relieved.
 fn same(one: f64, other: f64) -> bool {
     (one - other).abs() <= SAME * one.abs() + 1e-12
 }
@@ -80,8 +83,8 @@ fn fails(message: &str, energy: Option<f64>) -> Exception {
     Exception { reason: Reason::Fails, energy, other: None, independent: None, note }
 }
 
-/// Returns the points above the energy that stiffer bars reach at the same rest values. An energy grows with the stiffnesses in it at
-/// every state, and so does its lowest minimum.
+/// Returns the points above the energy that stiffer bars reach at the same rest values. An energy grows with the
+/// stiffnesses in it at every state, and so does its lowest minimum.
 fn higher(examined: &[Examined]) -> BTreeMap<Place, Exception> {
     let reached = |one: &Examined| one.base.as_ref().ok().map(|answer| answer.energy);
     let mut found = BTreeMap::new();
@@ -106,7 +109,8 @@ fn higher(examined: &[Examined]) -> BTreeMap<Place, Exception> {
     found
 }
 
-/// Keeps what the independent minimizer found at points that are still exceptions: its energies, and whether there is no equilibrium.
+/// Keeps what the independent minimizer found at points that are still exceptions: its energies, and whether there is
+/// no equilibrium.
 fn with_known_reasons(
     mut found: BTreeMap<Place, Exception>,
     known: &BTreeMap<Place, Exception>,
@@ -193,10 +197,11 @@ fn summarize(examined: &[Examined], found: &BTreeMap<Place, Exception>) {
     println!("exceptions: {reasons:?}");
 }
 
-/// Claim: every scene relaxes to a minimum at every part of the way to its rest values and with every stiffness of its bars, to the same
-/// energy however it is drawn, and to none that is above what was reached before; or the point is in the table of exceptions with its
-/// reason, which holds still. Source: the issue about grids; two numbers of a scene changed made shipped scenes fail. Tolerance: as of the
-/// other comparisons, 1e-8 of the energy, far above what a residual of 1e-12 leaves.
+/// Claim: every scene relaxes to a minimum at every part of the way to its rest values and with every stiffness of its
+/// bars, to the same energy however it is drawn, and to none that is above what was reached before; or the point is in
+/// the table of exceptions with its reason, which holds still. Source: the issue about grids; two numbers of a scene
+/// changed made shipped scenes fail. Tolerance: as of the other comparisons, 1e-8 of the energy, far above what a
+/// residual of 1e-12 leaves.
 #[test]
 fn scenes_relax_on_a_grid() {
     let asked = std::env::var("FOLDWELL_GRID").unwrap_or_default();

@@ -1,10 +1,11 @@
-//! The number of negative eigenvalues on what rigid measures leave free, counted by the program and on a dense null space.
+//! The number of negative eigenvalues on what rigid measures leave free, counted by the program and on a dense null
+//! space.
 //!
-//! Random assemblies whose rigid rows nearly depend on each other: strips, columns, prisms, drums, rolled-up tubes, pins that are nearly
-//! on a line, rigid parts and locks, drawn or disturbed, under loads from none to half as much again as the first critical one, and just
-//! below and above that. The dense count knows nothing of the program but its derivatives: singular values and eigenvalues are those
-//! of nalgebra. It has no opinion where a singular value is neither rounding error nor clearly above it, or where an eigenvalue is
-//! within rounding errors of zero.
+//! Random assemblies whose rigid rows nearly depend on each other: strips, columns, prisms, drums, rolled-up tubes,
+//! pins that are nearly on a line, rigid parts and locks, drawn or disturbed, under loads from none to half as much
+//! again as the first critical one, and just below and above that. The dense count knows nothing of the program but its
+//! derivatives: singular values and eigenvalues are those of nalgebra. It has no opinion where a singular value is
+//! neither rounding error nor clearly above it, or where an eigenvalue is within rounding errors of zero.
 
 use crate::common::{Numbers, Testing, jacobian, linearized, mesh, on};
 use crate::report::Report;
@@ -29,7 +30,8 @@ const UNDECIDED: &str = "negative eigenvalues within rounding errors of the dens
 
 /// Singular values relative to the largest one between which nobody can tell whether they are zero.
 const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-9;
-/// Rounding errors of eigenvalues relative to the largest entry, and of motions relative to the smallest singular value.
+/// Rounding errors of eigenvalues relative to the largest entry, and of motions relative to the smallest singular
+/// value.
 const ROUNDING: [f64; 2] = [1e-12, 1e-14];
 /// Loads over the first critical one besides a random one.
 const NEAR_CRITICAL: [f64; 2] = [1.0 - 1e-3, 1.0 + 1e-3];
@@ -150,8 +152,9 @@ impl Projection {
         Self { free: (!doubtful).then_some(free), rows, compliance, error }
     }
 
-    /// Number of negative eigenvalues. Finite measures keep their tensions as unknowns, of which each adds one: the matrix has the
-    /// rows `[H, R^T], [R, -C]`, in units in which the largest entry of the Hessian is 1. A multiple of the identity is added to the Hessian.
+    /// Number of negative eigenvalues. Finite measures keep their tensions as unknowns, of which each adds one: the
+    /// matrix has the rows `[H, R^T], [R, -C]`, in units in which the largest entry of the Hessian is 1. A multiple of
+    /// the identity is added to the Hessian.
     fn count(&self, at: &Linearization, shift: f64) -> Option<usize> {
         let free = self.free.as_ref()?;
         let mut hessian = at.pattern().to_dense(&at.hessian);
@@ -173,15 +176,17 @@ impl Projection {
         decided.then(|| values.iter().filter(|value| **value < 0.0).count() - tensions)
     }
 
-    /// The smallest multiple of the identity, to a factor of two, with which the Hessian has so many negative eigenvalues.
+    /// The smallest multiple of the identity, to a factor of two, with which the Hessian has so many negative
+    /// eigenvalues.
     fn shift(&self, at: &Linearization, wanted: usize) -> f64 {
         let fits = |shift: &f64| self.count(at, *shift) == Some(wanted);
         let sizes = (-60..20).map(|k| 2f64.powi(k)).flat_map(|size| [size, -size]);
         sizes.into_iter().find(fits).unwrap_or(f64::NAN)
     }
 
-    /// Factor of tensions at which the least eigenvalue is first zero; `None` where there is none, or the state is unstable without
-    /// tensions. Finite stiffnesses enter with their multiples: rounding errors of a load do not matter.
+    /// Factor of tensions at which the least eigenvalue is first zero; `None` where there is none, or the state is
+    /// unstable without tensions. Finite stiffnesses enter with their multiples: rounding errors of a load do not
+    /// matter.
     fn first_critical(&self, model: &Model, x: &[f64], tension: &[f64]) -> Option<f64> {
         let free = self.free.as_ref().filter(|free| !free.is_empty())?;
         let projected = |tension: &[f64]| {

@@ -1,10 +1,11 @@
-//! Random sheets, asked in two ways that must agree: in another unit of length, mirrored, moved, turned, with other numbers of their
-//! vertices and another cell of the same lattice, with bars all but rigid, once more from the answer, by dense
-//! eigenvalues and by the exact kinematics; and the scenes of the repository on a grid of rest values and stiffnesses.
+//! Random sheets, asked in two ways that must agree: in another unit of length, mirrored, moved, turned, with other
+//! numbers of their vertices and another cell of the same lattice, with bars all but rigid, once more from the answer,
+//! by dense eigenvalues and by the exact kinematics; and the scenes of the repository on a grid of rest values and
+//! stiffnesses.
 //!
-//! Where one of the two ways says that it has no answer there is nothing to compare: these cases are counted. `FOLDWELL_CASES=20000
-//! cargo test --release --test differential -- --nocapture` runs many and prints how many there were of each kind, and the seed of
-//! each that fell; `FOLDWELL_FIRST` is the first seed.
+//! Where one of the two ways says that it has no answer there is nothing to compare: these cases are counted.
+//! `FOLDWELL_CASES=20000 cargo test --release --test differential -- --nocapture` runs many and prints how many there
+//! were of each kind, and the seed of each that fell; `FOLDWELL_FIRST` is the first seed.
 #![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 #[path = "../common/mod.rs"]
@@ -76,11 +77,13 @@ fn two_ways_agree() {
     assert!(report.fell.is_empty(), "{} disagreements: {:#?}", report.fell.len(), report.fell);
 }
 
-/// Seeds of Miura-ori that stay straight on a screw, whose residual is a few times the tolerance where other coordinates are held.
+/// Seeds of Miura-ori that stay straight on a screw, whose residual is a few times the tolerance where other
+/// coordinates are held.
 const STRAIGHT: [u64; 3] = [3387, 4129, 6340];
 
-/// Claim: such a state starts again with its tensions in a few steps, since the direction of its axis, which has no effect, is held. Source:
-/// its own energy, to rounding. In all unknowns Newton's method takes 34 to 48 steps, and 200 where it does not see that it stands still.
+/// Claim: such a state starts again with its tensions in a few steps, since the direction of its axis, which has no
+/// effect, is held. Source: its own energy, to rounding. In all unknowns Newton's method takes 34 to 48 steps, and 200
+/// where it does not see that it stands still.
 #[test]
 fn straight_screws_start_again() {
     for seed in STRAIGHT {
@@ -106,8 +109,8 @@ fn examine_unusual(seed: u64) -> Report {
     report
 }
 
-/// Claim: the same for sheets of unusual kinds: few vertices, slivers, axes of symmetry, closed rings, pieces, whose energies add, and
-/// tubes.
+/// Claim: the same for sheets of unusual kinds: few vertices, slivers, axes of symmetry, closed rings, pieces, whose
+/// energies add, and tubes.
 #[test]
 fn two_ways_agree_for_unusual_sheets() {
     let (cases, first) = asked(USUAL_UNUSUAL);
@@ -122,9 +125,9 @@ fn two_ways_agree_for_unusual_sheets() {
     assert!(report.fell.is_empty(), "{} disagreements: {:#?}", report.fell.len(), report.fell);
 }
 
-/// Claim: the number of negative eigenvalues that is reported for a state is never wrong, and seldom not known. Source: singular values and
-/// eigenvalues of dense matrices by another library. Tolerance: none; cases that rounding errors of the dense count decide are counted
-/// apart.
+/// Claim: the number of negative eigenvalues that is reported for a state is never wrong, and seldom not known. Source:
+/// singular values and eigenvalues of dense matrices by another library. Tolerance: none; cases that rounding errors of
+/// the dense count decide are counted apart.
 #[test]
 fn negative_eigenvalues_are_those_of_a_dense_null_space() {
     let (cases, first) = asked(USUAL_COUNTS);

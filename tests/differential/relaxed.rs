@@ -69,8 +69,8 @@ fn moved(trial: &Trial, answer: &Answer, seed: u64, report: &mut Report, what: &
     }
 }
 
-/// A sheet on a domain that leaves it more freedom costs no more: a patch of a screw, a screw of a torus, a free torus of a fixed one.
-/// More cells of a torus cost no more than so many times one.
+/// A sheet on a domain that leaves it more freedom costs no more: a patch of a screw, a screw of a torus, a free torus
+/// of a fixed one. More cells of a torus cost no more than so many times one.
 fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
     use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
     if !trial.loads.is_empty() || answer.negative != Some(0) {
@@ -104,8 +104,9 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
     }
 }
 
-/// The same with bars that are next to rigid. The energy falls with their compliance, by `t^2 / 2` of each, and tensions fall with
-/// it: the energy is less than that of rigid bars by at least what they store, and at most what the rigid bars' tensions would.
+/// The same with bars that are next to rigid. The energy falls with their compliance, by `t^2 / 2` of each, and
+/// tensions fall with it: the energy is less than that of rigid bars by at least what they store, and at most what the
+/// rigid bars' tensions would.
 fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
     if trial.bars.is_finite() || answer.negative != Some(0) {
         return;
@@ -166,7 +167,8 @@ fn eigenvalues(trial: &Trial, report: &mut Report, what: &str) {
     let model = case.model_of(&terms, Gauge::Free);
     let expected = common::eigenvalues(common::energy_hessian(&model, &model.start()));
     let Ok(found) = case.modes_of(&terms, 10) else { return report.count("eigenvalues", false) };
-    // a lattice that is fixed holds the only vertex of a cell: then all vanish but for rounding errors of the bars' stiffness
+    // a lattice that is fixed holds the only vertex of a cell: then all vanish but for rounding errors of the bars'
+    // stiffness
     let largest = expected.last().copied().unwrap_or(1.0).max(1e-2 * trial.bars);
     let off = found.eigenvalues.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     report.judge("eigenvalues", off <= 1e-12 * largest, || format!("{what}: off by {off:e} of {largest:e}"));

@@ -3,8 +3,8 @@
 use crate::trial::{Answer, Trial};
 use std::collections::BTreeMap;
 
-/// Energies agree to this part of themselves. Residual forces of 1e-12 over the softest eigenvalue, squared, are far below; what is left
-/// is the rounding of angles far from rest.
+/// Energies agree to this part of themselves. Residual forces of 1e-12 over the softest eigenvalue, squared, are far
+/// below; what is left is the rounding of angles far from rest.
 pub const SAME: f64 = 1e-8;
 
 /// Comparisons of two equilibria that the same sheet has.
@@ -31,7 +31,8 @@ impl Report {
         }
     }
 
-    /// Energies, the other one over its unit, must agree; or else the sheet has both equilibria, which is counted apart.
+    /// Energies, the other one over its unit, must agree; or else the sheet has both equilibria, which is counted
+    /// apart.
     pub fn compare(
         &mut self,
         kind: &'static str,

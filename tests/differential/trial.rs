@@ -40,9 +40,10 @@ pub struct Trial {
 
 pub struct Answer {
     pub energy: f64,
-    /// Twice what the gaps that are left open store at their tensions. Where rigid measures come to depend on each other an angle goes
-    /// as the root of a gap `g`, and so does the energy, `E0 - a sqrt(g)`: the tension is `t = a / (2 sqrt(g))`, and the energy is off
-    /// by `2 t g`. Elsewhere it is off by `t g`, which is nothing beside the tolerance.
+    /// Twice what the gaps that are left open store at their tensions. Where rigid measures come to depend on each
+    /// other an angle goes as the root of a gap `g`, and so does the energy, `E0 - a sqrt(g)`: the tension is
+    /// `t = a / (2 sqrt(g))`, and the energy is off by `2 t g`. Elsewhere it is off by `t g`, which is nothing beside
+    /// the tolerance.
     pub open: f64,
     /// Fold angles of the tiling's edges.
     pub angles: Vec<f64>,
@@ -165,7 +166,8 @@ impl Trial {
         Ok(Answer { energy, open, angles, negative, again, residual, halves, compliance, exact, pictured })
     }
 
-    /// Whether random starts reach an equilibrium of such an energy; told beside it are `t^2 / 2` of every stiff measure.
+    /// Whether random starts reach an equilibrium of such an energy; told beside it are `t^2 / 2` of every stiff
+    /// measure.
     pub fn has_equilibrium(&self, such: impl Fn(f64, &[f64]) -> bool) -> bool {
         let case = self.case();
         let terms = self.terms(&case);

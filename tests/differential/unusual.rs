@@ -1,5 +1,5 @@
-//! Random sheets of kinds that [`Trial::new`] does not make: cells of one and two vertices, triangles of small height, cells with axes of
-//! three, four and six, closed rings, sheets of two pieces, and rolled-up tubes.
+//! Random sheets of kinds that [`Trial::new`] does not make: cells of one and two vertices, triangles of small height,
+//! cells with axes of three, four and six, closed rings, sheets of two pieces, and rolled-up tubes.
 
 use crate::common::{Numbers, scaled};
 use crate::report::{ELSEWHERE, Report, SAME};
@@ -16,7 +16,8 @@ use foldwell::solver::Options;
 use nalgebra::Rotation3;
 use std::f64::consts::{FRAC_PI_3, TAU};
 
-/// Random starts from which another equilibrium is sought, of each size: locked cells on screws take a tenth of a second for each.
+/// Random starts from which another equilibrium is sought, of each size: locked cells on screws take a tenth of a
+/// second for each.
 const STARTS: usize = 30;
 
 /// A sheet of one of these kinds, and what acts on it.

@@ -17,10 +17,10 @@
 //! `gamma` (`-- weight`, the same patches, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3 and
 //! 4, 3e6 needs 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. With the Gauss-Newton Hessian
 //! it is 1e7: steps are long then and open gaps, which plain solves close the better the larger it is (at 1e6 starts
-//! with self stresses fail, `tests/integration/redundant.rs` and `tests/integration/miura.rs`). With the full Hessian
-//! it is 3e6: near a solution there are next to no gaps to close and rounding decides, which grows with it: to 1e-6,
-//! 3e6 needs one correction up to 57 cells a side and two at 82, 1e7 a second one from 40 or 57 on. Larger problems
-//! have motions that this weight loses to rounding; the corrections of [`KktSystem::solve`] find them again (claim
+//! with self stresses fail, `tests/integration/model/redundant.rs` and `model/miura.rs`). With the full Hessian it is
+//! 3e6: near a solution there are next to no gaps to close and rounding decides, which grows with it: to 1e-6, 3e6
+//! needs one correction up to 57 cells a side and two at 82, 1e7 a second one from 40 or 57 on. Larger problems have
+//! motions that this weight loses to rounding; the corrections of [`KktSystem::solve`] find them again (claim
 //! `cells-residuals` of `validation/`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the undeformed states of 24 and 48 cells a side.
 

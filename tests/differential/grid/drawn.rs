@@ -41,8 +41,9 @@ impl fmt::Display for Drawn {
 }
 
 impl Drawn {
-    /// Returns the sheet drawn so, and the factor that its energy then has; `None` where it cannot be drawn so: a patch has no lattice
-    /// of its own, other domains are of one piece, and diagonals of parallelograms may be drawn otherwise.
+    /// Returns the sheet drawn so, and the factor that its energy then has; `None` where it cannot be drawn so: a patch
+    /// has no lattice of its own, other domains are of one piece, and diagonals of parallelograms may be drawn
+    /// otherwise.
     pub fn of(self, given: &Assembly, numbers: &mut Numbers) -> Option<(Assembly, f64)> {
         let (sheet, is_patch) = (given.sheet(), given.boundary() == Boundary::Patch);
         match self {
@@ -89,7 +90,8 @@ fn in_basis(seam: Seam, [[a, b], [c, d]]: [[i32; 2]; 2]) -> Seam {
     Seam::new([d * n1 - c * n2, a * n2 - b * n1]).unwrap()
 }
 
-/// Returns the sheet turned. A tube that is drawn as one turns about its axis; pins along axes allow a cyclic change of the axes alone.
+/// Returns the sheet turned. A tube that is drawn as one turns about its axis; pins along axes allow a cyclic change of
+/// the axes alone.
 fn turned(given: &Assembly, numbers: &mut Numbers) -> Assembly {
     let cyclic = Matrix3::new(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
     let sheet = given.sheet();
@@ -113,7 +115,8 @@ fn turned(given: &Assembly, numbers: &mut Numbers) -> Assembly {
     bare(given, other, [[1, 0], [0, 1]]).with_terms(terms)
 }
 
-/// Returns the sheet in another unit of length. EA and stiffnesses of creases are forces, and stay; energies have the factor.
+/// Returns the sheet in another unit of length. EA and stiffnesses of creases are forces, and stay; energies have the
+/// factor.
 fn in_unit(given: &Assembly) -> Assembly {
     let mut other = given.sheet().clone();
     other.vertices.iter_mut().for_each(|p| *p *= UNIT);

@@ -8,8 +8,9 @@ use foldwell::run::read_scene;
 use foldwell::scene::{Setting, build::assembly};
 use foldwell::solver::Options;
 
-/// Parts of the way from the drawn state, where all is at rest, to the rest values of the scene. For rest angles by letters the whole
-/// way is the flat fold, so that the part is the `fraction` of the scene; of a mode it is that of its `amplitude`.
+/// Parts of the way from the drawn state, where all is at rest, to the rest values of the scene. For rest angles by
+/// letters the whole way is the flat fold, so that the part is the `fraction` of the scene; of a mode it is that of its
+/// `amplitude`.
 pub const PARTS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 /// Stiffnesses EA of the bars.
 pub const BARS: [f64; 7] = [30.0, 1e2, 3e2, 1e3, 1e4, 1e6, f64::INFINITY];
@@ -37,7 +38,8 @@ pub struct Answer {
     pub factorizations: usize,
 }
 
-/// Returns the scenes of the repository that relax a sheet with bars, each problem once: some scenes differ in what they show alone.
+/// Returns the scenes of the repository that relax a sheet with bars, each problem once: some scenes differ in what
+/// they show alone.
 pub fn scenes() -> Vec<Whole> {
     let files = std::fs::read_dir(mesh_folder()).unwrap().map(|entry| entry.unwrap().path());
     let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
@@ -70,7 +72,8 @@ fn same_problem(one: &Whole, other: &Whole) -> bool {
 }
 
 impl Whole {
-    /// Returns the points of the scene, the parts of a stiffness after each other. One part is all where nothing is off its rest value.
+    /// Returns the points of the scene, the parts of a stiffness after each other. One part is all where nothing is off
+    /// its rest value.
     pub fn points(&self) -> Vec<Point> {
         let still = self.at(0.5, 1.0).terms() == self.at(1.0, 1.0).terms();
         let parts = if still { &PARTS[9..] } else { &PARTS[..] };

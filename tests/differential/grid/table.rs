@@ -49,8 +49,9 @@ impl Place {
     }
 }
 
-/// An exception: why, and what is known. `energy` is that of the scene's own drawing, left out where that fails; `other` that of the other
-/// drawing, or of the stiffer bars; `independent` the lowest that the independent minimizer found.
+/// An exception: why, and what is known. `energy` is that of the scene's own drawing, left out where that fails;
+/// `other` that of the other drawing, or of the stiffer bars; `independent` the lowest that the independent minimizer
+/// found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exception {
     pub reason: Reason,
@@ -61,8 +62,8 @@ pub struct Exception {
 }
 
 impl Exception {
-    /// Whether an exception that is found is the one that is known: only the independent minimizer tells a collapse from a failure, but
-    /// the triangle has to be named.
+    /// Whether an exception that is found is the one that is known: only the independent minimizer tells a collapse
+    /// from a failure, but the triangle has to be named.
     pub fn is_as(&self, known: &Self) -> bool {
         match known.reason {
             Reason::Collapse => self.note.contains("has collapsed"),

@@ -107,8 +107,8 @@ fn random_cells_are_symmetric_and_not_polarized() {
     assert!(100 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
 }
 
-/// Claim: at a flat state the determinant vanishes identically (theory, section 8), since each of the four vertices moves freely
-/// across the sheet; this is reported as an error.
+/// Claim: at a flat state the determinant vanishes identically (theory, section 8), since each of the four vertices
+/// moves freely across the sheet; this is reported as an error.
 #[test]
 fn flat_sheets_have_no_determinant() {
     let refused = Determinant::new(&Rigidity::of_sheet(&mesh("open-flat"), false).unwrap());
@@ -733,8 +733,9 @@ fn bands_of_the_energy() {
     assert_eq!(along_path(&[[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]], 4).len(), 9);
 }
 
-/// Claim: edge modes of a strip of 60 star cells, measured from the null space of its own matrix, decay with the roots of the
-/// determinant of one cell to 1e-6 (rounding leaves 1e-13), at both edges, and there are as many zero modes as rows stick out.
+/// Claim: edge modes of a strip of 60 star cells, measured from the null space of its own matrix, decay with the roots
+/// of the determinant of one cell to 1e-6 (rounding leaves 1e-13), at both edges, and there are as many zero modes as
+/// rows stick out.
 #[test]
 fn edge_modes_decay_with_the_roots() {
     let rigidity = Rigidity::of_sheet(&mesh("open-star"), false).unwrap();
@@ -758,9 +759,9 @@ fn edge_modes_decay_with_the_roots() {
     assert_eq!(compared, 4);
 }
 
-/// Claim: where a kirigami cell of polarization -3/2 meets one of 3/2, three zero modes are bound, and in the other order three
-/// self stresses, as the winding numbers of the determinants predict; edges free in one case and clamped in the other, so that
-/// modes and stresses have nothing to cancel with. Cells that do not fit are told apart.
+/// Claim: where a kirigami cell of polarization -3/2 meets one of 3/2, three zero modes are bound, and in the other
+/// order three self stresses, as the winding numbers of the determinants predict; edges free in one case and clamped in
+/// the other, so that modes and stresses have nothing to cancel with. Cells that do not fit are told apart.
 #[test]
 fn interfaces_bind_what_the_windings_predict() {
     let [one, other] = ["kirigami-polarized", "kirigami-reversed"].map(mesh);
@@ -778,8 +779,8 @@ fn interfaces_bind_what_the_windings_predict() {
     assert!(fit(&one, &mesh("kirigami")).unwrap().contains("vertices"));
 }
 
-/// Claim (equation 16): at given wavenumbers zero modes are as many as self stresses at the opposite wavenumber, also where there
-/// are some: at `q = 0` of the star cell and on a point of its zero lines, where both are one.
+/// Claim (equation 16): at given wavenumbers zero modes are as many as self stresses at the opposite wavenumber, also
+/// where there are some: at `q = 0` of the star cell and on a point of its zero lines, where both are one.
 #[test]
 fn counts_at_wavenumbers() {
     let sheet = mesh("open-star");

@@ -1,10 +1,11 @@
-//! Cells of few vertices and of high symmetry in many drawings: what is counted and measured belongs to the sheet, not to its lattice
-//! vectors, its orientation, its unit of length, the numbers of its vertices or the cells in which faces are drawn.
+//! Cells of few vertices and of high symmetry in many drawings: what is counted and measured belongs to the sheet, not
+//! to its lattice vectors, its orientation, its unit of length, the numbers of its vertices or the cells in which faces
+//! are drawn.
 //!
-//! The cells are triangular lattices in which each class of vertices modulo a sublattice has its own height: one vertex, in which every
-//! crease passes straight through; two, a corrugation; three, the hexagonal eggbox (p3m1, or p3 with three heights); four, the kagome
-//! lattice with raised hexagons (p6m); seven, the snub hexagonal tiling 3.3.3.3.6 with raised hexagons (p6). Beside them snub squares
-//! with raised squares (p4g), pyramids on squares, and an eggbox.
+//! The cells are triangular lattices in which each class of vertices modulo a sublattice has its own height: one
+//! vertex, in which every crease passes straight through; two, a corrugation; three, the hexagonal eggbox (p3m1, or p3
+//! with three heights); four, the kagome lattice with raised hexagons (p6m); seven, the snub hexagonal tiling 3.3.3.3.6
+//! with raised hexagons (p6). Beside them snub squares with raised squares (p4g), pyramids on squares, and an eggbox.
 
 use crate::common::{Numbers, Scene, mesh};
 use foldwell::analysis::bloch::{BlochError, Decay, Determinant, Rigidity, SurveyOptions, survey};
@@ -38,8 +39,8 @@ fn combined([l1, l2]: &[Vec3; 2], [n1, n2]: [i32; 2]) -> Vec3 {
     l1 * f64::from(n1) + l2 * f64::from(n2)
 }
 
-/// Returns the triangular lattice on `e1` and `e2` with one height for each of its classes modulo the sublattice of the rows; the
-/// class of a point is the index of the first of `cosets` that differs from it by a vector of the sublattice.
+/// Returns the triangular lattice on `e1` and `e2` with one height for each of its classes modulo the sublattice of the
+/// rows; the class of a point is the index of the first of `cosets` that differs from it by a vector of the sublattice.
 fn raised([e1, e2]: [Vec3; 2], rows: [[i32; 2]; 2], cosets: &[[i32; 2]], heights: &[f64]) -> Cell {
     let determinant = rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0];
     assert_eq!(determinant as usize, cosets.len());
@@ -219,11 +220,12 @@ fn ratios(found: &Response, change: &Change, direction: f64) -> [Result<f64, NoR
     [poisson.in_plane.ratio(angle), poisson.bending.ratio(angle)]
 }
 
-/// Claim: the number of linear modes, the ranks of their table and of its curvatures, the number of self stresses, the relation of
-/// the two ratios and both ratios in every direction, or the reason for which there is none, are the same in all drawings of a cell.
-/// Eight directions over half a turn, those of an eighth of a turn among them, along which the square eggbox has neither strain nor
-/// ratio. A flat cell has two more modes than vertices, which bend it in all three ways, and no ratio at all. Source: linear
-/// algebra. Tolerance 1e-8 relative to the square of the ratio, since a ratio is a quotient whose divisor may be small.
+/// Claim: the number of linear modes, the ranks of their table and of its curvatures, the number of self stresses, the
+/// relation of the two ratios and both ratios in every direction, or the reason for which there is none, are the same
+/// in all drawings of a cell. Eight directions over half a turn, those of an eighth of a turn among them, along which
+/// the square eggbox has neither strain nor ratio. A flat cell has two more modes than vertices, which bend it in all
+/// three ways, and no ratio at all. Source: linear algebra. Tolerance 1e-8 relative to the square of the ratio, since a
+/// ratio is a quotient whose divisor may be small.
 #[test]
 fn responses_belong_to_the_sheet() {
     for (name, cell) in cells() {
@@ -254,8 +256,8 @@ fn responses_belong_to_the_sheet() {
     }
 }
 
-/// Claim: along a diagonal the square eggbox has neither strain nor curvature without twist, and no ratio, also where a lattice
-/// vector is a diagonal; along the sides of its squares its ratios are 1 and -1. Tolerance: rounding.
+/// Claim: along a diagonal the square eggbox has neither strain nor curvature without twist, and no ratio, also where a
+/// lattice vector is a diagonal; along the sides of its squares its ratios are 1 and -1. Tolerance: rounding.
 #[test]
 fn an_eggbox_has_no_ratio_along_its_diagonals() {
     let cell = of_sheet(&generate(&Pattern::Eggbox(Eggbox::default())).unwrap());
@@ -270,9 +272,9 @@ fn an_eggbox_has_no_ratio_along_its_diagonals() {
     }
 }
 
-/// Claim: a cell of one vertex, in which every crease passes straight through, folds along each of its three families of lines: three
-/// folding modes, as many self stresses on a torus of fixed lattice, and one quadric, a cone of real directions. Source: each family
-/// by itself stays a cylinder, and a flat cell has two modes more than vertices.
+/// Claim: a cell of one vertex, in which every crease passes straight through, folds along each of its three families
+/// of lines: three folding modes, as many self stresses on a torus of fixed lattice, and one quadric, a cone of real
+/// directions. Source: each family by itself stays a cylinder, and a flat cell has two modes more than vertices.
 #[test]
 fn one_vertex_folds_along_three_families() {
     for (name, cell) in cells().into_iter().filter(|(name, _)| name.starts_with("one")) {
@@ -289,10 +291,11 @@ fn one_vertex_folds_along_three_families() {
     }
 }
 
-/// Claim: the determinant of flat cells, of the hexagonal eggbox with heights 0, h and -h, of raised hexagons in a flat ring of
-/// triangles and of raised snub squares vanishes at all wavenumbers, in every drawing, and the error says so with the number of zero
-/// modes; that of the other cells does not. Source: across a flat cell every vertex moves freely, so that it has as many zero modes as
-/// vertices; of the others singular values of an independent program are 1e-16 at every wavenumber.
+/// Claim: the determinant of flat cells, of the hexagonal eggbox with heights 0, h and -h, of raised hexagons in a flat
+/// ring of triangles and of raised snub squares vanishes at all wavenumbers, in every drawing, and the error says so
+/// with the number of zero modes; that of the other cells does not. Source: across a flat cell every vertex moves
+/// freely, so that it has as many zero modes as vertices; of the others singular values of an independent program are
+/// 1e-16 at every wavenumber.
 #[test]
 fn determinants_vanish_in_every_drawing() {
     let expected = |name: &str, vertices: usize| match name {
@@ -315,11 +318,11 @@ fn determinants_vanish_in_every_drawing() {
     }
 }
 
-/// Claim: the determinant of the raised kagome lattice is `(z1 - 1)^2 (z2 - 1)^2 (z1 - z2)^2` over a monomial, so that at a wavenumber
-/// `q1` all its roots are double and on the unit circle, although the matrix has one null vector at each; where `q1` is 0 it vanishes
-/// for all `z2`; it has one sign
-/// over the whole zone (which one, the order of the rows says), and the pairs add up to nothing. Tolerance: the condition of a double root, 1e3 at most
-/// here, times rounding.
+/// Claim: the determinant of the raised kagome lattice is `(z1 - 1)^2 (z2 - 1)^2 (z1 - z2)^2` over a monomial, so that
+/// at a wavenumber `q1` all its roots are double and on the unit circle, although the matrix has one null vector at
+/// each; where `q1` is 0 it vanishes for all `z2`; it has one sign over the whole zone (which one, the order of the
+/// rows says), and the pairs add up to nothing. Tolerance: the condition of a double root, 1e3 at most here, times
+/// rounding.
 #[test]
 fn kagome_roots_are_double() {
     for change in changes() {
@@ -359,9 +362,9 @@ fn bloch(cell: &Cell, keys: &str) -> (BlochSummary, [usize; 3]) {
     (ran.bloch("b").clone(), ["b-modes.csv", "b_bands.csv", "b-strip.csv"].map(rows))
 }
 
-/// Claim: where the determinant vanishes at all wavenumbers, bands, counts of zero modes and the zero modes of a strip, which need
-/// none, are given, and what is read off it is null or empty with the reason; at a `q1` at which it vanishes for every `z2` the other
-/// wavenumbers keep their roots.
+/// Claim: where the determinant vanishes at all wavenumbers, bands, counts of zero modes and the zero modes of a strip,
+/// which need none, are given, and what is read off it is null or empty with the reason; at a `q1` at which it vanishes
+/// for every `z2` the other wavenumbers keep their roots.
 #[test]
 fn bands_and_counts_need_no_determinant() {
     let keys = "q1 = [0.4]\npath = [[0.3, 0.1], [3.0, 1.0]]\nzero_modes_at = [[0.0, 0.0], [0.5, 0.7]]\n";

@@ -1,4 +1,5 @@
-//! What a relaxation certifies: that it is in equilibrium, and how many negative eigenvalues it has on what rigid terms leave free.
+//! What a relaxation certifies: that it is in equilibrium, and how many negative eigenvalues it has on what rigid terms
+//! leave free.
 
 use crate::common::{Numbers, Testing, eigenvalues, jacobian, linearized, mesh, on};
 use foldwell::RIGID;
@@ -44,8 +45,8 @@ fn pressed(rectangles: usize, stiffness: [f64; 2], load: f64) -> (Assembly, Term
     (case, terms, found)
 }
 
-/// Negative eigenvalues on the null space of the rigid rows, by a singular value decomposition of nalgebra; `None` where a singular
-/// value is neither rounding error nor clearly above it.
+/// Negative eigenvalues on the null space of the rigid rows, by a singular value decomposition of nalgebra; `None`
+/// where a singular value is neither rounding error nor clearly above it.
 fn projected(case: &Assembly, terms: &Terms, found: &Relaxed) -> Option<usize> {
     let mut model = case.model_of(terms, Gauge::Held);
     let x = model.start_from(found.state.coordinates.clone());
@@ -72,12 +73,13 @@ fn projected(case: &Assembly, terms: &Terms, found: &Relaxed) -> Option<usize> {
     Some(eigenvalues(basis.transpose() * whole * &basis).iter().filter(|value| **value < -1e-9).count())
 }
 
-/// Claim: a column of eight rectangles loses stability at the loads of a dense projection on the null space of its rigid
-/// facets, 1.172258 (bars that stretch, EA 1e3, rigid facets); of the Hessian with stiff facets, 0.3049041 (1e6), 0.3082243
-/// (1e7) and 0.3527343 (1e8); and with rigid bars at Euler's loads of linked rods, `2 c / a (1 - cos(m pi / 8))`. Panels that bars
-/// let shear have hinges that are not parallel, so that facets block the first mode, by gradients that are all but dependent.
-/// Source: dense projections with analytic gradients in other software, Timoshenko and Gere for the rods. Tolerance: the loads of the
-/// former are given to seven digits; for the rods, rounding errors of the Hessian's entries, 1e-12 of which counts as zero.
+/// Claim: a column of eight rectangles loses stability at the loads of a dense projection on the null space of its
+/// rigid facets, 1.172258 (bars that stretch, EA 1e3, rigid facets); of the Hessian with stiff facets, 0.3049041 (1e6),
+/// 0.3082243 (1e7) and 0.3527343 (1e8); and with rigid bars at Euler's loads of linked rods,
+/// `2 c / a (1 - cos(m pi / 8))`. Panels that bars let shear have hinges that are not parallel, so that facets block
+/// the first mode, by gradients that are all but dependent. Source: dense projections with analytic gradients in other
+/// software, Timoshenko and Gere for the rods. Tolerance: the loads of the former are given to seven digits; for the
+/// rods, rounding errors of the Hessian's entries, 1e-12 of which counts as zero.
 #[test]
 fn columns_buckle() {
     // beyond the critical load the straight column is a saddle, which is left
@@ -94,8 +96,8 @@ fn columns_buckle() {
     }
 }
 
-/// Claim: columns of random lengths, stiffnesses and loads have as many negative eigenvalues as a dense projection counts, also those
-/// of more unknowns than are decomposed at once, whose bounds meet or not.
+/// Claim: columns of random lengths, stiffnesses and loads have as many negative eigenvalues as a dense projection
+/// counts, also those of more unknowns than are decomposed at once, whose bounds meet or not.
 #[test]
 fn negative_eigenvalues_are_those_of_a_projection() {
     let mut numbers = Numbers::new(1);
@@ -126,10 +128,11 @@ fn hypar(bars: f64, fraction: f64) -> Result<Relaxed, Failure> {
     relax(&builder.rest(Rest::Assigned(fraction)).build().unwrap()).map_err(|error| error.failure)
 }
 
-/// Claim: the paraboloid reaches the energies of a loop of thirty lines that bounds every step by the change of fold angles and the
-/// heights of triangles, on the same energy function, in other software; L-BFGS with warm starts finds the last one too. All but the
-/// third need no other way than Newton's method in positions: without the bounds the first ends at a collapsed triangle. Where bars are
-/// so soft that the model has no minimum with triangles, the triangle is named. Tolerance: ten digits are given.
+/// Claim: the paraboloid reaches the energies of a loop of thirty lines that bounds every step by the change of fold
+/// angles and the heights of triangles, on the same energy function, in other software; L-BFGS with warm starts finds
+/// the last one too. All but the third need no other way than Newton's method in positions: without the bounds the
+/// first ends at a collapsed triangle. Where bars are so soft that the model has no minimum with triangles, the
+/// triangle is named. Tolerance: ten digits are given.
 #[test]
 fn steps_that_are_short_lead_to_equilibria() {
     let reached = [
@@ -150,8 +153,8 @@ fn steps_that_are_short_lead_to_equilibria() {
     assert!(matches!(failed, Failure::Collapsed(triangle) if triangle.quality < 1e-6), "{failed}");
 }
 
-/// Claim: pieces of a sheet come to rest each for itself, without pins and with pins on one of them only: two copies side by side have
-/// twice the energy of one, by soft and by rigid bars. Tolerance: that of two relaxations.
+/// Claim: pieces of a sheet come to rest each for itself, without pins and with pins on one of them only: two copies
+/// side by side have twice the energy of one, by soft and by rigid bars. Tolerance: that of two relaxations.
 #[test]
 fn pieces_relax_each_for_itself() {
     for bars in [1e4, RIGID] {
@@ -170,8 +173,9 @@ fn pieces_relax_each_for_itself() {
     }
 }
 
-/// Claim: two cells on one screw come to rest each for itself: they have twice the energy of one, after about as few steps. Each can move
-/// about the axis and along it. Tolerance: that of two relaxations; steps of which the one takes ten.
+/// Claim: two cells on one screw come to rest each for itself: they have twice the energy of one, after about as few
+/// steps. Each can move about the axis and along it. Tolerance: that of two relaxations; steps of which the one takes
+/// ten.
 #[test]
 fn pieces_on_a_screw_relax_each_for_itself() {
     let cell = mesh("open-star");
@@ -193,7 +197,8 @@ fn pieces_on_a_screw_relax_each_for_itself() {
     }
 }
 
-/// Copies, side by side, of a flat vertex with four creases: a square whose creases go to its corners, the first one a mountain.
+/// Copies, side by side, of a flat vertex with four creases: a square whose creases go to its corners, the first one a
+/// mountain.
 fn bird_feet(copies: usize) -> Sheet {
     let (mut vertices, mut faces, mut edges, mut letters) = (vec![], vec![], vec![], vec![]);
     for copy in 0..copies {
@@ -216,9 +221,10 @@ fn bird_feet(copies: usize) -> Sheet {
     read(&text)
 }
 
-/// Claim: no well of a pyramid on pinned corners, of soft bars, is a state with a collapsed triangle, in which the apex lies on the line
-/// of a base edge: there the forces of hinges grow as the reciprocal of a height and hid what was unbalanced, so that random starts
-/// came to rest in such states. Every well that is listed is an equilibrium of bars and hinges whose triangles have heights.
+/// Claim: no well of a pyramid on pinned corners, of soft bars, is a state with a collapsed triangle, in which the apex
+/// lies on the line of a base edge: there the forces of hinges grow as the reciprocal of a height and hid what was
+/// unbalanced, so that random starts came to rest in such states. Every well that is listed is an equilibrium of bars
+/// and hinges whose triangles have heights.
 #[test]
 fn wells_have_no_collapsed_triangles() {
     let corners =
@@ -248,9 +254,10 @@ fn wells_have_no_collapsed_triangles() {
     }
 }
 
-/// Claim: the tensions of a buckled column of rigid bars, which have one self stress, are those of least norm, the same from every random
-/// start, and at most 0.22, as bars of stiffness 1e8 have them to within 0.05; and a column whose sides are held more often than need be
-/// converges with rigid bars where bars of 1e8 do. Source: the relaxations with bars of 1e8. Tolerance: that of the states.
+/// Claim: the tensions of a buckled column of rigid bars, which have one self stress, are those of least norm, the same
+/// from every random start, and at most 0.22, as bars of stiffness 1e8 have them to within 0.05; and a column whose
+/// sides are held more often than need be converges with rigid bars where bars of 1e8 do. Source: the relaxations with
+/// bars of 1e8. Tolerance: that of the states.
 #[test]
 fn tensions_have_no_self_stress() {
     let buckled = |bars: f64, seed: u64, pins: Vec<(usize, [bool; 3])>| {

@@ -42,12 +42,12 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b - TAU * ((a - b) / TAU).round()).abs()).fold(0.0, f64::max)
 }
 
-/// A tube whose vertices all lie on one cylinder: its curvature, and for both lattice motions the length along the circle and the
-/// translation along the axis. It is regular where the cylinder becomes a plane.
+/// A tube whose vertices all lie on one cylinder: its curvature, and for both lattice motions the length along the
+/// circle and the translation along the axis. It is regular where the cylinder becomes a plane.
 type OnCylinder = SVector<f64, 5>;
 
-/// Returns the chord on a circle of this curvature to the end of an arc, relative to the length of the arc, and its derivative
-/// with half the angle of the arc.
+/// Returns the chord on a circle of this curvature to the end of an arc, relative to the length of the arc, and its
+/// derivative with half the angle of the arc.
 fn chord(half: f64) -> [f64; 2] {
     if half.abs() < 1e-3 {
         let square = half * half;
@@ -65,8 +65,8 @@ fn vertex(at: &OnCylinder, [m, n]: [i32; 2]) -> Vec3 {
     Vec3::new(length * half.cos(), length * half.sin(), height)
 }
 
-/// Returns the fold angles at the three edges, valleys positive: of two faces with the edge from `a` to `b`, `c` to its left and `d`
-/// to its right.
+/// Returns the fold angles at the three edges, valleys positive: of two faces with the edge from `a` to `b`, `c` to its
+/// left and `d` to its right.
 fn angles(at: &OnCylinder) -> [f64; 3] {
     let edges =
         [([0, 0], [1, 0], [0, 1], [1, -1]), ([0, 0], [0, 1], [-1, 1], [1, 0]), ([0, 1], [1, 0], [1, 1], [0, 0])];
@@ -78,8 +78,8 @@ fn angles(at: &OnCylinder) -> [f64; 3] {
     })
 }
 
-/// Finds the tube on a cylinder with these lengths of the three edges whose seam has this turn and rise, by Newton's method from a
-/// tube near by.
+/// Finds the tube on a cylinder with these lengths of the three edges whose seam has this turn and rise, by Newton's
+/// method from a tube near by.
 fn on_cylinder(near: OnCylinder, lengths: [f64; 3], seam: [i32; 2], [turn, rise]: [f64; 2]) -> OnCylinder {
     let mut at = near;
     for _ in 0..30 {
@@ -109,10 +109,10 @@ fn on_cylinder(near: OnCylinder, lengths: [f64; 3], seam: [i32; 2], [turn, rise]
 }
 
 /// Claim: one vertex and its copies lie on a cylinder, and three lengths, a closing condition and the place of the seam
-/// determine it: radius, turns and translations solve five equations in closed form, which know no fold angle. The traced states have
-/// the fold angles of these tubes, both ways, on Kresling's tube and on cells drawn with turns of more than a half turn,
-/// with several strands, and towards the faces or away from them; opening, they pass the plane. Tolerance: a thousand times
-/// the rounding of the residual.
+/// determine it: radius, turns and translations solve five equations in closed form, which know no fold angle. The
+/// traced states have the fold angles of these tubes, both ways, on Kresling's tube and on cells drawn with turns of
+/// more than a half turn, with several strands, and towards the faces or away from them; opening, they pass the plane.
+/// Tolerance: a thousand times the rounding of the residual.
 #[test]
 fn vertices_on_a_cylinder() {
     let tubes = [
@@ -164,9 +164,9 @@ fn drawn_as(sheet: &Sheet, roll: &Roll) -> Sheet {
     fold::parse(&fold::write(&drawn), "drawn.fold").unwrap()
 }
 
-/// Claim: a periodic sheet rolled up to a tube and the same tube drawn in a file have the same trajectories: the same fold angles
-/// at the end, and closed tubes at the same arc lengths. Rigid bars, which know nothing of the kinematics, are at rest along the
-/// drawn one. Tolerance: for arc lengths of 24 the error of a hundred steps.
+/// Claim: a periodic sheet rolled up to a tube and the same tube drawn in a file have the same trajectories: the same
+/// fold angles at the end, and closed tubes at the same arc lengths. Rigid bars, which know nothing of the kinematics,
+/// are at rest along the drawn one. Tolerance: for arc lengths of 24 the error of a hundred steps.
 #[test]
 fn rolled_up_and_drawn() {
     let sheet = mesh("open-star");
@@ -190,8 +190,9 @@ fn rolled_up_and_drawn() {
     }
 }
 
-/// Claim: it does not matter which side of a tube its file draws in front. Slipping, the tube becomes half as wide; relaxations go along
-/// from every drawing, and end in the same energy. Tolerance: that of relaxations, for energies of size 1.
+/// Claim: it does not matter which side of a tube its file draws in front. Slipping, the tube becomes half as wide;
+/// relaxations go along from every drawing, and end in the same energy. Tolerance: that of relaxations, for energies of
+/// size 1.
 #[test]
 fn drawings_turned_about_the_axis() {
     let energies = [0.0, 0.4, 0.7, 1.2, 2.5].map(|turned: f64| {
@@ -225,8 +226,8 @@ fn mirror_images() {
     }
 }
 
-/// Claim: a file whose tube closes to seven digits is traced from the tube that closes. Closed both ways, a tube is rigid, and a
-/// tube of rigid panels is with either condition; this is established by a rank.
+/// Claim: a file whose tube closes to seven digits is traced from the tube that closes. Closed both ways, a tube is
+/// rigid, and a tube of rigid panels is with either condition; this is established by a rank.
 #[test]
 fn drawings_that_miss_and_rigid_tubes() {
     let missed = one_vertex([60.0 + 1e-6, 30.0], [0.0, 0.8]);

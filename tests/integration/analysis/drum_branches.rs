@@ -1,11 +1,12 @@
 //! Branch points of drums against group theory: which multiplicities they may have, and how many half branches leave.
 //!
-//! A drum of N sides on a pinned ring under equal loads has the N rotations about its axis for symmetries, and, where its triangles are
-//! isosceles, N planes of reflection besides. Null vectors at a branch point of the symmetric path are an irreducible representation of
-//! this group (M. Golubitsky, I. Stewart, D. Schaeffer, "Singularities and Groups in Bifurcation Theory", volume 2, 1988): wave number
-//! `k = N/2` (neighbours move alternately, N even) is simple, `0 < k < N/2` double, and `k = 0` keeps the symmetry and is no branch
-//! point. With an energy the reduced equations for a double one are the gradient of `f(|z|^2) + Re(q z^m) + ...`, `m = N / gcd(N, k)`,
-//! also where rotations alone are symmetries and `q` is complex: `2 m` half branches leave, and two at a simple one.
+//! A drum of N sides on a pinned ring under equal loads has the N rotations about its axis for symmetries, and, where
+//! its triangles are isosceles, N planes of reflection besides. Null vectors at a branch point of the symmetric path
+//! are an irreducible representation of this group (M. Golubitsky, I. Stewart, D. Schaeffer, "Singularities and Groups
+//! in Bifurcation Theory", volume 2, 1988): wave number `k = N/2` (neighbours move alternately, N even) is simple,
+//! `0 < k < N/2` double, and `k = 0` keeps the symmetry and is no branch point. With an energy the reduced equations
+//! for a double one are the gradient of `f(|z|^2) + Re(q z^m) + ...`, `m = N / gcd(N, k)`, also where rotations alone
+//! are symmetries and `q` is complex: `2 m` half branches leave, and two at a simple one.
 
 use crate::common::stressed_hessian;
 use foldwell::Assembly;
@@ -19,23 +20,25 @@ use nalgebra::Rotation3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
-/// Eigenvalues relative to the largest one below which they vanish at a branch point, and the least ratio of the next one to them.
+/// Eigenvalues relative to the largest one below which they vanish at a branch point, and the least ratio of the next
+/// one to them.
 const VANISHES: f64 = 1e-7;
 const NEXT: f64 = 1e2;
-/// Largest error of the number of times that a representation occurs: symmetry of states to the tolerance of a path, enlarged by the
-/// softest eigenvalues.
+/// Largest error of the number of times that a representation occurs: symmetry of states to the tolerance of a path,
+/// enlarged by the softest eigenvalues.
 const WHOLE: f64 = 1e-3;
 
 /// Length of paths.
 const ARC: f64 = 3.0;
-/// Branch points of a drum whose half branches are counted, and how far the path and the branches go beyond the last one.
+/// Branch points of a drum whose half branches are counted, and how far the path and the branches go beyond the last
+/// one.
 const FEW: usize = 3;
 const BEYOND: f64 = 0.02;
 /// Pairs of sides and wave numbers for which all half branches must be found.
 const LEAST_TOLD: usize = 9;
 
-/// A drum: sides, storeys, their twist in parts of the turn by one side, and their height. With a twist of a half the triangles are
-/// isosceles.
+/// A drum: sides, storeys, their twist in parts of the turn by one side, and their height. With a twist of a half the
+/// triangles are isosceles.
 #[derive(Clone, Copy, Debug)]
 struct Drum {
     sides: usize,
@@ -73,7 +76,8 @@ impl Drum {
         builder.build().unwrap()
     }
 
-    /// The branch points of the path under growing loads; where it ends at a length, with the branches that leave there.
+    /// The branch points of the path under growing loads; where it ends at a length, with the branches that leave
+    /// there.
     fn branch_points(self, assembly: &Assembly, branches_to: Option<f64>) -> Vec<PathPoint> {
         let stop = PathStop { arc_length: Some(branches_to.unwrap_or(ARC)), ..PathStop::default() };
         let options = PathOptions { switch: branches_to.is_some(), stop, ..PathOptions::default() };
@@ -92,8 +96,8 @@ impl Drum {
             .collect()
     }
 
-    /// How often each wave number occurs among null vectors, columns of rates: the mean over the rotations of their trace times the
-    /// character.
+    /// How often each wave number occurs among null vectors, columns of rates: the mean over the rotations of their
+    /// trace times the character.
     fn wave_numbers(&self, nulls: &DenseMatrix) -> Vec<f64> {
         let (sides, mut image) = (self.sides, nulls.clone());
         let mut traces = vec![];
@@ -113,7 +117,8 @@ impl Drum {
     }
 }
 
-/// Null vectors of the whole stiffness at a branch point, as orthonormal rates of all coordinates, by dense eigenvectors.
+/// Null vectors of the whole stiffness at a branch point, as orthonormal rates of all coordinates, by dense
+/// eigenvectors.
 fn null_vectors(assembly: &Assembly, point: &PathPoint) -> DenseMatrix {
     let mut model = assembly.model(Gauge::Held);
     let x = model.enter(&point.configuration()).x;
@@ -148,10 +153,10 @@ fn wave_number(drum: &Drum, assembly: &Assembly, point: &PathPoint) -> usize {
     present[0]
 }
 
-/// Claim: null vectors at every branch point of drums of 3 to 8 sides, of one and two storeys, are one irreducible representation of the
-/// rotations, other than the trivial one, and the multiplicity that is reported is its dimension: only drums of an even number of sides
-/// have simple ones. Source: representations of cyclic groups; null vectors by dense eigenvectors of another library. Tolerance: that of
-/// the located states, see the constants.
+/// Claim: null vectors at every branch point of drums of 3 to 8 sides, of one and two storeys, are one irreducible
+/// representation of the rotations, other than the trivial one, and the multiplicity that is reported is its dimension:
+/// only drums of an even number of sides have simple ones. Source: representations of cyclic groups; null vectors by
+/// dense eigenvectors of another library. Tolerance: that of the located states, see the constants.
 #[test]
 fn multiplicities_are_dimensions_of_representations() {
     let mut found = BTreeMap::new();
@@ -166,9 +171,10 @@ fn multiplicities_are_dimensions_of_representations() {
     assert!(found.len() >= 10, "{found:?}");
 }
 
-/// Claim: two half branches leave a simple branch point of a drum, and `2 N / gcd(N, k)` a double one of wave number `k`, with and without
-/// planes of reflection, wherever the program says that it found all. Source and tolerance: see above; on rings that are too narrow for
-/// the force between half branches, which falls as the power `m - 1` of their radius, nothing is said.
+/// Claim: two half branches leave a simple branch point of a drum, and `2 N / gcd(N, k)` a double one of wave number
+/// `k`, with and without planes of reflection, wherever the program says that it found all. Source and tolerance: see
+/// above; on rings that are too narrow for the force between half branches, which falls as the power `m - 1` of their
+/// radius, nothing is said.
 #[test]
 fn half_branches_of_drums_are_those_of_group_theory() {
     let mut told = BTreeSet::new();

@@ -141,9 +141,10 @@ fn the_branch_is_said() {
 }
 
 /// Claim: a flat patch of Resch's pattern folds all the way to its target angles, with soft and with rigid bars; its
-/// tiles then lie in one plane, every side of a tile on that of another one, so that the energy vanishes; half
-/// way it does not, since no rigid state has half of all these angles. Source: the rotations by these angles close around every vertex (a test of the
-/// generator). Tolerance: the energy is quadratic in angles that the solver finds to 1e-8 or better.
+/// tiles then lie in one plane, every side of a tile on that of another one, so that the energy vanishes; half way it
+/// does not, since no rigid state has half of all these angles. Source: the rotations by these angles close around
+/// every vertex (a test of the generator). Tolerance: the energy is quadratic in angles that the solver finds to 1e-8
+/// or better.
 #[test]
 fn resch_folds_to_its_target_angles() {
     for (bars, part) in [(1e3, 1.0), (RIGID, 1.0), (1e3, 0.5)] {
@@ -157,8 +158,8 @@ fn resch_folds_to_its_target_angles() {
     }
 }
 
-/// Returns the vertices that no boundary edge reaches, each with the directions of its creases in radians, in order, and
-/// their letters.
+/// Returns the vertices that no boundary edge reaches, each with the directions of its creases in radians, in order,
+/// and their letters.
 fn inner_vertices(sheet: &Sheet) -> Vec<Vec<(f64, Assignment)>> {
     let mut creases = vec![Some(vec![]); sheet.vertices.len()];
     for edge in sheet.edges.iter().filter(|edge| edge.kind != EdgeKind::Facet) {
@@ -182,8 +183,8 @@ fn inner_vertices(sheet: &Sheet) -> Vec<Vec<(f64, Assignment)>> {
 }
 
 /// Claim: each inner vertex of the crane folds flat: every other angle between its creases adds up to pi, and mountains
-/// and valleys differ by two in number. Source: the theorems of Kawasaki and Maekawa (T. Hull, Project Origami, 2nd ed.,
-/// CRC Press 2013, activities 20 and 21). Tolerance: rounding, over the shortest crease of 0.04.
+/// and valleys differ by two in number. Source: the theorems of Kawasaki and Maekawa (T. Hull, Project Origami, 2nd
+/// ed., CRC Press 2013, activities 20 and 21). Tolerance: rounding, over the shortest crease of 0.04.
 #[test]
 fn the_crane_folds_flat_at_every_vertex() {
     let crane = read(CRANE);

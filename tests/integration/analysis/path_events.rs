@@ -1,9 +1,10 @@
 //! Events and branches of driven paths against group theory and closed forms: branch points beside limit points, double
 //! branch points of symmetric domes, columns that stay straight, and free sheets that turn as they fold.
 //!
-//! Sources: a pyramid of N sides, radius 1 and height 2.5 with bars alone, pressed down at its apex, has a double branch point
-//! where the stiffness of the apex across the axis vanishes: `(1 - l0/l) + l0/l / (2 l^2) = 0` for bars of lengths `l` and `l0`,
-//! whatever N; by the symmetry of the polygon half branches leave along its 2N half axes of reflection.
+//! Sources: a pyramid of N sides, radius 1 and height 2.5 with bars alone, pressed down at its apex, has a double
+//! branch point where the stiffness of the apex across the axis vanishes: `(1 - l0/l) + l0/l / (2 l^2) = 0` for bars of
+//! lengths `l` and `l0`, whatever N; by the symmetry of the polygon half branches leave along its 2N half axes of
+//! reflection.
 
 use crate::common::{case_folder, turned};
 use foldwell::analysis::path::{
@@ -17,7 +18,8 @@ use nalgebra::{Rotation3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 const APEX_HEIGHT: f64 = 2.5;
-/// How far the apex of a pyramid is pressed where it can move to the side, from the root of `l^3 - l0 l^2 + l0/2` in 40 digits.
+/// How far the apex of a pyramid is pressed where it can move to the side, from the root of `l^3 - l0 l^2 + l0/2` in 40
+/// digits.
 const DOUBLE_POINT: f64 = -0.238_938_539_819;
 
 /// A sheet of these vertices and faces.
@@ -65,8 +67,8 @@ fn branch_points(branch: &PathBranch) -> Vec<&PathPoint> {
     branch.points.iter().filter(|point| point.event == Some(PathEvent::BranchPoint)).collect()
 }
 
-/// Checks that a branch point is double with 2N half branches, all of them found, and that as many branches leave, each in
-/// one of the planes of reflection of the polygon, to all sides.
+/// Checks that a branch point is double with 2N half branches, all of them found, and that as many branches leave, each
+/// in one of the planes of reflection of the polygon, to all sides.
 fn assert_star(branches: &[PathBranch], sides: usize, turn: f64, named: &str) {
     let known = branch_points(&branches[0])[0].branch_point.unwrap();
     assert_eq!(known.multiplicity, 2, "{named}");
@@ -91,10 +93,10 @@ fn assert_star(branches: &[PathBranch], sides: usize, turn: f64, named: &str) {
     assert!(points.into_iter().all(|count| count == 1), "{named}: other branch points");
 }
 
-/// Claim: the double branch point of pressed pyramids of 3 to 8 sides is where the closed form has it, and all its 2N half
-/// branches are found and followed in the planes of reflection, whatever the turn about the axis. Tolerance: the digits of the
-/// source; across the planes 1e-4, where a force of the tolerance moves the apex of the octagonal dome by as
-/// much as soon as it is off the axis.
+/// Claim: the double branch point of pressed pyramids of 3 to 8 sides is where the closed form has it, and all its 2N
+/// half branches are found and followed in the planes of reflection, whatever the turn about the axis. Tolerance: the
+/// digits of the source; across the planes 1e-4, where a force of the tolerance moves the apex of the octagonal dome by
+/// as much as soon as it is off the axis.
 #[test]
 fn all_half_branches_of_domes_are_found() {
     for (sides, turn) in [(3, 0.0), (4, 0.0), (4, TAU / 8.0), (4, 0.1), (5, 0.0), (6, 0.3), (7, 0.0), (8, 1.0)] {
@@ -118,8 +120,8 @@ fn all_half_branches_of_a_loaded_dome_are_found() {
     }
 }
 
-/// The octagonal drum of Kresling's pattern whose upper vertices are pushed down by equal loads: radius, height and twist 1, 1
-/// and an eighth of a turn.
+/// The octagonal drum of Kresling's pattern whose upper vertices are pushed down by equal loads: radius, height and
+/// twist 1, 1 and an eighth of a turn.
 fn octagon() -> Assembly {
     let ring = |k: usize, turn: f64, z: f64| {
         let (sin, cos) = (TAU * (k as f64 + turn) / 8.0).sin_cos();
@@ -139,9 +141,9 @@ fn octagon() -> Assembly {
     builder.build().unwrap()
 }
 
-/// Claim: the path of the loaded drum has the same branch points whatever the longest step, those beside limit points too, and
-/// knows which are double. Source: those of the shortest step, of which -0.101516 and 0.115632 are also what MERLIN's path
-/// of the same drum has. Tolerance: the digits of the source.
+/// Claim: the path of the loaded drum has the same branch points whatever the longest step, those beside limit points
+/// too, and knows which are double. Source: those of the shortest step, of which -0.101516 and 0.115632 are also what
+/// MERLIN's path of the same drum has. Tolerance: the digits of the source.
 #[test]
 fn branch_points_do_not_depend_on_the_step() {
     let assembly = octagon();
@@ -178,9 +180,10 @@ fn column(panels: usize) -> Assembly {
     builder.build().unwrap()
 }
 
-/// Claim: a straight column of eight rigid links has Euler's buckling loads for branch points, simple ones, and no other event:
-/// its displacement, which is rounding error, has no extrema. Source: `2 c / a (1 - cos(m pi / 8))` of links of length `a` between
-/// hinges of stiffness `c`. Tolerance: 1e-6, as rigid rows that nearly depend on each other allow.
+/// Claim: a straight column of eight rigid links has Euler's buckling loads for branch points, simple ones, and no
+/// other event: its displacement, which is rounding error, has no extrema. Source: `2 c / a (1 - cos(m pi / 8))` of
+/// links of length `a` between hinges of stiffness `c`. Tolerance: 1e-6, as rigid rows that nearly depend on each other
+/// allow.
 #[test]
 fn a_straight_column_has_no_limit_points() {
     for max_step in [0.02, 0.1] {
@@ -226,9 +229,9 @@ fn eight_creases(turn: Option<Rotation3<f64>>, pinned: bool) -> Assembly {
     builder.build().unwrap()
 }
 
-/// Claim: the path of a free sheet arrives where that of the same sheet arrives that pins hold in place, and that of a turned
-/// one, without limit points on the way: rigid motions have no events. Source: energies and angles do not depend on the place.
-/// Tolerance: states to 1e-12 of the forces.
+/// Claim: the path of a free sheet arrives where that of the same sheet arrives that pins hold in place, and that of a
+/// turned one, without limit points on the way: rigid motions have no events. Source: energies and angles do not depend
+/// on the place. Tolerance: states to 1e-12 of the forces.
 #[test]
 fn a_free_sheet_follows_the_path_of_a_pinned_one() {
     let turn = Rotation3::new(Vector3::new(0.4, -1.1, 0.7));

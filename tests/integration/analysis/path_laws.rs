@@ -1,6 +1,6 @@
-//! Laws of driven paths: the reaction is the force that the rest of the sheet feels, states do not depend on
-//! the way that led to them, a relaxation finds them too, and a drum has the states of its closed form at every stiffness
-//! of its creases, and stiffer and stiffer bars lead to the rigid limit.
+//! Laws of driven paths: the reaction is the force that the rest of the sheet feels, states do not depend on the way
+//! that led to them, a relaxation finds them too, and a drum has the states of its closed form at every stiffness of
+//! its creases, and stiffer and stiffer bars lead to the rigid limit.
 
 use foldwell::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, follow_path};
 use foldwell::analysis::relax::relax_from;
@@ -67,10 +67,10 @@ fn without_reaction(assembly: &Assembly, branch: &PathBranch) -> PathPoint {
     from
 }
 
-/// Claim: with bars of EA = 1 and creases of none or 1e-12 of it, the drum has both limit points, the unstable state and
-/// the second state of its closed form; with more crease energy the limit force tends to it in proportion. Source: bars of
-/// lengths `sqrt(h^2 + 2 - 2 cos t)` and `sqrt(h^2 + 2 - 2 cos(t - pi/3))`, minimised over the twist, in 40 digits; states
-/// in nine. Tolerance: 1e-8, as the digits of the states allow.
+/// Claim: with bars of EA = 1 and creases of none or 1e-12 of it, the drum has both limit points, the unstable state
+/// and the second state of its closed form; with more crease energy the limit force tends to it in proportion. Source:
+/// bars of lengths `sqrt(h^2 + 2 - 2 cos t)` and `sqrt(h^2 + 2 - 2 cos(t - pi/3))`, minimised over the twist, in 40
+/// digits; states in nine. Tolerance: 1e-8, as the digits of the states allow.
 #[test]
 fn a_drum_has_the_states_of_its_closed_form() {
     let limits = [[1.145_092_671_426_46, -1.015_608_266_287_35e-3], [0.962_532_976_931_361, 8.030_698_430_453_93e-4]];
@@ -123,8 +123,8 @@ fn reactions_balance_the_bars() {
     }
 }
 
-/// Claim: where no snap lies between, the way back leads through the same states, and the work is given back. Tolerance:
-/// 1e-9 of lengths, 1e-8 of the work.
+/// Claim: where no snap lies between, the way back leads through the same states, and the work is given back.
+/// Tolerance: 1e-9 of lengths, 1e-8 of the work.
 #[test]
 fn up_and_down_lead_through_the_same_states() {
     let assembly = drum(Some(1e-6));
@@ -141,8 +141,8 @@ fn up_and_down_lead_through_the_same_states() {
     assert!((works[0] - works[1]).abs() <= 1e-8 * largest, "{works:?}");
 }
 
-/// Claim: a relaxation under the force that a path ended with finds the state in which it ended, with its energy: of the
-/// two-bar truss before it snaps. Tolerance: 1e-10 of the energy and of the height.
+/// Claim: a relaxation under the force that a path ended with finds the state in which it ended, with its energy: of
+/// the two-bar truss before it snaps. Tolerance: 1e-10 of the energy and of the height.
 #[test]
 fn a_relaxation_finds_the_end_of_a_path() {
     let truss = || {
@@ -163,8 +163,8 @@ fn a_relaxation_finds_the_end_of_a_path() {
 }
 
 /// Claim: the stiffness of the bars of a patch is driven from 1e2 to infinity along one branch, whose end is the rigid
-/// equilibrium: its energy is the work of making bars stiffer more than that at the beginning. Source: a relaxation with
-/// exactly rigid bars. Tolerance: 1e-9 of the energy, and 1e-8 rad, as both are relaxed to 1e-12.
+/// equilibrium: its energy is the work of making bars stiffer more than that at the beginning. Source: a relaxation
+/// with exactly rigid bars. Tolerance: 1e-9 of the energy, and 1e-8 rad, as both are relaxed to 1e-12.
 #[test]
 fn stiffness_leads_to_the_rigid_limit() {
     let sheet = fold::parse(include_str!("../../../meshes/open-star.fold"), "open-star.fold").unwrap();

@@ -1,5 +1,6 @@
-//! Folded states of a periodic cell that are a curve: the planar folding of a triangulated Miura-ori, as a surface study, a
-//! trajectory and a landscape of rigid wells see it, compared with rigid parallelograms and with the closed form of the generator.
+//! Folded states of a periodic cell that are a curve: the planar folding of a triangulated Miura-ori, as a surface
+//! study, a trajectory and a landscape of rigid wells see it, compared with rigid parallelograms and with the closed
+//! form of the generator.
 
 use crate::common::{on, turned};
 use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
@@ -51,10 +52,11 @@ fn wells(assembly: &Assembly) -> RigidLandscape {
     landscape(assembly, &Sampling { step: 0.1, max_curvature: 1.0 }, &mut || true).unwrap()
 }
 
-/// Claim: all folded states of a Miura-ori whose facets fold are those of its planar folding, in which no facet folds: one closed
-/// curve without curvature, the same as that of rigid parallelograms up to whole turns, with the fold angles of the closed form, tan(s/2) =
-/// cos(sector) tan(z/2) between straight and zigzag creases. Tolerance: closure to 3e-14 over the smallest singular value along
-/// the curve, about 1e-2 next to the flat state; a point lies within half a step of one of the other curve.
+/// Claim: all folded states of a Miura-ori whose facets fold are those of its planar folding, in which no facet folds:
+/// one closed curve without curvature, the same as that of rigid parallelograms up to whole turns, with the fold angles
+/// of the closed form, tan(s/2) = cos(sector) tan(z/2) between straight and zigzag creases. Tolerance: closure to 3e-14
+/// over the smallest singular value along the curve, about 1e-2 next to the flat state; a point lies within half a step
+/// of one of the other curve.
 #[test]
 fn all_folded_states_of_miura_ori() {
     let sheet = miura(0.4);
@@ -90,9 +92,9 @@ fn all_folded_states_of_miura_ori() {
     }
 }
 
-/// Claim: the trajectory of a Miura-ori whose facets fold leaves the drawn state without a lock, and comes back after the arc length of
-/// rigid parallelograms; only the strains of its sides turn, where they do, and neither curvature nor shear, which stay zero.
-/// Tolerance 1e-8: closing is found on the interpolant between states.
+/// Claim: the trajectory of a Miura-ori whose facets fold leaves the drawn state without a lock, and comes back after
+/// the arc length of rigid parallelograms; only the strains of its sides turn, where they do, and neither curvature nor
+/// shear, which stay zero. Tolerance 1e-8: closing is found on the interpolant between states.
 #[test]
 fn its_trajectory_needs_no_lock() {
     let sheet = miura(0.4);
@@ -108,10 +110,11 @@ fn its_trajectory_needs_no_lock() {
     }
 }
 
-/// Claim: along the planar folding of rigid parallelograms both strains of the sides turn at two states half a loop apart, at which all
-/// creases are at multiples of pi, and nowhere else, however the sheet is drawn: at what fold, at what angle. A state without any
-/// rotation of the lattice, or with one of rounding errors, is nothing special. Source: the closed forms of both generators, whose lengths
-/// are monotonous between these states. Tolerance 1e-3: other folded states cross the curve there, so that states beside them are not found.
+/// Claim: along the planar folding of rigid parallelograms both strains of the sides turn at two states half a loop
+/// apart, at which all creases are at multiples of pi, and nowhere else, however the sheet is drawn: at what fold, at
+/// what angle. A state without any rotation of the lattice, or with one of rounding errors, is nothing special. Source:
+/// the closed forms of both generators, whose lengths are monotonous between these states. Tolerance 1e-3: other folded
+/// states cross the curve there, so that states beside them are not found.
 #[test]
 fn strains_turn_at_flat_and_stacked_states() {
     let miura = |fold: f64| Pattern::Miura(Miura { fold, ..Miura::default() });
@@ -141,9 +144,9 @@ fn strains_turn_at_flat_and_stacked_states() {
     assert!(exactly_straight >= 10, "{exactly_straight}");
 }
 
-/// Claim: creases that rest at the angles of another fold have one rigid well, there, with energy 0; the flat state, at which
-/// other folded states leave the curve, is counted as a place beyond which nothing was sampled. Source: the closed form of the generator.
-/// Tolerance: the error that the landscape states, about 1e-13.
+/// Claim: creases that rest at the angles of another fold have one rigid well, there, with energy 0; the flat state, at
+/// which other folded states leave the curve, is counted as a place beyond which nothing was sampled. Source: the
+/// closed form of the generator. Tolerance: the error that the landscape states, about 1e-13.
 #[test]
 fn rigid_wells_on_the_curve() {
     for (drawn_at, resting) in [(0.4, 0.9), (1.2, 0.3)] {
@@ -156,10 +159,10 @@ fn rigid_wells_on_the_curve() {
     }
 }
 
-/// Claim: where creases pull against each other a landscape on the curve has two wells and the pass between them, which is the highest
-/// state of the curve there. Source: with tan(s/2) = cos(sector) tan(z/2) the energy is a function of z alone; its stationary states
-/// are found on a grid and bisected. Tolerance 1e-9: bisection stops at rounding in z, and a state is as exact as its slope, whose rounding
-/// errors are 1e-14 over a second derivative of some 0.1 and more.
+/// Claim: where creases pull against each other a landscape on the curve has two wells and the pass between them, which
+/// is the highest state of the curve there. Source: with tan(s/2) = cos(sector) tan(z/2) the energy is a function of z
+/// alone; its stationary states are found on a grid and bisected. Tolerance 1e-9: bisection stops at rounding in z, and
+/// a state is as exact as its slope, whose rounding errors are 1e-14 over a second derivative of some 0.1 and more.
 #[test]
 fn a_pass_between_wells_on_the_curve() {
     let sector = 1.4f64;

@@ -1,7 +1,8 @@
-//! Random flat-foldable crease patterns, folded by a fifth from the flat state: how many leave it, and what is said of the others.
+//! Random flat-foldable crease patterns, folded by a fifth from the flat state: how many leave it, and what is said of
+//! the others.
 //!
-//! `cargo test --release --test integration random_folds -- --include-ignored --nocapture` prints the counts of 400 patterns of
-//! each family.
+//! `cargo test --release --test integration random_folds -- --include-ignored --nocapture` prints the counts of 400
+//! patterns of each family.
 
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::sheet::{Edge, Sheet, fold};
@@ -85,12 +86,12 @@ fn count(folds: &[Fold], which: impl Fn(&Fold) -> bool) -> usize {
     folds.iter().filter(|fold| which(fold)).count()
 }
 
-/// Claim: at least 95 of 100 random patterns that fold rigidly by all their creases come to rest in a minimum with every crease
-/// on the side of its rest angle, and on average more than half of it, with bars of 1e4 and rigid ones, soft and rigid facets.
-/// Source: the Miura-like zigzags fold rigidly with creases of one magnitude along every line (Tachi 2009, see
-/// `flat_patterns`); a rigid motion leads from the flat state of a single vertex to each of its folded ones (I. Streinu, W. Whiteley,
-/// "Single-vertex origami and spherical expansive motions", LNCS 3742 (2005)). Tolerance: 95 of 100 is what is asked of the
-/// program; 200 and 198 of 200 were measured.
+/// Claim: at least 95 of 100 random patterns that fold rigidly by all their creases come to rest in a minimum with
+/// every crease on the side of its rest angle, and on average more than half of it, with bars of 1e4 and rigid ones,
+/// soft and rigid facets. Source: the Miura-like zigzags fold rigidly with creases of one magnitude along every line
+/// (Tachi 2009, see `flat_patterns`); a rigid motion leads from the flat state of a single vertex to each of its folded
+/// ones (I. Streinu, W. Whiteley, "Single-vertex origami and spherical expansive motions", LNCS 3742 (2005)).
+/// Tolerance: 95 of 100 is what is asked of the program; 200 and 198 of 200 were measured.
 #[test]
 fn rigidly_foldable_patterns_fold_by_a_fifth() {
     for family in [Family::Zigzags, Family::Vertex] {
@@ -102,10 +103,10 @@ fn rigidly_foldable_patterns_fold_by_a_fifth() {
     }
 }
 
-/// Claim: at least 95 of 100 sheets that are folded along random lines one after the other come to rest in a minimum out of the
-/// plane, with bars of 1e4 and rigid ones, if facets bend. With rigid bars and facets many have no balance, as few of them
-/// fold rigidly by all creases at once; each that does not come to rest out of the plane fails, and nearly all of these because
-/// the forces have no balance. Tolerance: 95 of 100 is what is asked of the program; 193 of
+/// Claim: at least 95 of 100 sheets that are folded along random lines one after the other come to rest in a minimum
+/// out of the plane, with bars of 1e4 and rigid ones, if facets bend. With rigid bars and facets many have no balance,
+/// as few of them fold rigidly by all creases at once; each that does not come to rest out of the plane fails, and
+/// nearly all of these because the forces have no balance. Tolerance: 95 of 100 is what is asked of the program; 193 of
 /// 200 were measured with soft facets, 142 with rigid ones.
 #[test]
 fn simple_folds_leave_the_flat_state_or_say_why_not() {
@@ -120,9 +121,9 @@ fn simple_folds_leave_the_flat_state_or_say_why_not() {
     }
 }
 
-/// Claim: where Newton's method with rigid bars takes a branch on which next to nothing is relieved, the one to which soft bars lead
-/// is taken. Source: one of 400 random zigzags, which folded by 3% of its rest angles with rigid bars alone, and kept 92% of
-/// the energy, while all of them fold rigidly. Tolerance: others keep less than half of it.
+/// Claim: where Newton's method with rigid bars takes a branch on which next to nothing is relieved, the one to which
+/// soft bars lead is taken. Source: one of 400 random zigzags, which folded by 3% of its rest angles with rigid bars
+/// alone, and kept 92% of the energy, while all of them fold rigidly. Tolerance: others keep less than half of it.
 #[test]
 fn a_branch_that_relieves_nothing_is_not_kept() {
     let sheet = fold::parse(&Family::Zigzags.pattern(328), "random.fold").unwrap();
@@ -135,10 +136,11 @@ const THREE_VALLEYS: &str = "{\"vertices_coords\": [[0,0],[1,0],[-0.5,0.86602540
     \"edges_vertices\": [[0,1],[0,2],[0,3],[1,2],[2,3],[3,1]],\n\
     \"edges_assignment\": [\"V\",\"V\",\"V\",\"B\",\"B\",\"B\"]}";
 
-/// Claim: three valleys that meet at 120 degrees do not fold rigidly at all, since a pyramid with three faces is rigid. With
-/// bars of 1e4 the sheet leaves the flat state; with rigid ones it is said that the forces have no balance, after states that
-/// tend to the flat one, with tensions that grow by 10^(1/3) for bars ten times as stiff. Source: the minimum of `k a^4 -
-/// torque a`. Tolerance: the next order is a part of the fold angle, which is 3e-3 with the stiffest bars.
+/// Claim: three valleys that meet at 120 degrees do not fold rigidly at all, since a pyramid with three faces is rigid.
+/// With bars of 1e4 the sheet leaves the flat state; with rigid ones it is said that the forces have no balance, after
+/// states that tend to the flat one, with tensions that grow by 10^(1/3) for bars ten times as stiff. Source: the
+/// minimum of `k a^4 - torque a`. Tolerance: the next order is a part of the fold angle, which is 3e-3 with the
+/// stiffest bars.
 #[test]
 fn a_pattern_without_rigid_folds_says_so() {
     let sheet = fold::parse(THREE_VALLEYS, "three.fold").unwrap();
@@ -166,8 +168,8 @@ fn the_program_says_that_nothing_balances() {
     assert!(history.iter().all(|row| row["method"] == "soft-bars"));
 }
 
-/// Claim: of 400 patterns of each family no more than one in twenty fails, unless bars and facets are both rigid. Prints the
-/// counts.
+/// Claim: of 400 patterns of each family no more than one in twenty fails, unless bars and facets are both rigid.
+/// Prints the counts.
 #[test]
 #[ignore = "prints a table; the claim is that of the tests of 200 patterns"]
 fn counts_of_400_patterns() {

@@ -30,8 +30,8 @@ fn ratios(response: &Response, angle: f64) -> [f64; 2] {
     [poisson.in_plane.ratio(angle).unwrap(), poisson.bending.ratio(angle).unwrap()]
 }
 
-/// Returns sides of random lengths and angles: a zigzag along y out of the plane, and one along x that is out of the plane
-/// too, as in the eggbox, or in the plane, as in Miura-ori.
+/// Returns sides of random lengths and angles: a zigzag along y out of the plane, and one along x that is out of the
+/// plane too, as in the eggbox, or in the plane, as in Miura-ori.
 fn random_sides(seed: u64) -> [Vec3; 4] {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
     let mut near = |side: Vec3| side + Vec3::from_fn(|_, _| rng.random_range(-0.35..0.35));
@@ -48,9 +48,9 @@ fn turned_ratio([e11, e22]: [f64; 2], angle: f64) -> f64 {
 
 /// Claim: Miura-ori of sector 60 degrees, from fold 0.1 to 1.4: Poisson's ratio in its plane is that of the closed form
 /// `s = b cos g tan t / q`, `l = a sqrt(1 - sin^2 g sin^2 t)`, which gives `-(dl/l)/(ds/s) = -tan^2 t cos^2 g ...` (M.
-/// Schenk, S. D. Guest, PNAS 110, 3276 (2013), eq. 4 and 5; Z. Y. Wei et al., Phys. Rev. Lett. 110, 215501 (2013)), that
-/// of bending the opposite, along every direction. The closed form is checked by differences of the generated cells.
-/// Tolerance 1e-10, relative to the ratio where that is large: the claim of the study; differences 1e-7.
+/// Schenk, S. D. Guest, PNAS 110, 3276 (2013), eq. 4 and 5; Z. Y. Wei et al., Phys. Rev. Lett. 110, 215501 (2013)),
+/// that of bending the opposite, along every direction. The closed form is checked by differences of the generated
+/// cells. Tolerance 1e-10, relative to the ratio where that is large: the claim of the study; differences 1e-7.
 #[test]
 fn miura_ori_has_its_closed_forms() {
     let t = FRAC_PI_3;
@@ -80,9 +80,9 @@ fn miura_ori_has_its_closed_forms() {
     }
 }
 
-/// Claim: the eggbox has Poisson's ratio `tan^2 e / tan^2 f` in its plane, `f` and `e` the slopes of its sides with `sin
-/// f sin e = cos t`, from the derivatives of its lengths, and the opposite of bending (H. Nassar, A. Lebee, L. Monasse,
-/// Proc. R. Soc. A 473, 20160705 (2017)), in every direction. Tolerance as of Miura-ori.
+/// Claim: the eggbox has Poisson's ratio `tan^2 e / tan^2 f` in its plane, `f` and `e` the slopes of its sides with
+/// `sin f sin e = cos t`, from the derivatives of its lengths, and the opposite of bending (H. Nassar, A. Lebee, L.
+/// Monasse, Proc. R. Soc. A 473, 20160705 (2017)), in every direction. Tolerance as of Miura-ori.
 #[test]
 fn the_eggbox_has_its_closed_forms() {
     for sector in [0.6, FRAC_PI_3, 1.4] {
@@ -120,9 +120,9 @@ fn folded([a, b, c, d]: [Vec3; 4], step: f64) -> [Vec3; 4] {
     [place(&a), place(&b), c, turned]
 }
 
-/// Claim: cells of four parallelograms of random lengths and angles have one mode that strains them in the plane and two
-/// that bend them, with opposite Poisson's ratios in every direction (J. McInerney, G. H. Paulino, D. Z. Rocklin, PNAS
-/// 119, e2202777119 (2022)), a height at which those that bend have no strain, and the strain of exact folding, by
+/// Claim: cells of four parallelograms of random lengths and angles have one mode that strains them in the plane and
+/// two that bend them, with opposite Poisson's ratios in every direction (J. McInerney, G. H. Paulino, D. Z. Rocklin,
+/// PNAS 119, e2202777119 (2022)), a height at which those that bend have no strain, and the strain of exact folding, by
 /// differences. Tolerance: 1e-9, the claim of the study, 180 directions each; differences 1e-6.
 #[test]
 fn four_parallelograms_have_opposite_ratios() {
@@ -183,8 +183,8 @@ fn generic_cells_have_no_ratio() {
 
 /// Claim: rigid polygons leave Miura-ori its folding alone, with the same ratio in the plane, and the reason says that
 /// polygons have to bend; a flat sheet has one mode more for each vertex, of which none strains it; a lock on a crease
-/// of soft Miura-ori leaves two modes that bend; a rigid diagonal leaves planar folding, which bends no polygon, and one
-/// mode that bends, whose ratio is not the opposite. Source: counts of theory.
+/// of soft Miura-ori leaves two modes that bend; a rigid diagonal leaves planar folding, which bends no polygon, and
+/// one mode that bends, whose ratio is not the opposite. Source: counts of theory.
 #[test]
 fn the_relation_says_why() {
     let miura = |fold: f64| generate(&Pattern::Miura(Miura { fold, ..Miura::default() })).unwrap();
@@ -218,8 +218,9 @@ fn the_relation_says_why() {
     assert!(poisson(&stiff).sum.unwrap() > 0.1, "{:?}", poisson(&stiff).sum);
 }
 
-/// Claim: a symmetric cell whose vertices are off by 1e-6 has no mode without curvature, and so no ratio, and the reason
-/// says how close it is to a cell that has; off by 1e-13 it has one. Its faces are triangles, as of an exported mesh.
+/// Claim: a symmetric cell whose vertices are off by 1e-6 has no mode without curvature, and so no ratio, and the
+/// reason says how close it is to a cell that has; off by 1e-13 it has one. Its faces are triangles, as of an exported
+/// mesh.
 #[test]
 fn a_rounded_drawing_is_called_close() {
     let rounded = |off: f64| {
@@ -264,9 +265,9 @@ fn fields_belong_to_the_table() {
     }
 }
 
-/// Claim: self stresses are orthonormal, their forces and moments are orthogonal, and their work falls; so their forces and moments
-/// belong to the sheet: they are the same in every orientation, and with another unit of length forces fall with it and moments do not.
-/// Tolerance: rounding over the distance between singular values.
+/// Claim: self stresses are orthonormal, their forces and moments are orthogonal, and their work falls; so their forces
+/// and moments belong to the sheet: they are the same in every orientation, and with another unit of length forces fall
+/// with it and moments do not. Tolerance: rounding over the distance between singular values.
 #[test]
 fn self_stresses_belong_to_the_sheet() {
     let turn = rotation::exp(&Vec3::new(0.4, -1.1, 0.7));
@@ -333,9 +334,9 @@ fn modes_are_self_stresses() {
 }
 
 /// Claim: ratios do not depend on the orientation of the sheet, its unit of length, the order of its vertices, or the
-/// choice of lattice vectors, apart from the direction from which angles count; a mirror image has the same. The neutral
-/// height is a place of the sheet: it grows with the unit, is reversed in the mirror, and counted from another vertex it
-/// is less by how much that vertex is higher. Tolerance: rounding.
+/// choice of lattice vectors, apart from the direction from which angles count; a mirror image has the same. The
+/// neutral height is a place of the sheet: it grows with the unit, is reversed in the mirror, and counted from another
+/// vertex it is less by how much that vertex is higher. Tolerance: rounding.
 #[test]
 fn ratios_belong_to_the_sheet() {
     let sides = random_sides(8);
@@ -413,9 +414,9 @@ fn in_lattice([t11, t22, t12]: [f64; 3], [g11, g22, g12]: [f64; 3]) -> [f64; 3] 
 }
 
 /// Claim: a cylinder has two linear modes, whose fold rates close, and whose strains, curvature tensors and lattice
-/// rotations are the differences of exact folding along them; axis, angles, chords and curvature are those of the state.
-/// The states are those of an independent program. Tolerance: closure 1e-9, as the states close to 1e-12; differences
-/// of step 1e-5: 1e-7.
+/// rotations are the differences of exact folding along them; axis, angles, chords and curvature are those of the
+/// state. The states are those of an independent program. Tolerance: closure 1e-9, as the states close to 1e-12;
+/// differences of step 1e-5: 1e-7.
 #[test]
 fn a_cylinder_has_two_modes() {
     let sheet = common::mesh("open-star");

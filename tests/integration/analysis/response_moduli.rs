@@ -94,9 +94,9 @@ fn torus_energy(sheet: &Sheet, stiff: Stiff, [e11, e22, e12]: [f64; 3]) -> f64 {
     relax(&assembly).unwrap().state.total() / (9.0 * area(sheet))
 }
 
-/// Claim: the stretching moduli are those of the energy of a large torus under small imposed strain, for bars from soft to
-/// stiff. Mean of both signs at strains of 1e-4: its error is the square of that times the stiffness of other orders.
-/// Tolerance 1e-6, the claim of the study.
+/// Claim: the stretching moduli are those of the energy of a large torus under small imposed strain, for bars from soft
+/// to stiff. Mean of both signs at strains of 1e-4: its error is the square of that times the stiffness of other
+/// orders. Tolerance 1e-6, the claim of the study.
 #[test]
 fn stretching_is_that_of_a_strained_torus() {
     for (number, sheet) in sheets().iter().enumerate() {
@@ -132,9 +132,9 @@ fn condensed(hessian: &DenseMatrix) -> DenseMatrix {
     outer - mixed.transpose() * inner.lu().solve(&mixed).unwrap()
 }
 
-/// Claim: stretching, coupling and bending moduli are the Hessian of the energy of one cell in the coordinates of a screw,
-/// condensed to strain and curvature, for bending about axes in every direction. Source: the chart of theory, whose
-/// second derivatives are checked entry by entry elsewhere. Tolerance: rounding, 1e-9 of the largest modulus.
+/// Claim: stretching, coupling and bending moduli are the Hessian of the energy of one cell in the coordinates of a
+/// screw, condensed to strain and curvature, for bending about axes in every direction. Source: the chart of theory,
+/// whose second derivatives are checked entry by entry elsewhere. Tolerance: rounding, 1e-9 of the largest modulus.
 #[test]
 fn moduli_are_the_condensed_hessian_of_a_screw() {
     for sheet in &sheets() {
@@ -225,8 +225,8 @@ fn bending_is_that_of_cylinders() {
 }
 
 /// Claim: the limit of the moduli over the stiffness of the bars has rank 3, and its null space are the three linear
-/// modes, found by closure in fold angles; the moduli over `EA` approach it. On a self stress's strains and bendings the
-/// energy grows with the stiffness, along the modes it stays. Tolerance: rounding; the approach is as 1/EA.
+/// modes, found by closure in fold angles; the moduli over `EA` approach it. On a self stress's strains and bendings
+/// the energy grows with the stiffness, along the modes it stays. Tolerance: rounding; the approach is as 1/EA.
 #[test]
 fn the_rigid_limit_knows_the_modes() {
     for sheet in &sheets() {
@@ -306,8 +306,8 @@ fn the_softest_are_the_rigid_modes() {
     }
 }
 
-/// Claim: a sheet whose hinges cost nothing has moduli of rank 3; one without bars, under stress, or with rigid polygons
-/// has none, and says why.
+/// Claim: a sheet whose hinges cost nothing has moduli of rank 3; one without bars, under stress, or with rigid
+/// polygons has none, and says why.
 #[test]
 fn sheets_without_moduli() {
     let [star, miura, _] = sheets();

@@ -12,9 +12,9 @@ fn names(relaxed: &Relaxed) -> Vec<&'static str> {
     relaxed.routes.iter().map(|route| route.name).collect()
 }
 
-/// Claim: the bird base with bars of 300, folded to 0.8 and 0.9 of its letters, comes to rest at the energies that another minimizer
-/// finds (`validation/independent.py`: shifted Newton's method with warm starts along the fraction), 1.278269936 and 0.308122142.
-/// Tolerance: those digits.
+/// Claim: the bird base with bars of 300, folded to 0.8 and 0.9 of its letters, comes to rest at the energies that
+/// another minimizer finds (`validation/independent.py`: shifted Newton's method with warm starts along the fraction),
+/// 1.278269936 and 0.308122142. Tolerance: those digits.
 #[test]
 fn bird_bases_fold() {
     for (fraction, energy) in [(0.8, 1.278_269_936), (0.9, 0.308_122_142)] {
@@ -27,9 +27,9 @@ fn bird_bases_fold() {
     }
 }
 
-/// Claim: a saddle with two negative eigenvalues, on a torus with fixed lattice and bars of 3e4, is left for a minimum below it; a start
-/// that knows its tensions stays. The curvatures are so small that with shifts of a hundredth of the Hessian and more 200 steps
-/// are not enough.
+/// Claim: a saddle with two negative eigenvalues, on a torus with fixed lattice and bars of 3e4, is left for a minimum
+/// below it; a start that knows its tensions stays. The curvatures are so small that with shifts of a hundredth of the
+/// Hessian and more 200 steps are not enough.
 #[test]
 fn shallow_saddles_are_left() {
     let case = on(mesh("open-star"), [4, 4], Boundary::FixedTorus);
@@ -56,7 +56,8 @@ fn known_tensions_stay() {
     assert_eq!(relaxed.negative_eigenvalues, Some(2), "{:?}", names(&relaxed));
 }
 
-/// Claim: a sheet of which every vertex is pinned, so that nothing can move, is at rest where it is drawn, with bars of any stiffness.
+/// Claim: a sheet of which every vertex is pinned, so that nothing can move, is at rest where it is drawn, with bars of
+/// any stiffness.
 #[test]
 fn sheets_without_unknowns_are_at_rest() {
     for bars in [1.0, f64::INFINITY] {
@@ -69,8 +70,8 @@ fn sheets_without_unknowns_are_at_rest() {
     }
 }
 
-/// Claim: a cell of one vertex on a torus whose lattice is fixed can only be displaced as a whole: it is at rest where it is drawn,
-/// whatever the rest angles of its creases are, with bars of any stiffness.
+/// Claim: a cell of one vertex on a torus whose lattice is fixed can only be displaced as a whole: it is at rest where
+/// it is drawn, whatever the rest angles of its creases are, with bars of any stiffness.
 #[test]
 fn cells_that_can_only_be_displaced_are_at_rest() {
     let sheet = generate(&Pattern::Random(Random { size: [1, 1], ..Random::default() })).unwrap();

@@ -25,8 +25,8 @@ fn tube() -> Assembly {
     Assembly::tube(sheet, roll, [SIDES, 1]).bars(1e3).creases(1.0).rest(Rest::Flat).build().unwrap()
 }
 
-/// Returns the edge of the cell whose copy is this edge of the ring: along a hexagon, or up to the next vertex, or the one
-/// after that.
+/// Returns the edge of the cell whose copy is this edge of the ring: along a hexagon, or up to the next vertex, or the
+/// one after that.
 fn of_cell(cell: &Sheet, ends: [usize; 2]) -> usize {
     let [from, to] = ends.map(|v| [(v % SIDES) as i32, (v / SIDES) as i32]);
     let steps = [(to[0] - from[0] + 1).rem_euclid(SIDES as i32) - 1, to[1] - from[1]];
@@ -34,8 +34,8 @@ fn of_cell(cell: &Sheet, ends: [usize; 2]) -> usize {
     cell.edges.iter().position(|edge| same(edge.key.shift)).unwrap_or_else(|| panic!("{ends:?}: {steps:?}"))
 }
 
-/// Claim: the cell of a Kresling tube draws the ring of the generator: every copy of its vertex is a vertex of the ring, and
-/// edges and fold angles are those of the ring. Tolerance: rounding of a sine.
+/// Claim: the cell of a Kresling tube draws the ring of the generator: every copy of its vertex is a vertex of the
+/// ring, and edges and fold angles are those of the ring. Tolerance: rounding of a sine.
 #[test]
 fn cell_and_ring_are_drawn_alike() {
     let (cell, ring) = (mesh("kresling-cell"), ring());
@@ -57,8 +57,9 @@ fn cell_and_ring_are_drawn_alike() {
 }
 
 /// Claim: a relaxed tube of one Kresling cell is an equilibrium of the ring built from it, whose model knows no screw
-/// motion, and every edge has the energy of its copy. The ring has free ends, so its two outer rows of vertices at either end are
-/// held where the tube has them. Tolerances: residuals of 1e-12 over the lowest stiffness of the ring, which is 42.
+/// motion, and every edge has the energy of its copy. The ring has free ends, so its two outer rows of vertices at
+/// either end are held where the tube has them. Tolerances: residuals of 1e-12 over the lowest stiffness of the ring,
+/// which is 42.
 #[test]
 fn cell_and_ring_relax_alike() {
     let (case, mut sheet) = (tube(), ring());
@@ -96,8 +97,9 @@ fn cell_and_ring_relax_alike() {
     }
 }
 
-/// Claim: a helical Miura-ori tube of rigid panels, of the kind of Feng, Plucinsky and James (Phys. Rev. E 101, 033002 (2020)),
-/// closes and is developable, its panels are flat, and it is rigid, as they find. Tolerance: rounding of the file.
+/// Claim: a helical Miura-ori tube of rigid panels, of the kind of Feng, Plucinsky and James (Phys. Rev. E 101, 033002
+/// (2020)), closes and is developable, its panels are flat, and it is rigid, as they find. Tolerance: rounding of the
+/// file.
 #[test]
 fn helical_miura_closes_and_is_rigid() {
     let sheet = mesh("helical-miura");
@@ -137,8 +139,8 @@ fn screws_in_files() {
     }
 }
 
-/// Claim: what needs lattice vectors refuses a cell that screw motions repeat, and seams that do not close are refused with what
-/// they miss.
+/// Claim: what needs lattice vectors refuses a cell that screw motions repeat, and seams that do not close are refused
+/// with what they miss.
 #[test]
 fn what_a_screw_cell_is_not() {
     let sheet = mesh("kresling-cell");
@@ -151,8 +153,8 @@ fn what_a_screw_cell_is_not() {
     assert_eq!(Roll::as_drawn(&mesh("open-star"), [0, 8], SeamKept::BOTH).unwrap_err(), RollError::NoScrews);
 }
 
-/// Claim: scenes of a drawn tube that cannot be are refused before anything is written, and every kind of study on a patch of
-/// its cells is refused or ends with an answer or a reason.
+/// Claim: scenes of a drawn tube that cannot be are refused before anything is written, and every kind of study on a
+/// patch of its cells is refused or ends with an answer or a reason.
 #[test]
 fn scenes_of_screw_cells() {
     let scene = |keys: &str, study: &str| {

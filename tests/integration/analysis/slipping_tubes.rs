@@ -57,9 +57,9 @@ fn roll_at(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, angles: &[f64]) -> Rol
     Roll { seam, kept, coordinates, angles: angles.to_vec(), frame: Matrix3::identity(), origin: Vec3::zeros() }
 }
 
-/// Claim: with the turn of the seam kept there are two trajectories. Every state closes, its seam turns by `2 pi`, the rise
-/// moves the way of the sign, and the states are those of [`Tube::slip`] at equal lengths. Tolerances: those required; for
-/// `slip`, which stops at the same length by the same arc length, a hundred residuals.
+/// Claim: with the turn of the seam kept there are two trajectories. Every state closes, its seam turns by `2 pi`, the
+/// rise moves the way of the sign, and the states are those of [`Tube::slip`] at equal lengths. Tolerances: those
+/// required; for `slip`, which stops at the same length by the same arc length, a hundred residuals.
 #[test]
 fn the_seam_slips_both_ways() {
     for (sheet, seam) in cells() {
@@ -86,8 +86,8 @@ fn the_seam_slips_both_ways() {
     }
 }
 
-/// Claim: with the rise of the seam kept its turn passes `2 pi` in the way of the sign, and the seam ends at the height where
-/// it began. Tolerance: the required one.
+/// Claim: with the rise of the seam kept its turn passes `2 pi` in the way of the sign, and the seam ends at the height
+/// where it began. Tolerance: the required one.
 #[test]
 fn the_tube_opens_both_ways() {
     for (sheet, seam) in cells() {
@@ -101,10 +101,10 @@ fn the_tube_opens_both_ways() {
     }
 }
 
-/// Claim: the states are tubes of the drawn bars, by the lengths of bars, which share no equation with fold angles. Placed by
-/// its screw motions, every edge keeps its length; the copy at the end of the seam is the same cell, moved along the axis
-/// by the rise; and a model of rigid bars that starts there is at rest in lengths. Its bars have one motion, none if both
-/// conditions are kept. Tolerances: the required one; of the copy, rounding after some ten cells.
+/// Claim: the states are tubes of the drawn bars, by the lengths of bars, which share no equation with fold angles.
+/// Placed by its screw motions, every edge keeps its length; the copy at the end of the seam is the same cell, moved
+/// along the axis by the rise; and a model of rigid bars that starts there is at rest in lengths. Its bars have one
+/// motion, none if both conditions are kept. Tolerances: the required one; of the copy, rounding after some ten cells.
 #[test]
 fn states_are_tubes_of_the_drawn_bars() {
     for (sheet, seam) in cells() {
@@ -135,8 +135,8 @@ fn states_are_tubes_of_the_drawn_bars() {
     }
 }
 
-/// Claim: relaxations of rigid bars with one crease locked meet the trajectory, also where a lattice rotation passes a half turn
-/// (seam (1, 8) at arc length 6.246). Tolerance: 1e-9 of relaxations, whose equations are others.
+/// Claim: relaxations of rigid bars with one crease locked meet the trajectory, also where a lattice rotation passes a
+/// half turn (seam (1, 8) at arc length 6.246). Tolerance: 1e-9 of relaxations, whose equations are others.
 #[test]
 fn relaxed_tubes_meet_the_trajectory() {
     let sheet = mesh("open-star");
@@ -153,8 +153,8 @@ fn relaxed_tubes_meet_the_trajectory() {
     assert!(places.windows(2).all(|pair| (pair[1].1.rise - pair[0].1.rise).abs() <= 12.0 * (pair[1].0 - pair[0].0)));
 }
 
-/// Claim: a closed tube has no trajectory, and neither has a slipping one with a crease locked: both are rigid, established by
-/// a rank. A tube without conditions has two motions, which are refused with their number.
+/// Claim: a closed tube has no trajectory, and neither has a slipping one with a crease locked: both are rigid,
+/// established by a rank. A tube without conditions has two motions, which are refused with their number.
 #[test]
 fn rigid_tubes_and_tubes_with_two_motions() {
     let sheet = mesh("open-star");
@@ -175,8 +175,9 @@ fn rigid_tubes_and_tubes_with_two_motions() {
     assert_eq!(Tube::new(&mesh("helical-tube"), [0, 7]).unwrap_err(), patch);
 }
 
-/// Claim: scenes say all this. A rigid tube has the end `no-real-branch` and exit status 0; the table has the seam, whose turn is
-/// kept, also on a tube that its mesh draws; Poisson's ratios and a lock at another angle are refused with the reason.
+/// Claim: scenes say all this. A rigid tube has the end `no-real-branch` and exit status 0; the table has the seam,
+/// whose turn is kept, also on a tube that its mesh draws; Poisson's ratios and a lock at another angle are refused
+/// with the reason.
 #[test]
 fn scenes_of_slipping_tubes() {
     let scene = |mesh: &str, sheet: &str, study: &str| {
@@ -207,10 +208,10 @@ fn passes(one: &Traced, angles: &[f64]) -> Option<f64> {
     one.closed_tubes.iter().find(|state| same(&state.angles)).map(|state| state.arc_length)
 }
 
-/// Claim: where a slipping seam has no rise again the tube is closed. Its cell at the end of the seam is the first one again, no
-/// motion keeps both conditions, rigid bars closed both ways are at rest there, and seen from there the tube of the beginning
-/// is a closed tube at the same arc length. Tolerances: arc lengths to 1e-9 of 20, angles to that over the rate of the rise;
-/// copies as above.
+/// Claim: where a slipping seam has no rise again the tube is closed. Its cell at the end of the seam is the first one
+/// again, no motion keeps both conditions, rigid bars closed both ways are at rest there, and seen from there the tube
+/// of the beginning is a closed tube at the same arc length. Tolerances: arc lengths to 1e-9 of 20, angles to that over
+/// the rate of the rise; copies as above.
 #[test]
 fn closed_tubes_on_the_way() {
     let (sheet, seam) = (mesh("open-star"), [1, 8]);

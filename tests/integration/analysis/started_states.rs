@@ -1,5 +1,5 @@
-//! Modes and wells of states other than the drawn one: spectra with the geometric stiffness of tensions, counts at saddle
-//! points, and starts that stay where they are.
+//! Modes and wells of states other than the drawn one: spectra with the geometric stiffness of tensions, counts at
+//! saddle points, and starts that stay where they are.
 
 use crate::common::{self, Folder, Scene, Testing, eigenvalues, jacobian, linearized, on, patch};
 use approx::{abs_diff_eq, assert_relative_eq};
@@ -77,8 +77,8 @@ fn curled(bars: f64, cells: [usize; 2]) -> Assembly {
     case.with_terms(Terms::bars_and_creases(bars, 1.0, rest))
 }
 
-/// Claim: the eigenvalues of a relaxed state are those of the Hessian of the whole energy at that state, tensions of the
-/// bars included. Source: central differences of the gradient, whose error is the square of the step of 1e-5 times
+/// Claim: the eigenvalues of a relaxed state are those of the Hessian of the whole energy at that state, tensions of
+/// the bars included. Source: central differences of the gradient, whose error is the square of the step of 1e-5 times
 /// fourth derivatives of bars of stiffness 1e3; nothing but the geometric stiffness makes the difference to the last
 /// check, in which the tensions are left out.
 #[test]

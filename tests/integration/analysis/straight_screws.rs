@@ -1,6 +1,7 @@
 //! Screws that stay straight: sheets of parallelograms do not roll up, whatever folds them.
 //!
-//! Source: the same relaxations on a torus, whose unknowns are vertices and lattice vectors, without an axis or a curvature.
+//! Source: the same relaxations on a torus, whose unknowns are vertices and lattice vectors, without an axis or a
+//! curvature.
 
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::{Assembly, Gauge};
@@ -8,7 +9,8 @@ use foldwell::relax;
 use foldwell::scene::{build, parse};
 use foldwell::solver::{Failure, Options};
 
-/// A pattern on a domain with this stiffness of its bars; its creases rest at 1 and -1 rad by their letters, or one is locked.
+/// A pattern on a domain with this stiffness of its bars; its creases rest at 1 and -1 rad by their letters, or one is
+/// locked.
 fn folded(pattern: &str, domain: &str, stiffness: f64, locked: bool) -> Assembly {
     let rest = if locked { "" } else { ", rest = { M = -1.0, V = 1.0, F = 0.0 }" };
     let lock = if locked { "[[lock]]\ncrease = [0, 1, 0, 0]\nangle = 0.8\n" } else { "" };
@@ -28,7 +30,8 @@ fn flat_eggbox(domain: &str, stiffness: f64) -> Assembly {
     build::assembly(&parse(&text, "s.toml").unwrap()).unwrap()
 }
 
-/// The equilibrium from the drawn state with every unknown moved by up to an amplitude, by a linear congruential generator.
+/// The equilibrium from the drawn state with every unknown moved by up to an amplitude, by a linear congruential
+/// generator.
 fn from_near(assembly: &Assembly, amplitude: f64, seed: u64) -> Relaxed {
     let model = assembly.model(Gauge::Held);
     let mut state = seed;
@@ -40,9 +43,9 @@ fn from_near(assembly: &Assembly, amplitude: f64, seed: u64) -> Relaxed {
     relax_from(&model, x, Options::default(), &mut |_| true).unwrap()
 }
 
-/// Claim: an eggbox that is straight is stable there, as it is on a torus, from wherever it came: the direction of an axis without
-/// curvature is not counted. It goes straight as soon as the direct way fails next to zero curvature. Tolerance: none for a count; energies
-/// as below.
+/// Claim: an eggbox that is straight is stable there, as it is on a torus, from wherever it came: the direction of an
+/// axis without curvature is not counted. It goes straight as soon as the direct way fails next to zero curvature.
+/// Tolerance: none for a count; energies as below.
 #[test]
 fn direction_of_no_curvature_is_not_counted() {
     for stiffness in [1e2, 1e4] {
@@ -58,8 +61,9 @@ fn direction_of_no_curvature_is_not_counted() {
     }
 }
 
-/// Claim: at every stiffness, exactly rigid included, the energy of the screw is that of the torus and its curvature vanishes, from
-/// the drawn state and from states near it. Tolerance: 1e-9 for energies of size 1 from residuals of 1e-12.
+/// Claim: at every stiffness, exactly rigid included, the energy of the screw is that of the torus and its curvature
+/// vanishes, from the drawn state and from states near it. Tolerance: 1e-9 for energies of size 1 from residuals of
+/// 1e-12.
 #[test]
 fn screws_of_parallelograms_stay_straight() {
     let mut cases: Vec<(&str, f64, bool)> = vec![("miura", f64::INFINITY, true), ("miura", 1e6, true)];
@@ -83,9 +87,9 @@ fn screws_of_parallelograms_stay_straight() {
     }
 }
 
-/// Claim: a direct way that stands still next to zero curvature may be given up long before its 200 steps. Source: without the rule every
-/// direct way that fails so takes all of its steps. Tolerance: rounding decides which of twenty starts stand still; four do, and two are
-/// asked for.
+/// Claim: a direct way that stands still next to zero curvature may be given up long before its 200 steps. Source:
+/// without the rule every direct way that fails so takes all of its steps. Tolerance: rounding decides which of twenty
+/// starts stand still; four do, and two are asked for.
 #[test]
 fn standstills_are_given_up() {
     let screw = folded("miura", "screw", f64::INFINITY, false);

@@ -1,8 +1,8 @@
 //! Bands of relaxed states, whose bars and hinges carry forces, and of cylinders.
 //!
-//! Sources: waves that repeat after some cells are vibrations of the torus of these cells (its Hessian is assembled by the
-//! model); rigid motions of a cylinder are waves without energy, translations across the axis at the wavenumbers of the lattice
-//! rotations.
+//! Sources: waves that repeat after some cells are vibrations of the torus of these cells (its Hessian is assembled by
+//! the model); rigid motions of a cylinder are waves without energy, translations across the axis at the wavenumbers of
+//! the lattice rotations.
 
 use crate::common::{mesh, stressed_hessian};
 use foldwell::analysis::bloch::BlochError;
@@ -44,8 +44,9 @@ fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> Configurati
     Configuration { coordinates, angles, tension }
 }
 
-/// Claim: the squared frequencies of waves in a relaxed, stressed state of a fixed torus of one cell are, at the wavenumbers of 2 x 3
-/// cells together, those of the torus of 2 x 3 cells in the same state. Tolerance: 1e-10 of the largest, from states that agree to 1e-12.
+/// Claim: the squared frequencies of waves in a relaxed, stressed state of a fixed torus of one cell are, at the
+/// wavenumbers of 2 x 3 cells together, those of the torus of 2 x 3 cells in the same state. Tolerance: 1e-10 of the
+/// largest, from states that agree to 1e-12.
 #[test]
 fn bands_of_stressed_states_are_those_of_tori() {
     for sheet in cells() {
@@ -72,9 +73,9 @@ fn bands_of_stressed_states_are_those_of_tori() {
     }
 }
 
-/// Claim: on a cylinder `D(0)` is the Hessian of the model by the vertices of its cell; two waves with `q = 0` cost nothing, the
-/// translation along the axis and the rotation about it, and one at `q = (theta1, theta2)`, translations across the axis.
-/// Tolerance: rounding, and of zeros 1e-9 of the largest, from residuals of 1e-12 over bars of 1e3.
+/// Claim: on a cylinder `D(0)` is the Hessian of the model by the vertices of its cell; two waves with `q = 0` cost
+/// nothing, the translation along the axis and the rotation about it, and one at `q = (theta1, theta2)`, translations
+/// across the axis. Tolerance: rounding, and of zeros 1e-9 of the largest, from residuals of 1e-12 over bars of 1e3.
 #[test]
 fn waves_on_a_cylinder() {
     let [sheet, _] = cells();

@@ -307,8 +307,9 @@ fn flat_cells_have_nappes_in_pairs() {
     }
 }
 
-/// Claim: a sheet whose folded states are a curve has no triangles, with the reason where second order establishes it: triangulated
-/// Miura-ori has no real direction but the singular one; with rigid parallelograms it has one motion. A patch has no strain space.
+/// Claim: a sheet whose folded states are a curve has no triangles, with the reason where second order establishes it:
+/// triangulated Miura-ori has no real direction but the singular one; with rigid parallelograms it has one motion. A
+/// patch has no strain space.
 #[test]
 fn what_has_no_surface() {
     let sheet = generate(&Pattern::Miura(Miura { a: 1.0, b: 1.0, sector: 1.0, fold: 0.4 })).unwrap();
@@ -341,8 +342,8 @@ fn general() -> Sheet {
 /// along two surfaces of cylinders that cross in the curve of planar folding: of states that close to 1e-13 by a
 /// separate evaluation, each with two linear motions, none of them on the curve itself, up to the largest curvature in
 /// both directions. Both surfaces of the eggbox are covered. Those of the general cell have edges sharper than the
-/// smallest chart, next to states in which two of the parallelograms lie in one plane, and the coverage is reported as open.
-/// Source: theory of the second order.
+/// smallest chart, next to states in which two of the parallelograms lie in one plane, and the coverage is reported as
+/// open. Source: theory of the second order.
 #[test]
 fn surfaces_of_four_parallelograms() {
     for (sheet, whole) in [(eggbox(), true), (general(), false)] {
@@ -373,9 +374,9 @@ fn surfaces_of_four_parallelograms() {
     }
 }
 
-/// Claim: the trajectories that `trace` follows with one crease locked, up to a curvature of 1.8, lie on the surface, which is
-/// covered up to 1.9: nearer than half the square of the radius, as the height of triangles over it is, for the eggbox and a
-/// general cell of four parallelograms; both find states that close to 1e-13.
+/// Claim: the trajectories that `trace` follows with one crease locked, up to a curvature of 1.8, lie on the surface,
+/// which is covered up to 1.9: nearer than half the square of the radius, as the height of triangles over it is, for
+/// the eggbox and a general cell of four parallelograms; both find states that close to 1e-13.
 #[test]
 fn trajectories_of_four_parallelograms_lie_on_the_surface() {
     let (radius, curvature) = (TAU / 24.0, 1.8);
@@ -402,9 +403,9 @@ fn trajectories_of_four_parallelograms_lie_on_the_surface() {
     }
 }
 
-/// Claim: states within the largest curvature with missing triangles are counted: none for the reference cell and for the
-/// eggbox up to a curvature of 0.5; some for the eggbox up to 1.9, where pieces of its surfaces come close to each other.
-/// Source: a count of directed edges.
+/// Claim: states within the largest curvature with missing triangles are counted: none for the reference cell and for
+/// the eggbox up to a curvature of 0.5; some for the eggbox up to 1.9, where pieces of its surfaces come close to each
+/// other. Source: a count of directed edges.
 #[test]
 fn missing_triangles_are_counted() {
     for (sheet, max_curvature, whole) in

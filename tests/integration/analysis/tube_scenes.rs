@@ -37,9 +37,9 @@ fn first_tube(sheet: &Sheet, number: usize) -> (Option<([i32; 2], Roll)>, usize)
 }
 
 /// Claim (theory, section 9): on 50 random cells, each rolled up along a seam, two motions are left without closing
-/// conditions, one with the condition on the angle, one with that on the rise, none with both. Counted from the lengths of
-/// bars in the coordinates of the tube and from the closure of fold angles, which share no equation. Every null space is
-/// separated by six decades. Every cell gives a tube, and fewer attempts fail than succeed.
+/// conditions, one with the condition on the angle, one with that on the rise, none with both. Counted from the lengths
+/// of bars in the coordinates of the tube and from the closure of fold angles, which share no equation. Every null
+/// space is separated by six decades. Every cell gives a tube, and fewer attempts fail than succeed.
 #[test]
 fn integers_of_fifty_tubes() {
     let mut failures = 0;
@@ -75,8 +75,8 @@ fn tubes(kept: SeamKept) -> Vec<([i32; 2], bool, Roll)> {
     [[0, 8], [1, 8], [8, 0], [2, 8]].into_iter().flat_map(both).collect()
 }
 
-/// Claim: a closed tube of rigid bars stays where it was rolled up, whatever its creases want. Tolerance: rounding of the
-/// closure by fold angles.
+/// Claim: a closed tube of rigid bars stays where it was rolled up, whatever its creases want. Tolerance: rounding of
+/// the closure by fold angles.
 #[test]
 fn rigid_tubes_stay() {
     for (seam, _, roll) in tubes(SeamKept::BOTH) {
@@ -125,9 +125,9 @@ fn soft_tubes_approach_rigid_ones() {
     }
 }
 
-/// Claim: pictures of a closed tube are closed and have every element once: the triangles form a surface whose only rims are
-/// the two ends, whose Euler characteristic is that of a ring, 0, with as many faces as cells have; no two points are at one
-/// place; and the tubes that are rolled up inwards do not intersect themselves where they join.
+/// Claim: pictures of a closed tube are closed and have every element once: the triangles form a surface whose only
+/// rims are the two ends, whose Euler characteristic is that of a ring, 0, with as many faces as cells have; no two
+/// points are at one place; and the tubes that are rolled up inwards do not intersect themselves where they join.
 #[test]
 fn tubes_are_shown_closed() {
     for (seam, inwards, roll) in tubes(SeamKept::BOTH) {
@@ -164,7 +164,8 @@ fn rolls_close() {
     }
 }
 
-/// Claim: `run` says how many motions the closing conditions of a tube leave, which it has counted, and not that they are unknown.
+/// Claim: `run` says how many motions the closing conditions of a tube leave, which it has counted, and not that they
+/// are unknown.
 #[test]
 fn motions_of_a_tube_are_printed() {
     let scene = "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"tube\"\nseam = [1, 8]\n[energy]\nbars = { stiffness = inf }\n\

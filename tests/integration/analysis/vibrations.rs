@@ -33,10 +33,10 @@ fn matrices(assembly: &Assembly) -> (DenseMatrix, Vec<f64>) {
 }
 
 /// Claim: with all masses multiplied by `c` and all stiffnesses by `d`, every frequency of a Miura-ori patch is
-/// multiplied by `sqrt(d / c)`, and the zeros, six rigid motions, are exactly 0 before and after. With lengths, areas and
-/// crease lengths multiplied by `s`, bar constants `EA / L` fall as `1 / s` and those of hinges, `k L` over a squared
-/// length, too, so that a mass per area gives `s^(-3/2)`. Source: `H u = omega^2 M u`. Tolerance: 1e-9 relative, since the
-/// softest frequency squared is 1e-6 of the stiffest entry, and rounding 1e-16 of it.
+/// multiplied by `sqrt(d / c)`, and the zeros, six rigid motions, are exactly 0 before and after. With lengths, areas
+/// and crease lengths multiplied by `s`, bar constants `EA / L` fall as `1 / s` and those of hinges, `k L` over a
+/// squared length, too, so that a mass per area gives `s^(-3/2)`. Source: `H u = omega^2 M u`. Tolerance: 1e-9
+/// relative, since the softest frequency squared is 1e-6 of the stiffest entry, and rounding 1e-16 of it.
 #[test]
 fn frequencies_scale() {
     let patch = |sheet: Sheet, mass: Mass, d: f64| {
@@ -62,9 +62,9 @@ fn frequencies_scale() {
     }
 }
 
-/// Claim: a mass per area is shared out to the vertices so that the sum is density times area, and the centre of mass is that
-/// of the sheet: on Miura-ori the area of its parallelograms, `a b sin(sector)` each; a cell of the periodic sheet has
-/// four of them. Tolerance: rounding of some 50 terms.
+/// Claim: a mass per area is shared out to the vertices so that the sum is density times area, and the centre of mass
+/// is that of the sheet: on Miura-ori the area of its parallelograms, `a b sin(sector)` each; a cell of the periodic
+/// sheet has four of them. Tolerance: rounding of some 50 terms.
 #[test]
 fn area_masses_sum_up() {
     let area = 3f64.sqrt() / 2.0;
@@ -92,8 +92,8 @@ fn area_masses_sum_up() {
     }
 }
 
-/// Claim: squared frequencies with unequal masses are the eigenvalues of `L^-1 H L^-T` with nalgebra's Cholesky factor `L` of
-/// `M`, for patches, pinned patches and fixed tori, by the dense and by the sparse way; their motions fulfil
+/// Claim: squared frequencies with unequal masses are the eigenvalues of `L^-1 H L^-T` with nalgebra's Cholesky factor
+/// `L` of `M`, for patches, pinned patches and fixed tori, by the dense and by the sparse way; their motions fulfil
 /// `H u = omega^2 M u` and `u^T M u = 1`. Tolerance: 1e-8 relative and 1e-13 of the largest, as of the eigenvalues.
 #[test]
 fn generalized_eigenvalues_agree_with_another_library() {
@@ -138,9 +138,10 @@ fn generalized_eigenvalues_agree_with_another_library() {
     }
 }
 
-/// Claim: two rigid right-angled pairs of triangles that share a crease of length `2 b` between wings at the distance `a` vibrate
-/// with `omega^2 = (2 k L / a^2) (1 / m_wing + 1 / m_end)`, from the two heights with momentum zero. With equal masses `m` that is
-/// `8 k b / (a^2 m)`, with a mass per area `18 k / (rho a^3)`. It is the only motion that is not rigid. Tolerance: rounding.
+/// Claim: two rigid right-angled pairs of triangles that share a crease of length `2 b` between wings at the distance
+/// `a` vibrate with `omega^2 = (2 k L / a^2) (1 / m_wing + 1 / m_end)`, from the two heights with momentum zero. With
+/// equal masses `m` that is `8 k b / (a^2 m)`, with a mass per area `18 k / (rho a^3)`. It is the only motion that is
+/// not rigid. Tolerance: rounding.
 #[test]
 fn a_single_hinge() {
     let (a, b, k) = (0.7f64, 1.3, 0.4);
@@ -163,9 +164,9 @@ fn equilibrium(assembly: &Assembly) -> Configuration {
     relax(assembly).unwrap().configuration
 }
 
-/// Claim: eigenvalues that are zero are found with at most a tenth of the bound below which they are called zero, and the
-/// smallest others are above ten times that bound: bars from soft to rigid, drawn and under stress, by the dense and by the
-/// sparse way. With one mass 1 for all vertices the squares before rounding are the eigenvalues.
+/// Claim: eigenvalues that are zero are found with at most a tenth of the bound below which they are called zero, and
+/// the smallest others are above ten times that bound: bars from soft to rigid, drawn and under stress, by the dense
+/// and by the sparse way. With one mass 1 for all vertices the squares before rounding are the eigenvalues.
 #[test]
 fn zeros_are_told_from_small_frequencies() {
     let small = [1.0, 1e3, 1e6, 1e9, RIGID].into_iter().flat_map(|bars| [(3, bars, 0.0), (3, bars, 0.1)]);
@@ -183,8 +184,8 @@ fn zeros_are_told_from_small_frequencies() {
     }
 }
 
-/// Claim: about a state that is no minimum, motions that grow have no frequency but a rate, `sqrt(-lambda / m)`, as many as
-/// there are negative eigenvalues; all others have a frequency and no rate.
+/// Claim: about a state that is no minimum, motions that grow have no frequency but a rate, `sqrt(-lambda / m)`, as
+/// many as there are negative eigenvalues; all others have a frequency and no rate.
 #[test]
 fn growing_motions_have_no_frequency() {
     let bare = Assembly::patch(random(2), [3, 3]);
@@ -236,9 +237,9 @@ fn heavy(sheet: &Sheet) -> DynamicalMatrix {
     DynamicalMatrix::new(sheet, stiffnesses).unwrap().with_masses(&Mass::Area(0.2).of_cell(sheet))
 }
 
-/// Claim: the frequencies of waves at `q = 0` are those of the fixed torus of one cell, three zeros exactly; those at the
-/// wavenumbers `2 pi (k1 / 2, k2 / 3)` together are all frequencies of the torus of 2 x 3 cells. Source: waves that repeat after
-/// these cells are its vibrations. Tolerance: squares to 1e-13 of the largest.
+/// Claim: the frequencies of waves at `q = 0` are those of the fixed torus of one cell, three zeros exactly; those at
+/// the wavenumbers `2 pi (k1 / 2, k2 / 3)` together are all frequencies of the torus of 2 x 3 cells. Source: waves that
+/// repeat after these cells are its vibrations. Tolerance: squares to 1e-13 of the largest.
 #[test]
 fn bands_are_the_frequencies_of_tori() {
     for sheet in [mesh("open-star"), random(6)] {
@@ -258,8 +259,9 @@ fn bands_are_the_frequencies_of_tori() {
     }
 }
 
-/// Claim: the number of states below a frequency is that of a histogram at 100 x 100 other wavenumbers, and the integral of the
-/// density is the number of bands to rounding. Tolerance: 0.02 of 12 states, some spacings of the grids.
+/// Claim: the number of states below a frequency is that of a histogram at 100 x 100 other wavenumbers, and the
+/// integral of the density is the number of bands to rounding. Tolerance: 0.02 of 12 states, some spacings of the
+/// grids.
 #[test]
 fn density_of_states_against_a_histogram() {
     let sheet = mesh("open-star");
@@ -281,9 +283,10 @@ fn density_of_states_against_a_histogram() {
     assert_eq!(matrix.on_grid(grid, |step| step < 5).unwrap(), None);
 }
 
-/// Claim: the scene of frequencies writes six zeros and the others into its summary and its table, and a picture of every
-/// vibration; its eigenvalues are those without mass. With one mass 4 for all vertices the frequencies are `sqrt(lambda / 4)` with
-/// the eigenvalues `lambda` of a published program. A study that is kept has the same frequencies.
+/// Claim: the scene of frequencies writes six zeros and the others into its summary and its table, and a picture of
+/// every vibration; its eigenvalues are those without mass. With one mass 4 for all vertices the frequencies are
+/// `sqrt(lambda / 4)` with the eigenvalues `lambda` of a published program. A study that is kept has the same
+/// frequencies.
 #[test]
 fn a_scene_with_mass() {
     let scene = Scene::of("miura-frequencies");
@@ -318,8 +321,8 @@ fn a_scene_with_mass() {
     assert_eq!((&without.frequencies, &without.eigenvalues), (&None, &found.eigenvalues));
 }
 
-/// Claim: a study of bands of a sheet with mass adds columns of frequencies to its table, whose columns without mass stay what they
-/// are, a density of states with as many states as bands, and a picture of both.
+/// Claim: a study of bands of a sheet with mass adds columns of frequencies to its table, whose columns without mass
+/// stay what they are, a density of states with as many states as bands, and a picture of both.
 #[test]
 fn a_scene_of_waves_with_mass() {
     let scene = Scene::of("star-waves");
@@ -335,7 +338,8 @@ fn a_scene_of_waves_with_mass() {
     assert!(with.has("waves-bands.svg") && !without.has("waves-bands.svg"));
 }
 
-/// Claim: a density of states without a mass, a mass that no study reads, or that not every coordinate has, is refused with its place and what would be right.
+/// Claim: a density of states without a mass, a mass that no study reads, or that not every coordinate has, is refused
+/// with its place and what would be right.
 #[test]
 fn scenes_whose_mass_means_nothing() {
     let scene = |sheet: &str, study: &str| {

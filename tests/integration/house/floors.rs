@@ -276,8 +276,8 @@ fn modules_see_only_lower_floors() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
-/// Claim: the solver leaves decompositions to the crate of numerics. That it sees no sheet, and no other crate than its own ones, its
-/// manifest says.
+/// Claim: the solver leaves decompositions to the crate of numerics. That it sees no sheet, and no other crate than its
+/// own ones, its manifest says.
 #[test]
 fn the_solver_decomposes_nothing() {
     let folder = root().join("crates/solver/src");

@@ -1,4 +1,5 @@
-//! Tests of the house itself: floors and circles of the sources, the published schemas, the names at the root of the library.
+//! Tests of the house itself: floors and circles of the sources, the published schemas, the names at the root of the
+//! library.
 
 mod circles;
 pub(crate) mod floors;

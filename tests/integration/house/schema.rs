@@ -54,8 +54,8 @@ fn findings(schema: &Value, place: &str) -> Vec<String> {
     open.into_iter().chain(silent.map(|(name, _)| format!("{place}.{name} says nothing"))).collect()
 }
 
-/// Claim: every key of a summary, also of a sweep, is described, and no table but that of energies allows other keys; the results of studies are parts of the
-/// table of a study, which allows no other keys.
+/// Claim: every key of a summary, also of a sweep, is described, and no table but that of energies allows other keys;
+/// the results of studies are parts of the table of a study, which allows no other keys.
 #[test]
 fn every_key_of_a_summary_is_described() {
     let summary: Value = serde_json::from_str(&foldwell::run::schema::schema()).unwrap();

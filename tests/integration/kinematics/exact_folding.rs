@@ -109,9 +109,9 @@ fn null_spaces_of_flat_cells() {
 
 /// Claim: along every folding of a flat sheet both chords become shorter (a chord is shorter than the path on the
 /// sheet); near the flat state these cells also have `strain22 < 0`, which on an oblique lattice is not the strain of a
-/// length and can be positive elsewhere (`tests/integration/kinematics/folding_theory.rs`); and the mirror image has the same
-/// strain and the opposite curvature. States: those to which Newton's method converges from random angles. Tolerance of
-/// the mirror image: rounding errors.
+/// length and can be positive elsewhere (`tests/integration/kinematics/folding_theory.rs`); and the mirror image has
+/// the same strain and the opposite curvature. States: those to which Newton's method converges from random angles.
+/// Tolerance of the mirror image: rounding errors.
 #[test]
 fn developable_sheets_get_shorter() {
     let (mut folded, mut near) = (0, 0);

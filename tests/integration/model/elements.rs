@@ -172,8 +172,8 @@ fn rigid_creases_are_locks() {
     assert_eq!(mixed.locked_edges(), rigid);
 }
 
-/// Claim: rigid folding sees a rigid crease beside soft ones as a lock: as many rays, and the same directions. Tolerance:
-/// the numbers come from the same equations.
+/// Claim: rigid folding sees a rigid crease beside soft ones as a lock: as many rays, and the same directions.
+/// Tolerance: the numbers come from the same equations.
 #[test]
 fn rigid_folding_sees_rigid_creases() {
     let sheet = mesh("open-star");
@@ -241,8 +241,8 @@ fn tables_of_cells_and_patches() {
     assert!((0..found.edges()).all(|k| bars.of(k) == (k + 1) as f64));
 }
 
-/// Claim: facets have rest angles of all forms that creases have: flat, an angle, a table, a mode by its rates. Source: the
-/// drawn angle of a facet of Miura-ori is 0, and a rate of 0.5 at an amplitude of 0.2 adds 0.1.
+/// Claim: facets have rest angles of all forms that creases have: flat, an angle, a table, a mode by its rates. Source:
+/// the drawn angle of a facet of Miura-ori is 0, and a rate of 0.5 at an amplitude of 0.2 adds 0.1.
 #[test]
 fn facets_have_rest_angles() {
     let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
@@ -317,8 +317,8 @@ fn wrong_tables_are_refused() {
     assert!(found.contains("l.csv has no row for bar [1, 3, 0, 0]"), "{found}");
 }
 
-/// Claim: letters without stiffness are listed with their counts, and letters that no element has are refused. Source: a
-/// patch of 3 x 2 cells of Miura-ori has 17 creases that are left inside, counted by their drawn angles.
+/// Claim: letters without stiffness are listed with their counts, and letters that no element has are refused. Source:
+/// a patch of 3 x 2 cells of Miura-ori has 17 creases that are left inside, counted by their drawn angles.
 #[test]
 fn letters_have_to_be_complete() {
     let found = miura("creases = { stiffness = { M = 1.0 } }\n", &[]).err().unwrap();

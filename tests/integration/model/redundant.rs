@@ -136,9 +136,9 @@ fn a_random_developable_patch_on_a_branch() {
     }
 }
 
-/// Claim: an exactly flat rigid patch whose rest angles are folded leaves the flat state, which is a singular start, and
-/// comes to rest on a branch, at every size and for any rest angles; its energy is below that of the flat state. Source:
-/// the energy of the flat state, half the squared rest angles times the lengths of the creases.
+/// Claim: an exactly flat rigid patch whose rest angles are folded leaves the flat state, which is a singular start,
+/// and comes to rest on a branch, at every size and for any rest angles; its energy is below that of the flat state.
+/// Source: the energy of the flat state, half the squared rest angles times the lengths of the creases.
 #[test]
 fn a_flat_rigid_patch_leaves_the_flat_state() {
     for cells in [[2, 2], [4, 4], [6, 6]] {
@@ -222,9 +222,10 @@ fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
     assert!(unstable > 0, "no case was unstable: the test shows nothing");
 }
 
-/// Claim: a flat patch compressed in its plane beyond buckling, asked for the equilibrium next to a start of known tensions (none), stays
-/// flat, since no force acts out of the plane, and reports its buckling modes, as many as a dense decomposition counts; stretched by the same forces it reports none.
-/// The forces are proportional to the distance from the centre; pins hold the six rigid motions.
+/// Claim: a flat patch compressed in its plane beyond buckling, asked for the equilibrium next to a start of known
+/// tensions (none), stays flat, since no force acts out of the plane, and reports its buckling modes, as many as a
+/// dense decomposition counts; stretched by the same forces it reports none. The forces are proportional to the
+/// distance from the centre; pins hold the six rigid motions.
 #[test]
 fn a_compressed_flat_sheet_reports_buckling() {
     let case = patch("open-flat", [4, 4]);

@@ -55,9 +55,10 @@ fn impossible_lengths() {
     assert!(matches!(failure, Failure::Infeasible { .. }), "{failure}");
 }
 
-/// Claim: between fixed supports a truss whose bars are longer by a factor rises to the height at which they are at rest,
-/// and a load on the apex has the closed form `F(z) = 2 EA / L0 (L0 - l) z / l` with the *rest* length `L0`; the bar
-/// between the supports has the strain `1 / factor - 1`. Source: force of two springs. Tolerance: residuals of 1e-12.
+/// Claim: between fixed supports a truss whose bars are longer by a factor rises to the height at which they are at
+/// rest, and a load on the apex has the closed form `F(z) = 2 EA / L0 (L0 - l) z / l` with the *rest* length `L0`; the
+/// bar between the supports has the strain `1 / factor - 1`. Source: force of two springs. Tolerance: residuals of
+/// 1e-12.
 #[test]
 fn the_arch_rises() {
     let factor = 1.05;
@@ -79,8 +80,8 @@ fn the_arch_rises() {
     }
 }
 
-/// Claim: rigid bars of a patch reach rest lengths that are those of the same shape in another size. Tolerance: residuals
-/// of 1e-12.
+/// Claim: rigid bars of a patch reach rest lengths that are those of the same shape in another size. Tolerance:
+/// residuals of 1e-12.
 #[test]
 fn a_rigid_patch_grows() {
     let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
@@ -155,8 +156,8 @@ fn studies_that_need_one_stiffness_or_drawn_lengths() {
 }
 
 /// Claim: `foldwell info` counts the stiffnesses, the rigid elements and the rest values of a scene that are not drawn.
-/// Source: a cell of Miura-ori on a torus has 8 creases, 6 valleys or mountains of either sort as drawn, 4 facets and 12
-/// bars.
+/// Source: a cell of Miura-ori on a torus has 8 creases, 6 valleys or mountains of either sort as drawn, 4 facets and
+/// 12 bars.
 #[test]
 fn info_counts_what_is_set() {
     let folder = Folder::new();

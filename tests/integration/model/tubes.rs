@@ -175,9 +175,9 @@ fn check_counts(case: &Assembly, rim: usize) {
 }
 
 /// Claim: an open tube, cut to rows of cells, has as many zero modes as its two rims have edges, and no self stress:
-/// `V + F = E` and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The number of the others does not depend on
-/// the length, and neither do the factors by which they change from row to row: as many decay from one end as from the
-/// other, with reciprocal factors (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`, 13 modes
+/// `V + F = E` and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The number of the others does not depend
+/// on the length, and neither do the factors by which they change from row to row: as many decay from one end as from
+/// the other, with reciprocal factors (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`, 13 modes
 /// belong to each end; outwards 8 do and 10 belong to none, waves along the whole tube. Tolerances: 1e-4 for factors of
 /// size 1, of which those of rigid motions are double, and relative 1e-5 for all.
 #[test]

@@ -80,8 +80,9 @@ fn patterns_have_help() {
     assert_eq!(folder.names().len(), 0);
 }
 
-/// Claim: `info --edges` names every edge as the table of a run does, in the same order, with its length and the drawn angle
-/// of the mesh; `--vertices` lists the coordinates. Source: a Miura-ori cell, whose sides are 1. Tolerance: rounding.
+/// Claim: `info --edges` names every edge as the table of a run does, in the same order, with its length and the drawn
+/// angle of the mesh; `--vertices` lists the coordinates. Source: a Miura-ori cell, whose sides are 1. Tolerance:
+/// rounding.
 #[test]
 fn elements_are_listed() {
     let folder = Folder::new();

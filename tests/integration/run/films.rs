@@ -52,9 +52,9 @@ fn square(side: f64) -> Picture {
     }
 }
 
-/// Claim: the film of a trajectory runs from the end of the negative direction over the drawn state, which is there once,
-/// to the end of the positive one. Here the states are squares that grow along the positive direction and shrink along
-/// the negative one: in the order of the film each has more pixels than the one before, all in one scale.
+/// Claim: the film of a trajectory runs from the end of the negative direction over the drawn state, which is there
+/// once, to the end of the positive one. Here the states are squares that grow along the positive direction and shrink
+/// along the negative one: in the order of the film each has more pixels than the one before, all in one scale.
 #[test]
 fn a_trajectory_runs_in_one_direction() {
     let folder = Folder::new();
@@ -75,8 +75,8 @@ fn a_trajectory_runs_in_one_direction() {
     assert!((growth / 9.0 - 1.0).abs() < 0.1, "three times the side, nine times the pixels: {growth}");
 }
 
-/// Claim: the folder and the series make the same film, of the size and the pace that were asked for, and the drawn state
-/// is on it once: it has a frame less than there are pictures.
+/// Claim: the folder and the series make the same film, of the size and the pace that were asked for, and the drawn
+/// state is on it once: it has a frame less than there are pictures.
 #[test]
 fn a_trajectory_of_a_run() {
     let folder = ran();

@@ -55,8 +55,8 @@ fn every_study_is_on_the_page() {
     assert!(length(&studies[1]["sheet"]["states"]) > 6 && length(&studies[3]["sheet"]["states"]) == 0);
 }
 
-/// Claim: the page that a study writes and the page that is made from its files afterwards are the same bytes, also when
-/// the scene is run again. Source: both are made by one writer from the same numbers; no tolerance.
+/// Claim: the page that a study writes and the page that is made from its files afterwards are the same bytes, also
+/// when the scene is run again. Source: both are made by one writer from the same numbers; no tolerance.
 #[test]
 fn both_ways_make_the_same_page() {
     let scene =
@@ -103,8 +103,8 @@ fn a_long_trajectory() {
     assert!(most > Some(100) && most <= Some(201) && bytes < 5_000_000, "{most:?} states, {bytes} bytes");
 }
 
-/// Claim: a title cannot end the data or begin a script: the page has as many scripts as one with a plain title, and its
-/// data have the title as it was written.
+/// Claim: a title cannot end the data or begin a script: the page has as many scripts as one with a plain title, and
+/// its data have the title as it was written.
 #[test]
 fn a_wild_title() {
     let scripts = |title: &str| {
@@ -118,9 +118,9 @@ fn a_wild_title() {
     assert_eq!(scripts("</script><script>alert(1)</script></title><b>&"), scripts("plain"));
 }
 
-/// Claim: a folder that does not exist, one without a summary, and summaries that are no JSON, no object or of something
-/// else are refused with status 2, a message that names the folder and what would be right, and no page; a broken VTU
-/// file is named.
+/// Claim: a folder that does not exist, one without a summary, and summaries that are no JSON, no object or of
+/// something else are refused with status 2, a message that names the folder and what would be right, and no page; a
+/// broken VTU file is named.
 #[test]
 fn folders_of_no_run() {
     let folder = Folder::new();
@@ -149,8 +149,8 @@ fn folders_of_no_run() {
     refused("a_0001.vtu");
 }
 
-/// Claim: names in a summary that lead out of the folder are not followed, a summary without titles or with studies that
-/// are no tables still gives a page, and a page that would replace that of a study is refused.
+/// Claim: names in a summary that lead out of the folder are not followed, a summary without titles or with studies
+/// that are no tables still gives a page, and a page that would replace that of a study is refused.
 #[test]
 fn unusual_summaries() {
     let folder = Folder::new().with("secret.csv", "a,b\n1,2\n");

@@ -23,10 +23,10 @@ fn run(scene: &Scene, stop_at: usize) -> (Ran, usize) {
 /// A scene, what is replaced in it, and where it is stopped.
 type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [usize]);
 
-/// Claim: a path that is stopped at any of its states, on any of its branches, and is resumed, has the files of one that was
-/// not stopped, to the last byte; of its states none is computed twice. The paths: two branches that leave another one and
-/// return, one under a growing load, and one with watched stops and self-intersections. Source: each step is determined by the two states before
-/// it, which are kept with all their digits.
+/// Claim: a path that is stopped at any of its states, on any of its branches, and is resumed, has the files of one
+/// that was not stopped, to the last byte; of its states none is computed twice. The paths: two branches that leave
+/// another one and return, one under a growing load, and one with watched stops and self-intersections. Source: each
+/// step is determined by the two states before it, which are kept with all their digits.
 #[test]
 fn an_interrupted_path_goes_on() {
     let stop = "stop = { crease_angle = { crease = [0, 6, 0, 0], angle = \"6 rad\" }, self_intersection = true }";
@@ -52,8 +52,8 @@ fn an_interrupted_path_goes_on() {
     }
 }
 
-/// Claim: the same where a crease is folded beyond pi before the path is stopped: its angle goes on from there, and not from
-/// the one within a turn that the positions show.
+/// Claim: the same where a crease is folded beyond pi before the path is stopped: its angle goes on from there, and not
+/// from the one within a turn that the positions show.
 #[test]
 fn angles_beyond_pi_go_on() {
     let hinge = "{\"vertices_coords\": [[0, 0, 0], [0, 1, 0], [-1, 0.5, 0], [1, 0.5, 0]],\
@@ -75,7 +75,8 @@ fn angles_beyond_pi_go_on() {
     ran.out.assert_same(&whole.out, "beyond pi");
 }
 
-/// Claim: the same if the run is interrupted twice, and if its log ends in the middle of a line, as where a computer stops.
+/// Claim: the same if the run is interrupted twice, and if its log ends in the middle of a line, as where a computer
+/// stops.
 #[test]
 fn a_torn_log_loses_one_step() {
     let scene = Scene::of("two-bars-load");

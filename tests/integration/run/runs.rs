@@ -157,9 +157,9 @@ fn what_a_run_says_and_writes() {
     assert_eq!(folder.inner("b").names(), ["one.csv", "summary.json"]);
 }
 
-/// Claim: a saddle is left, and standard output says so. A flat sheet that is compressed in its plane has no force out of the plane:
-/// it is unstable under a force a hundred times the stiffness of the creases, which are of length 1 and more, and stable under one
-/// as large as that stiffness.
+/// Claim: a saddle is left, and standard output says so. A flat sheet that is compressed in its plane has no force out
+/// of the plane: it is unstable under a force a hundred times the stiffness of the creases, which are of length 1 and
+/// more, and stable under one as large as that stiffness.
 #[test]
 fn a_saddle_is_left_and_called_so() {
     for (force, unstable) in [(-1.0, true), (-0.01, false)] {

@@ -15,7 +15,8 @@ fn with_input(folder: &Folder, words: &[&str], input: &str) -> Said {
     Said::last(child, folder)
 }
 
-/// Claim: setting a key gives the files of the scene that is edited so, byte by byte, and the summary names the setting.
+/// Claim: setting a key gives the files of the scene that is edited so, byte by byte, and the summary names the
+/// setting.
 #[test]
 fn a_set_key_is_an_edited_scene() {
     let edited = SCENE.replace("inf", "1e3").replace("[2, 2]", "[3, 2]");
@@ -75,8 +76,8 @@ fn several_scenes_are_each_as_alone() {
     }
 }
 
-/// Claim: if one of several scenes is wrong, none of them is run; two scenes of one name would share a folder. A study that
-/// fails in the first scene keeps the second from nothing, and decides the status.
+/// Claim: if one of several scenes is wrong, none of them is run; two scenes of one name would share a folder. A study
+/// that fails in the first scene keeps the second from nothing, and decides the status.
 #[test]
 fn several_scenes_are_checked_first() {
     let misfit = format!("{SCENE}[[lock]]\ncrease = [0, 9, 0, 0]\n"); // only the sheet shows that there is no such crease

@@ -1,5 +1,5 @@
-//! Sweeps: every point has the bytes that its scene has alone, on any number of threads; sweeps that are killed, stopped or
-//! shared out end with the same table.
+//! Sweeps: every point has the bytes that its scene has alone, on any number of threads; sweeps that are killed,
+//! stopped or shared out end with the same table.
 #![cfg(unix)]
 
 use crate::common::{Folder, Said, Scene, Table, signal};
@@ -37,8 +37,8 @@ const TWELVE: &str = "\n[sweep]\n\"energy.bars.stiffness\" = { log = [1e2, 1e5, 
     \"energy.creases.rest.amplitude\" = [0.5, 1, 1.5]\n";
 
 /// Claim: every point has the files, byte for byte, that `foldwell run` writes for the scene without its sweep with the
-/// settings of the point, on one thread and on three; only times differ. Scenes: relaxations with pictures and VTU files, a
-/// generated sheet over its seed, trajectories over the start of a relaxation, numbered elements of lists.
+/// settings of the point, on one thread and on three; only times differ. Scenes: relaxations with pictures and VTU
+/// files, a generated sheet over its seed, trajectories over the start of a relaxation, numbered elements of lists.
 #[test]
 fn points_are_what_they_are_alone() {
     let cases: [(&str, &str, &[&[&str]]); 3] = [
@@ -87,8 +87,8 @@ fn points_are_what_they_are_alone() {
     }
 }
 
-/// Claim: the table has a row for each point, the first axis the slowest, with the values of the keys and the scalars of
-/// every study, those of `summary.json`; the summary of the sweep agrees with its schema's keys.
+/// Claim: the table has a row for each point, the first axis the slowest, with the values of the keys and the scalars
+/// of every study, those of `summary.json`; the summary of the sweep agrees with its schema's keys.
 #[test]
 fn the_table_has_what_the_summaries_have() {
     let folder = with_scene(&format!(
@@ -120,8 +120,8 @@ fn the_table_has_what_the_summaries_have() {
     );
 }
 
-/// Claim: points that do not converge, and points whose scene only its sheet shows to be wrong, are rows with their status and
-/// reason; they are told at the end, the others are computed, and the status is that of a failed study.
+/// Claim: points that do not converge, and points whose scene only its sheet shows to be wrong, are rows with their
+/// status and reason; they are told at the end, the others are computed, and the status is that of a failed study.
 #[test]
 fn failed_points_are_listed_and_not_lost() {
     let axes = "[sweep]\nzip = true\n\"study.relaxed.tolerance\" = [1e-10, 1e-300, 1e-10]\n\"lock.0.crease\" = [[0, 1, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]\n";
@@ -269,9 +269,9 @@ fn inodes(out: &Path) -> BTreeMap<PathBuf, u64> {
     tables.map(|table| (table.clone(), fs::metadata(&table).unwrap().ino())).collect()
 }
 
-/// Claim: a sweep that is killed (SIGKILL) loses at most the points in flight: resumed, it computes those that have no result,
-/// writes no file of the others again, and ends with the bytes of an undisturbed sweep. A scene that was changed is computed
-/// anew.
+/// Claim: a sweep that is killed (SIGKILL) loses at most the points in flight: resumed, it computes those that have no
+/// result, writes no file of the others again, and ends with the bytes of an undisturbed sweep. A scene that was
+/// changed is computed anew.
 #[test]
 fn a_killed_sweep_goes_on_with_the_missing_points() {
     let scene = format!("{STAR}draw = []\n{TWELVE}");
@@ -303,8 +303,9 @@ fn a_killed_sweep_goes_on_with_the_missing_points() {
     assert_eq!(finished_points(&out), 4);
 }
 
-/// Claim: Ctrl-C ends a sweep with status 130, the finished points in the table, and the number of those that are missing. The
-/// program does not wait for a long step, so that the point in flight may be finished after the table was written.
+/// Claim: Ctrl-C ends a sweep with status 130, the finished points in the table, and the number of those that are
+/// missing. The program does not wait for a long step, so that the point in flight may be finished after the table was
+/// written.
 #[test]
 fn a_stopped_sweep_says_what_is_left() {
     let folder = with_scene(&format!("{STAR}draw = []\n{TWELVE}"));
@@ -321,8 +322,8 @@ fn a_stopped_sweep_says_what_is_left() {
     assert!(folder.foldwell("run scene.toml --resume").ends(0).out.contains(&format!("12 converged ({done} kept)")));
 }
 
-/// Claim: shards that run at the same time into one folder compute every point once; the last one to end leaves the table of a
-/// sweep in one piece, byte for byte, and while a shard is missing its points are said to be.
+/// Claim: shards that run at the same time into one folder compute every point once; the last one to end leaves the
+/// table of a sweep in one piece, byte for byte, and while a shard is missing its points are said to be.
 #[test]
 fn shards_share_a_folder() {
     let scene = format!("{STAR}draw = []\n{TWELVE}");
@@ -339,8 +340,8 @@ fn shards_share_a_folder() {
     folder.inner("scene").assert_same(&whole.inner("scene"), "shards");
 }
 
-/// Claim: the library computes points one by one, in any order, and assembles the same table; a point that was finished is
-/// left as it is.
+/// Claim: the library computes points one by one, in any order, and assembles the same table; a point that was finished
+/// is left as it is.
 #[test]
 fn the_library_runs_single_points() {
     use foldwell::run::PointStatus;

@@ -310,8 +310,9 @@ fn names_are_converted() {
 }
 
 /// Claim: studies that cannot begin are refused before anything is computed or written: relaxations whose loads only a
-/// drive supports, drives that end where they begin, driven stiffnesses that are not one number, paths without energy, paths from random displacements, and studies
-/// other than relax, path and wells with rigid parts or pins along a direction.
+/// drive supports, drives that end where they begin, driven stiffnesses that are not one number, paths without energy,
+/// paths from random displacements, and studies other than relax, path and wells with rigid parts or pins along a
+/// direction.
 #[test]
 fn studies_that_cannot_begin() {
     let energy = "[energy]\nbars = { stiffness = 1.0 }\n";

@@ -88,8 +88,8 @@ fn contradictions_are_refused() {
 }
 
 /// Claim: a mesh all of whose folded creases have the letter of the other side is that sheet seen from its other side:
-/// its faces are turned over, which is said, and the letters stay. FOLD's own `box.fold` is such a file. With one letter
-/// of this side, or with fold angles that say what is meant, nothing is turned.
+/// its faces are turned over, which is said, and the letters stay. FOLD's own `box.fold` is such a file. With one
+/// letter of this side, or with fold angles that say what is meant, nothing is turned.
 #[test]
 fn letters_of_the_other_side_turn_the_sheet_over() {
     let valleys = include_str!("../../cases/fold/box.fold");

@@ -389,8 +389,8 @@ proptest! {
     }
 }
 
-/// Claim: creases of a file with fold angles and without letters take the letters of their targets where these are on the other side
-/// than the drawing, so that the file written of the sheet is read as the same sheet.
+/// Claim: creases of a file with fold angles and without letters take the letters of their targets where these are on
+/// the other side than the drawing, so that the file written of the sheet is read as the same sheet.
 #[test]
 fn targets_on_the_other_side_without_letters() {
     let text = |angles: &str| {

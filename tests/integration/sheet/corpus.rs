@@ -317,8 +317,8 @@ fn share(sheet: &Sheet, letter: Assignment) -> f64 {
     length(letter) / length(Assignment::Boundary)
 }
 
-/// Claim: every file of every dialect is the pattern that it draws: its numbers of vertices and edges, and the shares of
-/// mountains and valleys of the total length. Source: counts by hand or formula; lengths of the generator's lines.
+/// Claim: every file of every dialect is the pattern that it draws: its numbers of vertices and edges, and the shares
+/// of mountains and valleys of the total length. Source: counts by hand or formula; lengths of the generator's lines.
 /// Tolerance: Illustrator's two decimals on 200 units, on lines of 10 units or more.
 #[test]
 fn every_dialect_is_read() {
@@ -350,8 +350,9 @@ fn folded(sheet: Sheet) -> Result<Relaxed, Box<RelaxError>> {
     relax(&Assembly::patch(sheet, [1, 1]).bars(1e4).creases(1.0).rest(Rest::Target(0.2)).build().unwrap())
 }
 
-/// Claim: at least 95% of the patterns relax to a fifth of their target angles, from the flat state of their file to one
-/// out of the plane: the energy is below that of the flat state, and the forces balance to the solver's tolerance, 1e-11.
+/// Claim: at least 95% of the patterns relax to a fifth of their target angles, from the flat state of their file to
+/// one out of the plane: the energy is below that of the flat state, and the forces balance to the solver's tolerance,
+/// 1e-11.
 #[test]
 fn patterns_fold_from_their_files() {
     let mut failures = Vec::new();
@@ -462,8 +463,8 @@ fn refuse<const N: usize>(table: [(Format, String, &str); N]) {
 }
 
 /// Claim: edges that cross, touch and almost meet in a FOLD file, which is refused as it is, are split and merged on
-/// request with their letters and angles, and the file keeps its author; without `split` crossings stay and are refused;
-/// sheets that are folded or periodic, and a distance out of range, are refused by name.
+/// request with their letters and angles, and the file keeps its author; without `split` crossings stay and are
+/// refused; sheets that are folded or periodic, and a distance out of range, are refused by name.
 #[test]
 fn fold_files_are_merged_and_split() {
     let text = r#"{"file_author": "A", "vertices_coords": [[0,0],[2,0],[2,2],[0,2],[0.0003,0],[2,2.0002],[1,2]],
@@ -503,8 +504,8 @@ fn fold_files_are_merged_and_split() {
     refused(&fold::write(&generate(&Pattern::named("miura").unwrap()).unwrap()), 1e-3, true, "this sheet is periodic");
 }
 
-/// Claim: 101 x 101 long lines that all cross, and 10,000 lines between two long ones, are split into `2 n (n - 1)` sides of
-/// squares and, for the comb, two points on the rim for each line. Source: counted by formula.
+/// Claim: 101 x 101 long lines that all cross, and 10,000 lines between two long ones, are split into `2 n (n - 1)`
+/// sides of squares and, for the comb, two points on the rim for each line. Source: counted by formula.
 #[test]
 fn large_drawings_are_split_where_they_meet() {
     let n = 101;
@@ -560,8 +561,9 @@ fn patterns_go_there_and_back() {
     }
 }
 
-/// Claim: the target angle of a fold is its opacity times 180 degrees, in a line and over the groups around it, negative for
-/// mountains. Source: the definition of Origami Simulator. Tolerance: none, the products of these numbers are exact.
+/// Claim: the target angle of a fold is its opacity times 180 degrees, in a line and over the groups around it,
+/// negative for mountains. Source: the definition of Origami Simulator. Tolerance: none, the products of these numbers
+/// are exact.
 #[test]
 fn opacity_is_the_part_of_a_whole_fold() {
     let rim = "<rect width=\"4\" height=\"4\" stroke=\"#000\"/>";
@@ -601,8 +603,8 @@ fn all_colours_are_written_as_they_are_read() {
     }
 }
 
-/// Claim: the program cleans, converts and relaxes these files: a drawing goes to FOLD, and a FOLD file whose edges cross
-/// is split on request and refused without; frames are asked for in vain; a scene reads a drawing.
+/// Claim: the program cleans, converts and relaxes these files: a drawing goes to FOLD, and a FOLD file whose edges
+/// cross is split on request and refused without; frames are asked for in vain; a scene reads a drawing.
 #[test]
 fn the_program_reads_patterns() {
     let folder = Folder::new().with("a.svg", inkscape(&patterns()[2]));
@@ -631,8 +633,8 @@ fn the_program_reads_patterns() {
     folder.foldwell("run s.toml --quiet --frame 1").refused("a crease pattern of lines has no frames");
 }
 
-/// Claim: states of simulators are read as they are drawn, with their targets: half folded with all angles on the way, and
-/// folded flat in two dimensions with `faceOrders`, as Flat-Folder writes it; they go to no file of lines.
+/// Claim: states of simulators are read as they are drawn, with their targets: half folded with all angles on the way,
+/// and folded flat in two dimensions with `faceOrders`, as Flat-Folder writes it; they go to no file of lines.
 #[test]
 fn folded_states_are_read_and_not_drawn_as_lines() {
     let half = fold::parse(include_str!("../../cases/fold/simulator-half-folded.fold"), "half.fold").unwrap();

@@ -21,9 +21,9 @@ fn apart(one: &[Vec3], other: &[Vec3]) -> f64 {
     off.fold(0.0, f64::max)
 }
 
-/// Claim: folded Miura-ori unfolds to its crease pattern, which the generator makes by another formula (fold = 0), and to
-/// nothing else: all distances are the same, all vertices in the plane, faces upwards. Letters are the signs of the fold
-/// angles, which become targets. Tolerance: rounding over a path of ten triangles, 1e-12 of an edge.
+/// Claim: folded Miura-ori unfolds to its crease pattern, which the generator makes by another formula (fold = 0), and
+/// to nothing else: all distances are the same, all vertices in the plane, faces upwards. Letters are the signs of the
+/// fold angles, which become targets. Tolerance: rounding over a path of ten triangles, 1e-12 of an edge.
 #[test]
 fn folded_miura_unfolds_to_its_crease_pattern() {
     for fold in [0.0, 0.02, 0.3, 0.9, 1.5] {
@@ -43,9 +43,9 @@ fn folded_miura_unfolds_to_its_crease_pattern() {
     }
 }
 
-/// Claim: the crease pattern folds back: with its targets as rest angles it relaxes without energy to the distances of the
-/// sheet that was unfolded. Source: the folded sheet has these angles, rigid bars and no energy. Tolerance: a residual of
-/// 1e-12 leaves angles to 1e-9, which turn distant vertices of a sheet of six edges by 1e-8.
+/// Claim: the crease pattern folds back: with its targets as rest angles it relaxes without energy to the distances of
+/// the sheet that was unfolded. Source: the folded sheet has these angles, rigid bars and no energy. Tolerance: a
+/// residual of 1e-12 leaves angles to 1e-9, which turn distant vertices of a sheet of six edges by 1e-8.
 #[test]
 fn the_pattern_folds_back() {
     let folded = miura(0.6);
@@ -59,8 +59,8 @@ fn the_pattern_folds_back() {
 
 const PYRAMID: &str = "v 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n";
 
-/// Claim: what cannot be unfolded is refused with the reason and the vertex: a pyramid, whose angles at the apex are four of
-/// 60 degrees, a Kresling tube, two pieces, a periodic sheet. Exact up to rounding, 1e-12.
+/// Claim: what cannot be unfolded is refused with the reason and the vertex: a pyramid, whose angles at the apex are
+/// four of 60 degrees, a Kresling tube, two pieces, a periodic sheet. Exact up to rounding, 1e-12.
 #[test]
 fn what_cannot_be_unfolded_is_refused() {
     let pyramid = obj::parse(PYRAMID, "pyramid.obj").unwrap();
@@ -78,8 +78,9 @@ fn what_cannot_be_unfolded_is_refused() {
 }
 
 /// Claim: the state that a relaxation with rigid bars writes unfolds to the crease pattern from which it was folded, as
-/// FOLD, SVG and CP; without `--flatten` lines of it are refused with this word; what cannot be unfolded makes status 2 and
-/// no file. Tolerance: the bars keep their lengths to 1e-12, ten times that over the sheet, and SVG keeps all digits.
+/// FOLD, SVG and CP; without `--flatten` lines of it are refused with this word; what cannot be unfolded makes status 2
+/// and no file. Tolerance: the bars keep their lengths to 1e-12, ten times that over the sheet, and SVG keeps all
+/// digits.
 #[test]
 fn a_relaxed_state_unfolds_to_its_pattern() {
     let scene = "[sheet]\nmesh = \"p.fold\"\n[energy]\nbars = { stiffness = inf }\n\

@@ -1,5 +1,5 @@
-//! Files of meshes that are drawn with an error, come from other programs in an unusual form, or are made to do harm; and
-//! the names of files that are written.
+//! Files of meshes that are drawn with an error, come from other programs in an unusual form, or are made to do harm;
+//! and the names of files that are written.
 
 use crate::common::{Folder, Numbers, Scene, mesh_folder};
 use foldwell::sheet::pattern::{self, Format};
@@ -8,13 +8,14 @@ use std::fmt::Write;
 use std::fs;
 use std::process::Command;
 
-/// Lines along each side of the squares that are drawn, and the side of the drawing. Points are merged within 1e-4 of it.
+/// Lines along each side of the squares that are drawn, and the side of the drawing. Points are merged within 1e-4 of
+/// it.
 const SQUARES: usize = 4;
 const SIDE: f64 = 400.0;
 const MERGED: f64 = 1e-4 * SIDE;
 
-/// Returns a square of `SQUARES x SQUARES` squares with a diagonal each as 56 lines from vertex to vertex, every end moved
-/// by up to `error`.
+/// Returns a square of `SQUARES x SQUARES` squares with a diagonal each as 56 lines from vertex to vertex, every end
+/// moved by up to `error`.
 fn careless(error: f64, seed: u64) -> String {
     let mut random = Numbers::new(seed);
     let step = SIDE / SQUARES as f64;
@@ -43,11 +44,11 @@ fn read(text: &str) -> Result<Sheet, String> {
     pattern::parse(text, "a", Format::Cp).map_err(|error| error.to_string())
 }
 
-/// Claim: ends that miss a vertex by less than half the distance of merging are one vertex. With larger errors a drawing has
-/// its 25 vertices, or is refused, or it is said that two vertices are close: it never gets other vertices without a word,
-/// and it always comes to an end. Refusals name a gap of less than three distances of merging, or the chain of points.
-/// Source: two points within half a distance of a third are within that distance of each other; pieces become shorter
-/// or points fewer in every round.
+/// Claim: ends that miss a vertex by less than half the distance of merging are one vertex. With larger errors a
+/// drawing has its 25 vertices, or is refused, or it is said that two vertices are close: it never gets other vertices
+/// without a word, and it always comes to an end. Refusals name a gap of less than three distances of merging, or the
+/// chain of points. Source: two points within half a distance of a third are within that distance of each other; pieces
+/// become shorter or points fewer in every round.
 #[test]
 fn careless_drawings_are_read_or_refused() {
     for error in [0.1, 0.3, 0.45, 0.499, 0.6, 0.7, 0.8, 1.0, 1.3, 1.7, 2.5, 5.0] {
@@ -68,9 +69,9 @@ fn careless_drawings_are_read_or_refused() {
     }
 }
 
-/// Claim: three creases that miss one point of the square by 1.1 distances of merging end in one vertex there, as do two
-/// creases that end beside a corner; where a gap is wider, the message gives its ends and both distances. Source: by hand;
-/// rounds that double the pieces of the three lines do not end.
+/// Claim: three creases that miss one point of the square by 1.1 distances of merging end in one vertex there, as do
+/// two creases that end beside a corner; where a gap is wider, the message gives its ends and both distances. Source:
+/// by hand; rounds that double the pieces of the three lines do not end.
 #[test]
 fn lines_that_nearly_meet() {
     let square = "1 0 0 400 0\n1 400 0 400 400\n1 400 400 0 400\n1 0 400 0 0\n";
@@ -141,7 +142,8 @@ fn vtu(pieces: usize) -> String {
     )
 }
 
-/// Claim: all pieces of a VTU file are read, as in VTK; a pipe is refused and not waited for, also as a start. Source: counts.
+/// Claim: all pieces of a VTU file are read, as in VTK; a pipe is refused and not waited for, also as a start. Source:
+/// counts.
 #[test]
 fn vtu_files_of_several_pieces_and_pipes() {
     let here = &Folder::new();
@@ -185,8 +187,8 @@ fn vtu_files_of_periodic_cells() {
     assert!(tried[0] > 3 && tried[1] > 0, "{tried:?}");
 }
 
-/// Claim: an SVG of 200 kB whose entity stands for 2.5 GB, and one with entities in each other, are refused; entities as
-/// Illustrator defines them are read.
+/// Claim: an SVG of 200 kB whose entity stands for 2.5 GB, and one with entities in each other, are refused; entities
+/// as Illustrator defines them are read.
 #[test]
 fn entities_do_not_make_short_files_long() {
     let drawing = |entities: &str, title: &str| {

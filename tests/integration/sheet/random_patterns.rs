@@ -15,12 +15,12 @@ type Point = [f64; 2];
 /// A family of patterns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// A square, folded flat 3 to 6 times along random lines through all its layers, some of them through a corner of the
-    /// folded stack. The letters are those of these folds, one after the other; few of these patterns fold rigidly by all
-    /// creases at once.
+    /// A square, folded flat 3 to 6 times along random lines through all its layers, some of them through a corner of
+    /// the folded stack. The letters are those of these folds, one after the other; few of these patterns fold rigidly
+    /// by all creases at once.
     SimpleFolds,
-    /// Parallel lines at random distances, crossed by zigzags, each with its own angle and lean: a generalized Miura-ori,
-    /// which folds rigidly by all creases at once.
+    /// Parallel lines at random distances, crossed by zigzags, each with its own angle and lean: a generalized
+    /// Miura-ori, which folds rigidly by all creases at once.
     Zigzags,
     /// A vertex with 4, 6 or 8 creases at random angles that fulfil Kawasaki's condition; the letters are those of
     /// crimping it flat.
@@ -301,8 +301,9 @@ fn half_of_the_sectors(numbers: &mut Numbers, count: usize) -> Vec<f64> {
     parts.iter().map(|part| least + (PI - count as f64 * least) * part / whole).collect()
 }
 
-/// Returns the letters, true for valleys, of a vertex with these sectors; sector `k` is between the creases `k` and `k + 1`.
-/// Source: crimps of the narrowest sector, T. Hull, "The combinatorics of flat folds: a survey", Origami3 (2002).
+/// Returns the letters, true for valleys, of a vertex with these sectors; sector `k` is between the creases `k` and
+/// `k + 1`. Source: crimps of the narrowest sector, T. Hull, "The combinatorics of flat folds: a survey", Origami3
+/// (2002).
 fn crimped(numbers: &mut Numbers, sectors: &[f64]) -> Vec<bool> {
     let mut letters = vec![false; sectors.len()];
     let mut left: Vec<(usize, f64)> = sectors.iter().copied().enumerate().collect();

@@ -34,20 +34,20 @@ fn trace(kind: SymmetryKind) -> i64 {
     }
 }
 
-/// Even less odd modes of a generic cell, by counting: an edge on which the symmetry lies counts `side`, a vertex on it takes
-/// away `side` times the trace of its linear part, and the three conditions that hold at all vertices together give that
-/// back once. `side` is -1 if the sheet is turned over. (Symmetry-extended counting as in P. W. Fowler and S. D. Guest,
-/// Int. J. Solids Struct. 37, 1793 (2000), for the closure of fold angles.)
+/// Even less odd modes of a generic cell, by counting: an edge on which the symmetry lies counts `side`, a vertex on it
+/// takes away `side` times the trace of its linear part, and the three conditions that hold at all vertices together
+/// give that back once. `side` is -1 if the sheet is turned over. (Symmetry-extended counting as in P. W. Fowler and S.
+/// D. Guest, Int. J. Solids Struct. 37, 1793 (2000), for the closure of fold angles.)
 fn counted(symmetry: &Symmetry) -> i64 {
     let kept = |images: &[usize]| images.iter().enumerate().filter(|(k, image)| *k == **image).count() as i64;
     let side = if symmetry.turns_over { -1 } else { 1 };
     side * (kept(&symmetry.edges) - trace(symmetry.kind) * (kept(&symmetry.vertices) - 1))
 }
 
-/// Claim: a generated cell has the symmetry that was asked for and no other; its three modes split into even and odd ones as
-/// counting says, all even under a two-fold axis across the sheet, two and one under a screw axis, a mirror and a glide plane across
-/// it, and one and two under a glide plane along it; and the self stresses, which are the modes, split alike, exchanged where
-/// the sheet is turned over.
+/// Claim: a generated cell has the symmetry that was asked for and no other; its three modes split into even and odd
+/// ones as counting says, all even under a two-fold axis across the sheet, two and one under a screw axis, a mirror and
+/// a glide plane across it, and one and two under a glide plane along it; and the self stresses, which are the modes,
+/// split alike, exchanged where the sheet is turned over.
 #[test]
 fn modes_of_symmetric_cells() {
     for (asked, kind) in ALL {
@@ -74,8 +74,9 @@ fn modes_of_symmetric_cells() {
     }
 }
 
-/// Claim: a glide plane along the sheet alone gives what is known of sheets of four parallelograms: one mode strains the sheet and
-/// does not bend it, two bend it, so that Poisson's ratios are opposite. Tolerance: rounding of a null space of 48 edges.
+/// Claim: a glide plane along the sheet alone gives what is known of sheets of four parallelograms: one mode strains
+/// the sheet and does not bend it, two bend it, so that Poisson's ratios are opposite. Tolerance: rounding of a null
+/// space of 48 edges.
 #[test]
 fn glide_planes_along_make_ratios_opposite() {
     for seed in 0..10 {
@@ -92,8 +93,8 @@ fn glide_planes_along_make_ratios_opposite() {
     assert_ne!(relation.opposite(), Some(true));
 }
 
-/// Claim: no symmetry is seen where there is none, and those of a sheet stay where it is drawn otherwise: with a longer lattice
-/// vector, far away, and in another unit.
+/// Claim: no symmetry is seen where there is none, and those of a sheet stay where it is drawn otherwise: with a longer
+/// lattice vector, far away, and in another unit.
 #[test]
 fn symmetries_do_not_depend_on_the_drawing() {
     assert!(symmetries(&mesh("open-star")).is_empty());

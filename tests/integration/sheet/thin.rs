@@ -41,9 +41,9 @@ fn thin_triangles_are_named() {
     assert!(message.contains("face 2 has a triangle [4, 5, 7] of area"), "{message}");
 }
 
-/// Claim: relaxations reach their tolerance on single triangles down to a height of 1e-4, and the sliver does not change
-/// the energy of the sheet. Tolerance: the sliver's own crease takes part of the fold; the energies of three heights
-/// differ by less than its height.
+/// Claim: relaxations reach their tolerance on single triangles down to a height of 1e-4, and the sliver does not
+/// change the energy of the sheet. Tolerance: the sliver's own crease takes part of the fold; the energies of three
+/// heights differ by less than its height.
 #[test]
 fn slivers_down_to_a_ten_thousandth_relax() {
     let energy = |h: f64| energy_folded(fold::parse(&with_sliver(h), "a.fold").unwrap());

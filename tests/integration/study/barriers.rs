@@ -42,9 +42,9 @@ fn barriers_at_the_own_stiffness() {
     assert!(table.lines().count() == 2 && table.lines().nth(1).unwrap().contains("10000"), "{table}");
 }
 
-/// Claim: the barrier of a pyramid of soft bars on pinned corners, whose apex goes through, is 0.9124522065 above the drawn state at which
-/// it begins; those to its states that pass through themselves, with creases wound beyond a half turn, are found too. Source: a search for
-/// critical points in other software. Tolerance: its digits.
+/// Claim: the barrier of a pyramid of soft bars on pinned corners, whose apex goes through, is 0.9124522065 above the
+/// drawn state at which it begins; those to its states that pass through themselves, with creases wound beyond a half
+/// turn, are found too. Source: a search for critical points in other software. Tolerance: its digits.
 #[test]
 fn pyramids_go_through() {
     let pins: String = (0..4).map(|vertex| format!("[[pin]]\nvertex = {vertex}\n")).collect();
@@ -85,9 +85,9 @@ fn paths_leave_ridges() {
     assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
 }
 
-/// Claim: whatever the stiffness of the bars of the square twist, from that at which it first has two wells on, a barrier
-/// is found between its two lowest ones or the reason names the pass and the minimum to which it leads instead. Every
-/// pass lies above the wells that it joins and is a stationary point of the sheet's own energy with one negative
+/// Claim: whatever the stiffness of the bars of the square twist, from that at which it first has two wells on, a
+/// barrier is found between its two lowest ones or the reason names the pass and the minimum to which it leads instead.
+/// Every pass lies above the wells that it joins and is a stationary point of the sheet's own energy with one negative
 /// eigenvalue: a relaxation from the file of the pass takes no step, and its inertia and the spectrum there say so.
 #[test]
 fn passes_of_the_scene_itself() {

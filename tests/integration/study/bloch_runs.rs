@@ -116,9 +116,10 @@ fn strips_and_interfaces() {
     assert!(strip.error.unwrap() <= 1e-6, "{:?}", strip.error);
 }
 
-/// Claim: at `q1 = 0` the determinant has a root of multiplicity four at 1, where the matrix has three null vectors: it is found to
-/// all digits, with its multiplicity. The coefficients alone know such roots to four digits, and where no root is known accurately
-/// enough to be compared the pairing error is null instead of zero. Tolerance: rounding times the condition, below 1e3.
+/// Claim: at `q1 = 0` the determinant has a root of multiplicity four at 1, where the matrix has three null vectors: it
+/// is found to all digits, with its multiplicity. The coefficients alone know such roots to four digits, and where no
+/// root is known accurately enough to be compared the pairing error is null instead of zero. Tolerance: rounding times
+/// the condition, below 1e3.
 #[test]
 fn fourfold_roots() {
     let ran = scene("generate = { pattern = \"random\" }", "q1 = [0]").ran();
@@ -130,8 +131,9 @@ fn fourfold_roots() {
     assert!(alone.error.is_none() && alone.condition.is_none() && alone.left_out > 0, "{alone:?}");
 }
 
-/// Claim: on a triangulated eggbox the determinant touches zero on lines without changing its sign, which is said instead of a number of
-/// lines; its roots are all double, and their rates pair. Tolerance: rounding times the largest condition of the roots, below 1e3.
+/// Claim: on a triangulated eggbox the determinant touches zero on lines without changing its sign, which is said
+/// instead of a number of lines; its roots are all double, and their rates pair. Tolerance: rounding times the largest
+/// condition of the roots, below 1e3.
 #[test]
 fn rates_without_zero_lines() {
     let energy = "generate = { pattern = \"eggbox\" }\n[energy]\nfacets = { stiffness = 1.0 }";
@@ -193,8 +195,8 @@ fn what_cannot_be_done() {
     }
 }
 
-/// Claim: a state that is not of one cell is refused, and bands of one with a lock; a state of springs has bands; a sheet without a determinant is a study that
-/// failed, and polygons that bend have one.
+/// Claim: a state that is not of one cell is refused, and bands of one with a lock; a state of springs has bands; a
+/// sheet without a determinant is a study that failed, and polygons that bend have one.
 #[test]
 fn states_that_cannot_be_asked() {
     let relaxed = |domain: &str, keys: &str| {

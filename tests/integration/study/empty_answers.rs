@@ -96,9 +96,9 @@ fn wells_of_a_part_of_the_rigid_states() {
     assert!(found[0]["reason"].as_str().unwrap().contains("may have other wells and passes"), "{found}");
 }
 
-/// Claim: the eggbox and a general cell of four parallelograms, whose rigid states are two surfaces that cross, have a rigid
-/// well, and it is the one that relaxations of all vertices find, with creases that rest flat so that the energy does not
-/// vanish. Tolerance: 1e-10 relative, that of relaxations to 1e-8 of force.
+/// Claim: the eggbox and a general cell of four parallelograms, whose rigid states are two surfaces that cross, have a
+/// rigid well, and it is the one that relaxations of all vertices find, with creases that rest flat so that the energy
+/// does not vanish. Tolerance: 1e-10 relative, that of relaxations to 1e-8 of force.
 #[test]
 fn rigid_wells_of_four_parallelograms() {
     for pattern in ["eggbox", "four-parallelogram"] {

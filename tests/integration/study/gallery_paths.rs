@@ -59,9 +59,9 @@ fn sign_changes(values: &[f64]) -> usize {
 
 /// Claim: a pulled Miura-ori widens as its cells do when their faces are rigid. Source: M. Schenk and S. D. Guest, PNAS
 /// 110 (2013) 3276: with `t = cos(fold) tan(sector)` the half periods are `S = t / sqrt(1 + t^2)` along and
-/// `L = sqrt(1 - sin(fold)^2 sin(sector)^2)` across, with steps of `V = 1 / sqrt(1 + t^2)` between neighbouring vertices;
-/// this patch has the length `9 S` and the width `9 L + V`. Tolerance: 3% with the soft facets and bars of the scene,
-/// which take a part of the strain, and 1.5% where both are a hundred times as stiff.
+/// `L = sqrt(1 - sin(fold)^2 sin(sector)^2)` across, with steps of `V = 1 / sqrt(1 + t^2)` between neighbouring
+/// vertices; this patch has the length `9 S` and the width `9 L + V`. Tolerance: 3% with the soft facets and bars of
+/// the scene, which take a part of the strain, and 1.5% where both are a hundred times as stiff.
 #[test]
 fn a_pulled_miura_widens() {
     let runs = [
@@ -100,9 +100,9 @@ fn widened(run: &Path) -> (f64, f64) {
     (stretched(1) - 1.0, width(low) / width(fold) - 1.0)
 }
 
-/// Claim: a Miura-ori that is bent along x bends the other way along y, since its Poisson's ratio of bending is positive
-/// where that of stretching is negative; source as above. The sheet has no exact shape to compare with, since its ends
-/// are flat: along y the rows in the middle sag by more than a tenth of their width.
+/// Claim: a Miura-ori that is bent along x bends the other way along y, since its Poisson's ratio of bending is
+/// positive where that of stretching is negative; source as above. The sheet has no exact shape to compare with, since
+/// its ends are flat: along y the rows in the middle sag by more than a tenth of their width.
 #[test]
 fn a_bent_miura_is_a_saddle() {
     let run = Path::of(Scene::of("miura-bend"));
@@ -143,9 +143,9 @@ fn a_waterbomb_base_snaps() {
 }
 
 /// Claim: equal storeys snap one after the other: where both do the same the bellows is unstable between two branch
-/// points, which two mirrored branches join, with less energy at the same displacement; on them the plate in the middle is
-/// far off the middle. Source: two equal elements in series, whose forces fall with displacement, at fixed sum. Branches
-/// are mirror images, so that their extrema agree to the 1e-9 to which they are located.
+/// points, which two mirrored branches join, with less energy at the same displacement; on them the plate in the middle
+/// is far off the middle. Source: two equal elements in series, whose forces fall with displacement, at fixed sum.
+/// Branches are mirror images, so that their extrema agree to the 1e-9 to which they are located.
 #[test]
 fn storeys_snap_one_after_the_other() {
     let run = Path::of(Scene::of("bellows"));

@@ -18,8 +18,8 @@ fn relaxed(model: &Model, method: Method, keep_every: Option<usize>) -> Relaxed 
         .unwrap()
 }
 
-/// The work of the tensions on the gaps of bars that are still open, `sum t (L - L0 - t/k)`, which the merit of a history
-/// counts and the energy of a state does not. `t/k` times `t` is twice the energy of the bars.
+/// The work of the tensions on the gaps of bars that are still open, `sum t (L - L0 - t/k)`, which the merit of a
+/// history counts and the energy of a state does not. `t/k` times `t` is twice the energy of the bars.
 fn work_on_gaps(model: &Model, state: &State) -> f64 {
     let bars = model.stiff().filter(|element| element.kind() == TermKind::Bars);
     let on_edges = bars.filter_map(|bar| Some((bar.edge()?, bar.spring.rest)));
@@ -27,7 +27,8 @@ fn work_on_gaps(model: &Model, state: &State) -> f64 {
     work.sum::<f64>() - 2.0 * state.energy_bars
 }
 
-/// The drawn angles of all edges plus those of the folding mode that rolls the star cell about its first lattice vector.
+/// The drawn angles of all edges plus those of the folding mode that rolls the star cell about its first lattice
+/// vector.
 fn bent(assembly: &Assembly) -> Rest {
     let rates = folding_modes(assembly.sheet()).unwrap().named([0.0, 0.1, 0.0]).unwrap();
     let angles = assembly.tiling().edges.iter().zip(assembly.drawn_angles());
@@ -100,10 +101,10 @@ fn scene(keys: &str) -> Scene {
     )
 }
 
-/// Claim: `keep_every = 2` writes the iterates 0, 2, 4, ... and the last one: as rows of the table with their iterations
-/// and energies, as files of the series with the iteration as their time, on the page, and in the film; the last file is
-/// the one that a run without the key writes last, bit by bit. Energies: of rigid bars on which the last state is closed to
-/// 1e-12 of a length, at tensions of some hundred torques, 1e-10.
+/// Claim: `keep_every = 2` writes the iterates 0, 2, 4, ... and the last one: as rows of the table with their
+/// iterations and energies, as files of the series with the iteration as their time, on the page, and in the film; the
+/// last file is the one that a run without the key writes last, bit by bit. Energies: of rigid bars on which the last
+/// state is closed to 1e-12 of a length, at tensions of some hundred torques, 1e-10.
 #[test]
 fn tables_series_pages_and_films_show_the_way() {
     let ran = scene("keep_every = 2\ndraw = [\"vtk\", \"html\"]").converged();

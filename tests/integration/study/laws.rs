@@ -16,7 +16,8 @@ fn hinge() -> Sheet {
     fold::parse(text, "hinge.fold").unwrap()
 }
 
-/// A triangle with a force along the bar between its first two vertices, which carries it alone, held so that it cannot turn.
+/// A triangle with a force along the bar between its first two vertices, which carries it alone, held so that it cannot
+/// turn.
 fn pulled(stiffness: f64, force: f64) -> Builder {
     let text = r#"{"vertices_coords": [[0, 0, 0], [2, 0, 0], [1, 1.5, 0]], "faces_vertices": [[0, 1, 2]]}"#;
     let sheet = fold::parse(text, "triangle.fold").unwrap();
@@ -29,9 +30,9 @@ type Given = fn(Builder) -> Builder;
 /// The force of a bar by its stretch, over `EA`.
 type Force = fn(f64) -> f64;
 
-/// Claim: a bar under a force is stretched as its law says, be it soft or 1e12 times stiffer. Source: the laws, force by stretch, as
-/// published. Tolerance: 1e-10 of the force, which is that of the residual; forces are known to 1e-10 of themselves where strains are
-/// above 1e-3, and strains to rounding below.
+/// Claim: a bar under a force is stretched as its law says, be it soft or 1e12 times stiffer. Source: the laws, force
+/// by stretch, as published. Tolerance: 1e-10 of the force, which is that of the residual; forces are known to 1e-10 of
+/// themselves where strains are above 1e-3, and strains to rounding below.
 #[test]
 fn bars_are_stretched_by_their_law() {
     let forces: [(Given, Force); 3] = [
@@ -55,9 +56,9 @@ fn bars_are_stretched_by_their_law() {
     }
 }
 
-/// Claim: a stiffening hinge that rests beyond its limit stops where its torque vanishes, short of the full fold, be it soft or carry a
-/// tension; its energy is that of its law. Source: the torque `m1 - rest + (2 s / pi) tan(pi (m - m1) / (2 s))`. Tolerance: that of the
-/// residual, 1e-10 of the largest torque.
+/// Claim: a stiffening hinge that rests beyond its limit stops where its torque vanishes, short of the full fold, be it
+/// soft or carry a tension; its energy is that of its law. Source: the torque
+/// `m1 - rest + (2 s / pi) tan(pi (m - m1) / (2 s))`. Tolerance: that of the residual, 1e-10 of the largest torque.
 #[test]
 fn hinges_do_not_fold_through() {
     let law = Stiffening { limits: [-1.0, 1.0] };
@@ -88,8 +89,8 @@ fn rigid_elements_have_no_law() {
     OwnTerm::with_law("rod", Length, [(ends, Spring { stiffness: RIGID, rest: 1.0 })], GreenLagrange);
 }
 
-/// Claim: on a path of rest angles the work of the drive is the energy, with laws too: the derivatives by rest values are those of the
-/// energy. Tolerance: that of the integral of the work over steps of 0.02, 1e-9.
+/// Claim: on a path of rest angles the work of the drive is the energy, with laws too: the derivatives by rest values
+/// are those of the energy. Tolerance: that of the integral of the work over steps of 0.02, 1e-9.
 #[test]
 fn rest_angles_do_work_against_laws() {
     let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
@@ -124,9 +125,9 @@ fn scene(law: &str, studies: &str) -> Scene {
     ))
 }
 
-/// Claim: a scene with laws that rests folded flat is relaxed, starts again from its file where it is, is driven by its rest angles to an
-/// equilibrium, and its wells are found, none of which folds through. Source: the restart and the path, which go there by other ways.
-/// Tolerance: that of relaxations.
+/// Claim: a scene with laws that rests folded flat is relaxed, starts again from its file where it is, is driven by its
+/// rest angles to an equilibrium, and its wells are found, none of which folds through. Source: the restart and the
+/// path, which go there by other ways. Tolerance: that of relaxations.
 #[test]
 fn scenes_have_laws() {
     let studies = "[[drive]]\nname = \"fold\"\nrest = true\nto = 1.0\n[[study]]\nname = \"relaxed\"\nkind = \"relax\"\n\
@@ -154,10 +155,10 @@ fn laws_are_refused_by_name() {
     }
 }
 
-/// Claim: a spring between two vertices of a sheet that is rigid but for its creases pulls them together until its force balances the
-/// torques: energy is lowest there, is listed by the name of the term in summary and table, and a rigid one keeps their distance. Source: the
-/// states that are nearby on the one way in which the patch folds, whose energies the path in the rest length gives. Tolerance: that of
-/// relaxations.
+/// Claim: a spring between two vertices of a sheet that is rigid but for its creases pulls them together until its
+/// force balances the torques: energy is lowest there, is listed by the name of the term in summary and table, and a
+/// rigid one keeps their distance. Source: the states that are nearby on the one way in which the patch folds, whose
+/// energies the path in the rest length gives. Tolerance: that of relaxations.
 #[test]
 fn springs_between_vertices() {
     let scene = |spring: &str| {

@@ -28,7 +28,8 @@ fn force(z: f64) -> f64 {
 }
 
 /// Claim: two bars that are pushed through have their limit loads where the closed form has them, every state lies on
-/// the closed form, and the path arrives. Tolerance: limit points are located to 1e-10; states balance to 1e-12 of the largest force.
+/// the closed form, and the path arrives. Tolerance: limit points are located to 1e-10; states balance to 1e-12 of the
+/// largest force.
 #[test]
 fn two_bars_are_pushed_through() {
     let ran = Scene::of("two-bars-push").converged();
@@ -50,9 +51,9 @@ fn two_bars_are_pushed_through() {
     assert!((table.last("drive") + 0.7).abs() < 1e-12);
 }
 
-/// Claim: two bars under a growing load lose stability at the limit load, are unstable between the two limit points, and
-/// go on to the load that was asked for. Source and tolerances as above; the load points down, so that the factor is
-/// `-dE/dz` and its conjugate is the height's fall.
+/// Claim: two bars under a growing load lose stability at the limit load, are unstable between the two limit points,
+/// and go on to the load that was asked for. Source and tolerances as above; the load points down, so that the factor
+/// is `-dE/dz` and its conjugate is the height's fall.
 #[test]
 fn two_bars_under_a_load_snap_through() {
     let ran = Scene::of("two-bars-load").converged();
@@ -72,15 +73,15 @@ fn two_bars_under_a_load_snap_through() {
     }
 }
 
-/// Height below the drawn 1.2, and force, of the limit points of the drum, from the two numbers of the closed form in 40
-/// digits; and its second state.
+/// Height below the drawn 1.2, and force, of the limit points of the drum, from the two numbers of the closed form in
+/// 40 digits; and its second state.
 const DRUM: [[f64; 2]; 2] =
     [[1.145_092_671_426_46 - 1.2, -1.015_608_266_287_35e-3], [0.962_532_976_931_361 - 1.2, 8.030_698_430_453_93e-4]];
 const SECOND_STATE: f64 = 0.877_968_604 - 1.2;
 
 /// Claim: a drum whose lid turns freely has its limit points and its second state without energy where the closed form
-/// has them. Tolerance: the digits of the source, nine of heights and eight of forces; 1.4e-6 beside the second state the
-/// force is that distance times a stiffness of 0.017, and the energy half of both together.
+/// has them. Tolerance: the digits of the source, nine of heights and eight of forces; 1.4e-6 beside the second state
+/// the force is that distance times a stiffness of 0.017, and the energy half of both together.
 #[test]
 fn a_drum_is_crushed() {
     let ran = Scene::of("drum-path").replaced("to = -0.4", &format!("to = {SECOND_STATE}")).converged();
@@ -118,8 +119,8 @@ fn a_relaxation_starts_from_a_path() {
     assert!(energy.abs() < 1e-15, "{energy}");
 }
 
-/// Claim: a path goes on from where another one ended: its drive counts from there, and both together do the work of one
-/// path all the way.
+/// Claim: a path goes on from where another one ended: its drive counts from there, and both together do the work of
+/// one path all the way.
 #[test]
 fn a_path_goes_on() {
     let more = "\n[[study]]\nname = \"on\"\nkind = \"path\"\nstart = \"pushed\"\n";

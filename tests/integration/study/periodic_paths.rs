@@ -1,8 +1,9 @@
 //! Driven paths of periodic sheets: one cell of a torus, a cylinder, a tube.
 //!
-//! Sources: the fold angles of a Miura-ori (zigzag creases `2 g` at the angle `g` between faces and plane) and its Poisson's
-//! ratios, in its plane `-cos^2(g) tan^2(t)` with the sector angle `t`, of bending the opposite (M. Schenk, S. D. Guest,
-//! PNAS 110, 3276 (2013)); relaxations with the lock held at another angle, which share neither tangents nor steps with a path.
+//! Sources: the fold angles of a Miura-ori (zigzag creases `2 g` at the angle `g` between faces and plane) and its
+//! Poisson's ratios, in its plane `-cos^2(g) tan^2(t)` with the sector angle `t`, of bending the opposite (M. Schenk,
+//! S. D. Guest, PNAS 110, 3276 (2013)); relaxations with the lock held at another angle, which share neither tangents
+//! nor steps with a path.
 
 use crate::common::{Scene, mesh, mesh_folder, turned};
 use foldwell::analysis::path::{PathOptions, PathPoint, follow_path};
@@ -41,9 +42,9 @@ fn path_of_cylinder(to: f64) -> Vec<PathPoint> {
     branches.remove(0).points
 }
 
-/// Claim: the states of a path of a cylinder are those to which the sheet relaxes with its lock at their angles, and the
-/// torque of the lock is the slope of their energy. Tolerances: 1e-10 of energies of size 1 from residuals of 1e-12; the
-/// slope by central differences over 1e-4, whose error is 1e-8 times a third derivative of size 10.
+/// Claim: the states of a path of a cylinder are those to which the sheet relaxes with its lock at their angles, and
+/// the torque of the lock is the slope of their energy. Tolerances: 1e-10 of energies of size 1 from residuals of
+/// 1e-12; the slope by central differences over 1e-4, whose error is 1e-8 times a third derivative of size 10.
 #[test]
 fn cylinder_along_a_lock() {
     let points = path_of_cylinder(-0.2);
@@ -67,11 +68,11 @@ fn cylinder_along_a_lock() {
     assert!((last.work - work).abs() < 1e-5 && work > 0.1, "{} for {work}", last.work);
 }
 
-/// Claim: the path of a straight cell whose lock is turned begins about an axis about which rigid faces let it bend, both ways and however
-/// the cell lies in its plane; its states have no residual forces, its end is a state in which a relaxation stays, and stiff bars go the
-/// same way. A relaxation from the drawn state, without a path, chooses the same axis. Tolerances: 1e-10 of forces and energies of size
-/// 1, of which rounding errors in bars of 1e9 are 1e-11; such bars under forces of 7 change the energy by 1e-8, and by much more where the
-/// cell becomes compliant.
+/// Claim: the path of a straight cell whose lock is turned begins about an axis about which rigid faces let it bend,
+/// both ways and however the cell lies in its plane; its states have no residual forces, its end is a state in which a
+/// relaxation stays, and stiff bars go the same way. A relaxation from the drawn state, without a path, chooses the
+/// same axis. Tolerances: 1e-10 of forces and energies of size 1, of which rounding errors in bars of 1e9 are 1e-11;
+/// such bars under forces of 7 change the energy by 1e-8, and by much more where the cell becomes compliant.
 #[test]
 fn straight_cells_begin_to_bend() {
     let cell = |by: f64, bars: f64, angle: Option<f64>| {
@@ -127,10 +128,10 @@ kind = "path"
 response = "bending"
 "#;
 
-/// Claim: the path of a Miura-ori whose zigzag crease is unfolded is its rigid folding: `tan(r/2) = tan(r'/2) cos t` joins the
-/// two fold angles, facets stay flat, both Poisson's ratios are those of the closed form, the energy is that of the creases,
-/// and so is the torque, although the bars have self stresses. Tolerance 1e-9: residuals of 1e-12 over the least singular
-/// value.
+/// Claim: the path of a Miura-ori whose zigzag crease is unfolded is its rigid folding: `tan(r/2) = tan(r'/2) cos t`
+/// joins the two fold angles, facets stay flat, both Poisson's ratios are those of the closed form, the energy is that
+/// of the creases, and so is the torque, although the bars have self stresses. Tolerance 1e-9: residuals of 1e-12 over
+/// the least singular value.
 #[test]
 fn folding_of_a_miura_ori() {
     let ran = Scene::new(MIURA).converged();
@@ -188,9 +189,9 @@ drive = "stiffen"
 start = "full"
 "#;
 
-/// Claim: while rest angles are driven a straight sheet rolls up, and the path ends exactly at the curvature where it is told
-/// to stop; a driven stiffness goes on to rigid bars, where the state is the one to which rigid bars relax. Tolerances: those
-/// of located states; 1e-9 for energies from residuals of 1e-12.
+/// Claim: while rest angles are driven a straight sheet rolls up, and the path ends exactly at the curvature where it
+/// is told to stop; a driven stiffness goes on to rigid bars, where the state is the one to which rigid bars relax.
+/// Tolerances: those of located states; 1e-9 for energies from residuals of 1e-12.
 #[test]
 fn rolling_and_stiffening() {
     let ran = Scene::new(CYLINDER).converged();

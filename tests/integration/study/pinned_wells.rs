@@ -1,5 +1,5 @@
-//! Wells and barriers of sheets that pins hold and loads pull, compared with closed forms, and with those of free sheets
-//! where pins hold no shape.
+//! Wells and barriers of sheets that pins hold and loads pull, compared with closed forms, and with those of free
+//! sheets where pins hold no shape.
 
 use crate::common::{self, Scene, Testing, case_folder, on};
 use approx::{abs_diff_eq, assert_relative_eq};
@@ -24,9 +24,9 @@ fn parse(text: &str) -> Sheet {
     fold::parse(text, "sheet.fold").unwrap()
 }
 
-/// The pyramid with its base pinned: by symmetry its apex moves on its axis, on which everything has a closed form, as of
-/// a von Mises truss with four bars of length l = sqrt(1 + z^2): the fold angles of the creases over the bars are
-/// 2 atan(z / l).
+/// The pyramid with its base pinned: by symmetry its apex moves on its axis, on which everything has a closed form, as
+/// of a von Mises truss with four bars of length l = sqrt(1 + z^2): the fold angles of the creases over the bars are 2
+/// atan(z / l).
 #[derive(Clone, Copy)]
 struct OnAxis {
     /// Stiffness of the creases.
@@ -142,8 +142,8 @@ fn pins_that_hold_no_shape() {
     assert!(common::distance(&free_pass.state.fold_angle, &pinned_pass.state.fold_angle) <= 1e-6);
 }
 
-/// Returns a triangle on two vertices on the x axis, its apex over them, and a second triangle hinged to it. The first two
-/// vertices are pinned, and the apex too along these axes.
+/// Returns a triangle on two vertices on the x axis, its apex over them, and a second triangle hinged to it. The first
+/// two vertices are pinned, and the apex too along these axes.
 fn flap(apex: [bool; 3]) -> Assembly {
     let sheet = parse(
         r#"{"vertices_coords": [[-1, 0, 0], [1, 0, 0], [0, 0, 0.05], [-1.2, 0.1, 0.9]],
@@ -155,10 +155,11 @@ fn flap(apex: [bool; 3]) -> Assembly {
     case.with_terms(Terms { pins, ..terms })
 }
 
-/// Claim: states of one shape in different places are one well if a rigid motion that the pins leave free leads from one
-/// to the other, and two wells if none does. Source: the apex of a triangle on a pinned base turns about that base,
-/// unless it is kept in the plane through it: then it has to press its sides to get to the other side of the base, as in
-/// a von Mises truss. Both wells are the drawn shape, without energy. No path leads along fold angles that are the same.
+/// Claim: states of one shape in different places are one well if a rigid motion that the pins leave free leads from
+/// one to the other, and two wells if none does. Source: the apex of a triangle on a pinned base turns about that base,
+/// unless it is kept in the plane through it: then it has to press its sides to get to the other side of the base, as
+/// in a von Mises truss. Both wells are the drawn shape, without energy. No path leads along fold angles that are the
+/// same.
 #[test]
 fn one_shape_in_two_places() {
     let turning = reached(&flap([false; 3]), 24);

@@ -70,8 +70,9 @@ fn a_rolled_up_state() {
     assert!((axis.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-14);
 }
 
-/// Claim: a state whose bars are stretched has modes of its own lengths: an eggbox with soft bars, pushed by creases that
-/// rest flat, has other edges than drawn, three modes, and opposite ratios. Source: the theorem holds in every state.
+/// Claim: a state whose bars are stretched has modes of its own lengths: an eggbox with soft bars, pushed by creases
+/// that rest flat, has other edges than drawn, three modes, and opposite ratios. Source: the theorem holds in every
+/// state.
 #[test]
 fn a_stretched_state() {
     let text = "[sheet]\ngenerate = { pattern = \"eggbox\", fold = 0.9 }\ndomain = \"torus\"\n[energy]\n\
@@ -102,8 +103,8 @@ fn what_has_no_response_is_refused() {
     refused(&torus, "grid = [2, 2]\n", "grid");
 }
 
-/// Returns the fold angle of a zigzag crease of Miura-ori (which runs in the plane of the sheet, along x and y), and both
-/// ratios, of every row of a table.
+/// Returns the fold angle of a zigzag crease of Miura-ori (which runs in the plane of the sheet, along x and y), and
+/// both ratios, of every row of a table.
 fn ratios_along(table: &Table) -> Vec<[f64; 3]> {
     let columns = ["fold_0_1_0_0", "poisson_in_plane", "poisson_bending"];
     (0..table.len()).map(|row| columns.map(|name| table.at(row, name))).collect()

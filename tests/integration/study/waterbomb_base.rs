@@ -1,23 +1,24 @@
 //! A waterbomb base: its two wells, the flat state between them, and the force that drives it there, in closed form.
 //!
-//! Eight creases of length 1 and stiffness 1 meet at sectors of 45 degrees, mountains and valleys by turns; they rest in the
-//! drawn state, in which the mountains slope down by [`SLOPE`]. On the symmetric path a mountain at the elevation `-s` and a
-//! valley at `t` enclose a sector, `cos 45 = sin(-s) sin t + cos s cos t cos 45`; the fold angles follow from the normals of
-//! the faces. Source of the device: B. H. Hanna et al., Smart Materials and Structures 23 (2014) 094009.
+//! Eight creases of length 1 and stiffness 1 meet at sectors of 45 degrees, mountains and valleys by turns; they rest
+//! in the drawn state, in which the mountains slope down by [`SLOPE`]. On the symmetric path a mountain at the
+//! elevation `-s` and a valley at `t` enclose a sector, `cos 45 = sin(-s) sin t + cos s cos t cos 45`; the fold angles
+//! follow from the normals of the faces. Source of the device: B. H. Hanna et al., Smart Materials and Structures 23
+//! (2014) 094009.
 
 use crate::common::{ForceCurve, Ran, Scene};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::math::Vec3;
 use std::f64::consts::FRAC_PI_4;
 
-/// Slope of the mountains in the drawn state, and energy of the flat state and of the second well in that of rigid faces, from
-/// the closed form in 17 digits; the digits of an independent computation are 1.2921304 and 0.6394808.
+/// Slope of the mountains in the drawn state, and energy of the flat state and of the second well in that of rigid
+/// faces, from the closed form in 17 digits; the digits of an independent computation are 1.2921304 and 0.6394808.
 const SLOPE: f64 = 0.155_053_046_863_648_2;
 const FLAT: f64 = 1.292_130_4;
 const SECOND_WELL: f64 = 0.639_480_8;
 
-/// Elevations of mountains and valleys: with mountains that slope down, valleys do so too, more; inverted, both rise, and
-/// valleys less.
+/// Elevations of mountains and valleys: with mountains that slope down, valleys do so too, more; inverted, both rise,
+/// and valleys less.
 fn elevations(slope: f64) -> [f64; 2] {
     let (rise, along) = (-slope.sin(), slope.cos() * FRAC_PI_4.cos());
     let turn = (FRAC_PI_4.cos() / rise.hypot(along)).min(1.0).acos();
@@ -65,12 +66,13 @@ fn run(bars: &str) -> Ran {
 const WELLS: &str = "[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 32\nspread = 1.5\nbarriers = [[0, 1]]\n";
 const PATH: &str = "[[study]]\nname = \"p\"\nkind = \"path\"\nmax_step = 0.005\ndraw = []\n";
 
-/// Claim: with rigid faces the base has two wells, the drawn state and the inverted one, and the barrier between them is the
-/// flat state, in which branches cross: it is singular, and its energy is the limit of passes in ever stiffer bars. The path of a
-/// centre that is pushed down passes the flat state with that energy, and takes the force of the closed form, which is the
-/// larger the nearer to the flat state. Source: the closed form above. Tolerance: the energy of the flat state is exact, to the digits of the source; the limit is
-/// extrapolated from a law with a power of 1/3, to 3e-6 and to five times its own error; states of the path are exact to 1e-10, and derivatives of the closed form by
-/// fourth-order differences to 1e-8.
+/// Claim: with rigid faces the base has two wells, the drawn state and the inverted one, and the barrier between them
+/// is the flat state, in which branches cross: it is singular, and its energy is the limit of passes in ever stiffer
+/// bars. The path of a centre that is pushed down passes the flat state with that energy, and takes the force of the
+/// closed form, which is the larger the nearer to the flat state. Source: the closed form above. Tolerance: the energy
+/// of the flat state is exact, to the digits of the source; the limit is extrapolated from a law with a power of 1/3,
+/// to 3e-6 and to five times its own error; states of the path are exact to 1e-10, and derivatives of the closed form
+/// by fourth-order differences to 1e-8.
 #[test]
 fn a_rigid_base_passes_the_flat_state() {
     assert!(abs_diff_eq!(energy(1e-9), FLAT, epsilon = 1e-8) && abs_diff_eq!(energy(SLOPE), 0.0, epsilon = 1e-20));
@@ -109,9 +111,9 @@ fn a_rigid_base_passes_the_flat_state() {
 }
 
 /// Claim: with bars of finite stiffness the pass is the state of the path at which the centre needs no force, so that
-/// `wells` and `path` find one energy, and the largest force grows towards that of rigid faces at the flat state. Source:
-/// a symmetric pass lies on the symmetric path; the closed form. Tolerance: interpolation of the energy between states 0.005
-/// apart, where it is steep.
+/// `wells` and `path` find one energy, and the largest force grows towards that of rigid faces at the flat state.
+/// Source: a symmetric pass lies on the symmetric path; the closed form. Tolerance: interpolation of the energy between
+/// states 0.005 apart, where it is steep.
 #[test]
 fn a_soft_base_snaps_over_its_pass() {
     let near_flat = 1e-4;

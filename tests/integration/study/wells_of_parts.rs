@@ -1,8 +1,8 @@
 //! Wells and barriers of sheets with rigid parts, guides and elements of different stiffness.
 //!
-//! Source of the closed forms: a drum of Kresling's pattern between rigid plates of six corners, whose bars have the lengths
-//! `sqrt(h^2 + 2 - 2 cos t)` and `sqrt(h^2 + 2 - 2 cos(t - pi/3))` at height `h` and twist `t`. Its creases are so soft
-//! (1e-12 of the bars) that they change no energy of bars by more than 1e-11.
+//! Source of the closed forms: a drum of Kresling's pattern between rigid plates of six corners, whose bars have the
+//! lengths `sqrt(h^2 + 2 - 2 cos t)` and `sqrt(h^2 + 2 - 2 cos(t - pi/3))` at height `h` and twist `t`. Its creases are
+//! so soft (1e-12 of the bars) that they change no energy of bars by more than 1e-11.
 
 use crate::common::{ForceCurve, Ran, Scene};
 use approx::{abs_diff_eq, assert_relative_eq};
@@ -74,11 +74,11 @@ fn height_and_twist(ran: &Ran, state: usize) -> [f64; 2] {
     [above.z - below.z, twist.rem_euclid(std::f64::consts::TAU)]
 }
 
-/// Claim: a drum between plates of which one turns freely has two wells within a radian of the drawn fold angles: the drawn
-/// state and the second state of the closed form, without energy, and the pass between them is the unstable state of the
-/// closed form, and that at which the path of the lid that is pressed down needs no force. Source: theory above, digits of 40-digit arithmetic.
-/// Tolerance: the digits of the source; creases move states by 1e-12 over the stiffness of bars, 1e-2; the path's energy
-/// is interpolated by a cubic between states 0.002 apart.
+/// Claim: a drum between plates of which one turns freely has two wells within a radian of the drawn fold angles: the
+/// drawn state and the second state of the closed form, without energy, and the pass between them is the unstable state
+/// of the closed form, and that at which the path of the lid that is pressed down needs no force. Source: theory above,
+/// digits of 40-digit arithmetic. Tolerance: the digits of the source; creases move states by 1e-12 over the stiffness
+/// of bars, 1e-2; the path's energy is interpolated by a cubic between states 0.002 apart.
 #[test]
 fn a_drum_between_plates() {
     let scene = format!(
@@ -103,9 +103,9 @@ fn a_drum_between_plates() {
     assert!(abs_diff_eq!(unstable[1], 2.0 * FRAC_PI_3, epsilon = 1e-8), "{unstable:?}");
 }
 
-/// Claim: bars of different stiffness, and a load on a rigid part, move wells and pass to where the closed form has them; the
-/// stiffness may be given by FOLD assignments or for every edge. Source: stationary states of the closed form, by
-/// Newton's method in height and twist. Tolerance: creases change energies by 1e-11.
+/// Claim: bars of different stiffness, and a load on a rigid part, move wells and pass to where the closed form has
+/// them; the stiffness may be given by FOLD assignments or for every edge. Source: stationary states of the closed
+/// form, by Newton's method in height and twist. Tolerance: creases change energies by 1e-11.
 #[test]
 fn bars_of_two_sorts_and_a_load() {
     let by_sort = |[first, second]: [f64; 2]| {
@@ -153,10 +153,10 @@ fn a_held_part_is_pinned() {
     assert_relative_eq!(pinned.barriers[0].energy.unwrap(), part.barriers[0].energy.unwrap(), max_relative = 1e-9);
 }
 
-/// Claim: guides are pins in other directions: the same pyramid turned by an angle about the y axis, whose apex rolls on a
-/// plane that is turned with it, has the wells and the pass of the upright one whose apex is pinned along the corresponding
-/// axis. A guide of a free sheet holds no shape.
-/// Tolerance: as above; positions are rounded when they are turned.
+/// Claim: guides are pins in other directions: the same pyramid turned by an angle about the y axis, whose apex rolls
+/// on a plane that is turned with it, has the wells and the pass of the upright one whose apex is pinned along the
+/// corresponding axis. A guide of a free sheet holds no shape. Tolerance: as above; positions are rounded when they are
+/// turned.
 #[test]
 fn guides_are_pins_that_are_turned() {
     let pyramid: serde_json::Value = serde_json::from_str(include_str!("../../cases/pyramid.fold")).unwrap();
@@ -181,8 +181,8 @@ fn guides_are_pins_that_are_turned() {
     assert_relative_eq!(a, b, max_relative = 1e-9);
 }
 
-/// Claim: parts that are free change where a sheet lies, not what it is: a drum whose two plates both move freely has the wells
-/// and the pass of the one that stands on its floor. Tolerance: passes to 1e-11 of the forces.
+/// Claim: parts that are free change where a sheet lies, not what it is: a drum whose two plates both move freely has
+/// the wells and the pass of the one that stands on its floor. Tolerance: passes to 1e-11 of the forces.
 #[test]
 fn free_plates() {
     let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-6 }\n";
@@ -198,9 +198,9 @@ fn free_plates() {
     assert_relative_eq!(a.1, b.1, max_relative = 1e-9);
 }
 
-/// Claim: the pass of a sheet with rigid parts starts again as what it is: a relaxation from its file takes no step or one and
-/// keeps its energy, and a path from it begins without force, stable while the lid is held. Tolerance: 1e-12 of energies;
-/// the pass is one to 1e-11 of the forces of its elements.
+/// Claim: the pass of a sheet with rigid parts starts again as what it is: a relaxation from its file takes no step or
+/// one and keeps its energy, and a path from it begins without force, stable while the lid is held. Tolerance: 1e-12 of
+/// energies; the pass is one to 1e-11 of the forces of its elements.
 #[test]
 fn a_pass_of_parts_starts_again() {
     let energy = format!("[energy]\nbars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 1e-6 }}\n{PLATES}");
@@ -236,8 +236,9 @@ fn drum_mesh() -> serde_json::Value {
     serde_json::from_str(include_str!("../../../meshes/drum.fold")).unwrap()
 }
 
-/// Claim: equal stiffnesses in a table are one number, to the last bit; the unit of stiffness changes the unit of energy and
-/// nothing else, exactly where it is a power of two. Source: no number of the computation has a unit of its own.
+/// Claim: equal stiffnesses in a table are one number, to the last bit; the unit of stiffness changes the unit of
+/// energy and nothing else, exactly where it is a power of two. Source: no number of the computation has a unit of its
+/// own.
 #[test]
 fn units_and_tables_of_stiffness() {
     let summary = |stiffness: [&str; 2]| {
@@ -261,8 +262,8 @@ fn units_and_tables_of_stiffness() {
     assert_eq!((one.0.len(), 1024.0 * one.1, one.2), (large.0.len(), large.1, large.2));
 }
 
-/// Claim: a sheet whose elements have different stiffness does not depend on the numbers of its vertices: wells and barrier
-/// are the same when these are reversed. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces.
+/// Claim: a sheet whose elements have different stiffness does not depend on the numbers of its vertices: wells and
+/// barrier are the same when these are reversed. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces.
 #[test]
 fn numbers_of_vertices_mean_nothing() {
     let drawn = drum_mesh();
@@ -284,9 +285,9 @@ fn numbers_of_vertices_mean_nothing() {
     assert_relative_eq!(a.barriers[0].energy.unwrap(), b.barriers[0].energy.unwrap(), max_relative = 1e-9);
 }
 
-/// Claim: wells and pass of a sheet whose mountains, valleys and flat creases have different stiffness are those that are found
-/// in fold angles alone, without bars, random starts and strings. Source: `analysis/wells/rigid`, which shares no equation
-/// with bars. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces, closure to 1e-13.
+/// Claim: wells and pass of a sheet whose mountains, valleys and flat creases have different stiffness are those that
+/// are found in fold angles alone, without bars, random starts and strings. Source: `analysis/wells/rigid`, which
+/// shares no equation with bars. Tolerance: relaxations to 1e-12, passes to 1e-11 of the forces, closure to 1e-13.
 #[test]
 fn uneven_creases_in_fold_angles_alone() {
     let ran = on(
@@ -307,7 +308,8 @@ fn uneven_creases_in_fold_angles_alone() {
     assert_relative_eq!(found.barriers[0].energy.unwrap(), pass.energy, max_relative = 1e-9);
 }
 
-/// Claim: wells of rigid states, which are sought in fold angles, are refused with parts and guides, which these do not know.
+/// Claim: wells of rigid states, which are sought in fold angles, are refused with parts and guides, which these do not
+/// know.
 #[test]
 fn rigid_wells_know_no_parts() {
     let cases = ["[[part]]\nname = \"p\"\nvertices = [0, 1, 2]\n", "[[pin]]\nvertex = 0\nnormal = [0, 1, 1]\n"];

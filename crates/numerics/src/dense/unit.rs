@@ -2,7 +2,7 @@
 
 /// Bound on the error of an eigenvalue, in units of the machine epsilon times the square root of the number of unknowns
 /// times the largest diagonal entry of the matrix. Zeros are found with at most a tenth of it
-/// (`tests/integration/vibrations.rs`).
+/// (`tests/integration/analysis/vibrations.rs`).
 const ROUNDING_ERRORS: f64 = 4.0;
 
 /// Returns the largest power of two that is at most this magnitude, by which a matrix is divided without rounding; 1
