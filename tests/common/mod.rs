@@ -1,10 +1,11 @@
 //! Shared helpers of the tests: sheets with boundary conditions, terms with random rest angles, and dense matrices.
-#![allow(dead_code)] // each test file uses a part
+#![allow(dead_code, unused_imports)] // each test file uses a part
 
+mod folder;
 mod run;
 
-#[allow(unused_imports)] // each test file uses a part
-pub use run::{Files, Folder, Ran, Said, Scene, Table, case_folder, signal};
+pub use folder::{Files, Folder, Said, Table, signal};
+pub use run::{Ran, Scene, case_folder};
 
 use foldwell::analysis::modes::{Modes, ModesError, modes};
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
