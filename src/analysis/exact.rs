@@ -29,7 +29,7 @@ const KNOWN: f64 = 1e-10;
 const SAME_LENGTH: f64 = 1e-12;
 /// Largest difference of a fold angle to an exact state that is still near by: half a turn.
 const FARTHEST_RAD: f64 = std::f64::consts::PI;
-/// Largest change of an angle in a step.
+/// Largest change of an angle in a step, and by closing after it: another branch of closed states is farther away.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
 /// Hinges by edge: the energy of exactly folded states.
@@ -56,8 +56,6 @@ pub struct Stationary {
     /// is none of its zeros. Next to a state with more motions, as that of a screw without curvature, it is the larger
     /// the nearer it is.
     pub error: f64,
-    /// Whether every step was shorter than the one before, as they are on the way to a state near by.
-    pub(crate) is_near: bool,
 }
 
 /// The energy along the closed states at one of them, to second order in coordinates along its tangents.
@@ -79,7 +77,7 @@ struct Along {
 /// state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
-    let exact = springs.stationary(&springs.start).filter(|exact| exact.is_near && exact.error <= KNOWN)?.angles;
+    let exact = springs.stationary(&springs.start).filter(|exact| exact.error <= KNOWN)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
     worst(known.map(|(exact, angle)| (exact - angle).abs())).filter(|error| *error <= FARTHEST_RAD)
 }
@@ -142,23 +140,20 @@ impl Springs {
     /// none.
     pub(crate) fn stationary(&self, start: &[f64]) -> Option<Stationary> {
         let mut closing = Closing::new(&self.closure, self.start.clone());
-        let mut x = closing.folding(start);
-        let (mut last, mut is_near) = (f64::INFINITY, true);
+        let start = closing.folding(start);
+        let mut x = close(&mut closing, start, f64::INFINITY)?;
         for _ in 0..STEPS {
-            x = close(&mut closing, x)?;
-            let along = self.along(&closing, &x)?;
-            let step = along.step()?;
+            let step = self.along(&closing, &x)?.step()?;
             let longest = step.amax();
-            (last, is_near) = (longest, is_near && longest < last);
             let part = (LONGEST_ANGLE_STEP_RAD / longest).min(1.0);
             x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += part * d);
+            x = close(&mut closing, x, LONGEST_ANGLE_STEP_RAD)?;
             if longest <= LAST_ANGLE_CHANGE_RAD {
-                x = close(&mut closing, x)?;
                 let angles = closing.angles(&x);
                 let along = self.along(&closing, &x)?;
                 let (energy, residual) = (self.energy(&angles), self.closure.residual(&angles).amax());
                 let (negative_eigenvalues, error) = (along.negative()?, residual / along.least);
-                return Some(Stationary { angles, energy, negative_eigenvalues, residual, error, is_near });
+                return Some(Stationary { angles, energy, negative_eigenvalues, residual, error });
             }
         }
         None
@@ -204,13 +199,16 @@ impl Along {
     }
 }
 
-/// The closed state nearest to `x`, across the tangents there.
-fn close(closing: &mut Closing<'_>, x: Vec<f64>) -> Option<Vec<f64>> {
+/// The closed state nearest to `x`, across the tangents there; `None` where Newton's method finds none, or moves an angle
+/// by more than `reach`.
+fn close(closing: &mut Closing<'_>, x: Vec<f64>, reach: f64) -> Option<Vec<f64>> {
     let search = Search { most_steps: CORRECTIONS, residual: CLOSURE_RESIDUAL, terms: DIRECTION };
-    search.root(x, |x| {
+    let closed = search.root(x.clone(), |x| {
         let mut residual = DVector::zeros(closing.equations());
         let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
         closing.linearize(x, residual.as_mut_slice(), &mut jacobian);
         (residual, jacobian)
-    })
+    })?;
+    let is_near = closed.iter().zip(&x).all(|(closed, x)| (closed - x).abs() <= reach);
+    is_near.then_some(closed)
 }

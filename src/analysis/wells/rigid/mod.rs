@@ -222,7 +222,6 @@ impl Net {
             negative_eigenvalues: 0,
             residual,
             error,
-            is_near: true,
         })
     }
 
