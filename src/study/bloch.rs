@@ -1,14 +1,16 @@
 //! `kind = "bloch"`: spatially varying modes of the drawn state, or of a state that an earlier study found.
 
+mod bands;
+mod strip;
 mod summary;
 
+use self::bands::{FoundBands, facet_stiffness};
+use self::strip::FoundStrip;
 use super::answer::Answer;
-use super::bands::{FoundBands, facet_stiffness};
 use super::context::Context;
 use super::error::StudyError;
-use super::strip::FoundStrip;
 use super::summary::StudyResult;
-use super::{bands, start, states, strip};
+use super::{start, states};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::{

@@ -1,13 +1,14 @@
 //! `kind = "landscape"`: the energy of a patch or a torus along folding modes, with fits and the predicted expansion.
 
+mod map;
 mod summary;
 
 use super::answer::Answer;
 use super::context::Context;
 use super::energies;
 use super::error::StudyError;
+use super::relax;
 use super::summary::StudyResult;
-use super::{map, relax};
 use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::{Assembly, Boundary};

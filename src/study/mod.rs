@@ -16,35 +16,26 @@
 //! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
 
 pub mod answer;
-mod bands;
 pub mod bloch;
 pub mod branches;
 pub mod context;
 pub mod energies;
 mod error;
 mod keys;
-mod kinds;
 pub mod landscape;
-mod map;
 pub mod modes;
 mod page;
 pub mod path;
-mod path_plot;
-mod path_table;
 mod ratios;
-mod reason;
 pub mod relax;
 pub mod response;
 mod start;
 mod states;
-mod strip;
 mod summary;
 mod supported;
 pub mod surface;
 pub mod trace;
-mod trajectory;
 mod tube;
-mod vibrations;
 pub mod wells;
 
 use crate::scene::spec::StudyKind;

@@ -1,12 +1,13 @@
 //! `kind = "modes"`: zero modes and self-stresses of the bars, linear folding modes, the spectrum of the energy.
 
 mod summary;
+mod vibrations;
 
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::summary::StudyResult;
-use super::{start, states, supported, vibrations};
+use super::{start, states, supported};
 use crate::analysis::modes::{
     Modes, ModesError, SPARSE_EIGENVALUES, Vibrations, check_masses, decomposed_dense, modes_at,
 };

@@ -1,14 +1,16 @@
 //! `kind = "path"`: equilibria while a quantity is driven, through limit points, with branches on request.
 
+mod plot;
 mod summary;
+mod table;
 
+use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
-use super::path_plot::{Words, event_word, figure};
 use super::states::{self, Shown};
 use super::summary::StudyResult;
-use super::{path_table, ratios, start};
+use super::{ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
@@ -173,7 +175,7 @@ fn crease_in_middle(assembly: &Assembly, key: crate::sheet::EdgeKey) -> Option<u
 fn answer(context: &Context<'_>, spec: &PathSpec, drive: &Drive, branches: &[PathBranch]) -> Answer {
     let mut answer = Answer::empty(context.study);
     let marks = marks(context, branches);
-    answer.add(format!("{}.csv", context.name()), path_table::table(context, spec, branches, marks.as_deref()));
+    answer.add(format!("{}.csv", context.name()), table::table(context, spec, branches, marks.as_deref()));
     add_pictures(&mut answer, context, drive, branches, marks.as_deref());
     let result = summary(context, (drive_name(context, spec), drive), branches, marks.as_deref());
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));

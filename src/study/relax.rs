@@ -1,11 +1,12 @@
 //! `kind = "relax"`: the equilibrium that Newton's method reaches from a start.
 
+mod reason;
 mod summary;
 
+use self::reason::reason;
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
-use super::reason::reason;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
 use super::{branches, energies, start};

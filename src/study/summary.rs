@@ -2,7 +2,6 @@
 
 use super::bloch::BlochSummary;
 use super::branches::BranchesSummary;
-use super::kinds;
 use super::landscape::LandscapeSummary;
 use super::modes::ModesSummary;
 use super::path::PathSummary;
@@ -11,8 +10,9 @@ use super::response::ResponseSummary;
 use super::surface::SurfaceSummary;
 use super::trace::TraceSummary;
 use super::wells::WellsSummary;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// What came out of a study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,7 +20,7 @@ pub struct StudySummary {
     /// Its name.
     pub name: String,
     /// Its kind; the other keys depend on it.
-    #[schemars(schema_with = "kinds::kind")]
+    #[schemars(schema_with = "kind")]
     pub kind: String,
     /// Whether it gave its answer.
     pub converged: bool,
@@ -38,7 +38,7 @@ pub struct StudySummary {
     pub files: Option<Files>,
     /// The keys of its kind; null where it did not get so far.
     #[serde(flatten)]
-    #[schemars(schema_with = "kinds::answers")]
+    #[schemars(schema_with = "answers")]
     pub result: Option<StudyResult>,
 }
 
@@ -53,30 +53,32 @@ pub struct Files {
     pub digest: String,
 }
 
-/// The results of each kind of study.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum StudyResult {
-    /// `kind = "relax"`.
-    Relax(RelaxSummary),
-    /// `kind = "modes"`.
-    Modes(ModesSummary),
-    /// `kind = "branches"`.
-    Branches(BranchesSummary),
-    /// `kind = "surface"`.
-    Surface(SurfaceSummary),
-    /// `kind = "landscape"`.
-    Landscape(LandscapeSummary),
-    /// `kind = "bloch"`.
-    Bloch(Box<BlochSummary>),
-    /// `kind = "wells"`.
-    Wells(WellsSummary),
-    /// `kind = "path"`.
-    Path(PathSummary),
-    /// `kind = "response"`.
-    Response(Box<ResponseSummary>),
-    /// `kind = "trace"`.
-    Trace(TraceSummary),
+/// Defines the results of each kind of study, and the list of kinds with the schemas of these.
+macro_rules! kinds {
+    ($($word:literal: $kind:ident($result:ty)),* $(,)?) => {
+        /// The results of each kind of study.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(untagged)]
+        pub enum StudyResult {
+            $(#[doc = concat!("`kind = \"", $word, "\"`.")] $kind($result)),*
+        }
+
+        /// The word of every kind, and the function that returns the schema of its results.
+        const KINDS: &[(&str, fn(&mut SchemaGenerator) -> Schema)] =
+            &[$(($word, <$result>::json_schema)),*];
+    };
+}
+kinds! {
+    "relax": Relax(RelaxSummary),
+    "modes": Modes(ModesSummary),
+    "branches": Branches(BranchesSummary),
+    "surface": Surface(SurfaceSummary),
+    "landscape": Landscape(LandscapeSummary),
+    "bloch": Bloch(Box<BlochSummary>),
+    "wells": Wells(WellsSummary),
+    "path": Path(PathSummary),
+    "response": Response(Box<ResponseSummary>),
+    "trace": Trace(TraceSummary),
 }
 
 impl StudySummary {
@@ -112,4 +114,28 @@ impl StudySummary {
         let failed = self.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();
         format!("{} ({}): {what}, {:.2} s{failed}", self.name, self.kind, self.seconds)
     }
+}
+
+/// Returns the schema of the name of a kind of study.
+fn kind(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "enum": KINDS.iter().map(|(kind, _)| kind).collect::<Vec<_>>() })
+}
+
+/// Returns the schema of the keys that a study has in addition to the common ones: those of its kind, if it converged
+/// or has the first of them.
+fn answers(generator: &mut SchemaGenerator) -> Schema {
+    let by_kind = KINDS.iter().map(|(kind, answer)| {
+        let answer = answer(generator);
+        json!({
+            "if": {
+                "properties": { "kind": { "const": kind } },
+                "anyOf": [
+                    { "properties": { "converged": { "const": true } } },
+                    { "required": [answer.get("required").and_then(|keys| keys.get(0))] },
+                ],
+            },
+            "then": answer,
+        })
+    });
+    json_schema!({ "allOf": by_kind.collect::<Vec<_>>() })
 }

@@ -1,13 +1,14 @@
 //! `kind = "trace"`: trajectories of rigid folding from the drawn state, and relaxations at their states.
 
 mod summary;
+mod trajectory;
 
+use self::trajectory::{Path, is_tube, summary};
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
-use super::trajectory::{Path, is_tube, summary};
 use super::{branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;

@@ -1,13 +1,13 @@
 //! The table of a path: one row for each state.
 
-use super::context::Context;
-use super::path_plot::event_word;
-use super::{energies, ratios, states};
+use super::plot::event_word;
 use crate::analysis::intersections::Marks;
 use crate::analysis::path::{PathBranch, PathPoint};
 use crate::analysis::state::{Cylinder, cylinder};
 use crate::output::table::{CYLINDER, RATIOS, Solution, Table, Value};
 use crate::scene::spec::PathSpec;
+use crate::study::context::Context;
+use crate::study::{energies, ratios, states};
 
 /// Returns the table of all states. That of a periodic sheet has the columns of a cylinder; where the study asks for
 /// them, there are the columns of self-intersections and of Poisson's ratios.

@@ -2,9 +2,7 @@
 //!
 //! Samples are kept in a log as they are computed, so that an interrupted map continues where it stopped.
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
+use super::summary::MapSummary;
 use crate::analysis::landscape::cone::{Cone, distance};
 use crate::analysis::landscape::samples::{Sample, SampleError};
 use crate::analysis::landscape::sphere::{self, Direction};
@@ -16,7 +14,9 @@ use crate::output::artifact::{Artifact, Net};
 use crate::output::figure::sphere::{self as figure, Sphere};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::{Draw, MapSpec};
-use crate::study::landscape::MapSummary;
+use crate::study::answer::Answer;
+use crate::study::context::Context;
+use crate::study::error::StudyError;
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,7 +1,6 @@
 //! A trajectory of a study, how it ended, and its entry in the summary.
 
-use super::branches;
-use super::context::Context;
+use super::summary::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::trace::{Folded, TURNING, Traced};
@@ -12,7 +11,8 @@ use crate::output::figure::rounded;
 use crate::scene::spec::Engine;
 use crate::solver::Failure;
 use crate::solver::continuation::{self, End};
-use crate::study::trace::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
+use crate::study::branches;
+use crate::study::context::Context;
 
 /// A trajectory, with the relaxations at its states if they were computed.
 pub(super) struct Path<'a> {

@@ -1,9 +1,7 @@
 //! The strip of a study `bloch`: zero modes of a strip with free edges, their measured decay beside the roots of the
 //! determinant, and what is bound to an interface between two cells; numbers of zero modes and self stresses.
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
+use super::summary::StripSummary;
 use crate::analysis::bloch::strip::{StripModes, fit};
 use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Strip};
 use crate::numerics::worst;
@@ -11,7 +9,9 @@ use crate::output::table::{Table, Value};
 use crate::scene::build;
 use crate::scene::spec::{BlochSpec, StripSpec};
 use crate::sheet::Sheet;
-use crate::study::bloch::StripSummary;
+use crate::study::answer::Answer;
+use crate::study::context::Context;
+use crate::study::error::StudyError;
 use nalgebra::Complex;
 
 /// Fewest cells across a strip; with an interface, of each half.

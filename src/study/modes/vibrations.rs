@@ -1,14 +1,14 @@
 //! The slowest vibrations of a study of kind `modes`: their table, series and picture.
 
-use super::answer::Answer;
-use super::context::Context;
-use super::states;
 use crate::analysis::modes::Vibrations;
 use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
 use crate::output::picture::Picture;
 use crate::output::table::{Table, Value};
 use crate::scene::spec::Draw;
+use crate::study::answer::Answer;
+use crate::study::context::Context;
+use crate::study::states;
 
 /// Adds a table of the frequencies and the state with each motion as displacement, and a picture of the slowest motion
 /// after the rigid ones; `moving` makes a picture of velocities.

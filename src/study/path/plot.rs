@@ -1,9 +1,9 @@
 //! The plot of a path, and the words for what a drive drives.
 
-use super::context::Context;
 use crate::analysis::path::{PathBranch, PathEvent};
 use crate::model::{Drive, Driven};
 use crate::output::figure::reaction::{self, PlottedState, ReactionPlot};
+use crate::study::context::Context;
 
 /// The words for a driven quantity and its conjugate.
 pub(crate) struct Words {

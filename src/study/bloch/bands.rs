@@ -1,10 +1,6 @@
 //! The bands of a study `bloch`: eigenvalues of the energy against waves along a path, and with a mass their
 //! frequencies and the density of states.
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::supported;
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::{BlochError, Density};
@@ -16,6 +12,10 @@ use crate::scene::spec::{BlochSpec, DensitySpec, Draw};
 use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKind;
+use crate::study::answer::Answer;
+use crate::study::context::Context;
+use crate::study::error::StudyError;
+use crate::study::supported;
 
 /// Number of wavenumbers from each corner of a path to the next.
 const STEPS: usize = 50;
