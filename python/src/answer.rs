@@ -39,11 +39,11 @@ enum Values<'py> {
     Words(Vec<String>),
 }
 
-/// A kept file: name, bytes, and columns if it is a table.
+/// Content of a pickled file: name, bytes, and the columns of a table.
 type KeptFile<'py> = (String, Bound<'py, PyBytes>, Option<Vec<(String, Values<'py>)>>);
-/// A kept configuration: coordinates, angles and tensions.
+/// Content of a pickled configuration: coordinates, angles and tensions.
 type KeptState<'py> = (Array1<'py, f64>, Array1<'py, f64>, Option<Array1<'py, f64>>);
-/// What a pickle keeps: summary, assembly, states, files and configuration.
+/// Content of a pickled answer: summary as JSON, assembly, states by file, other files, and final configuration.
 type Kept<'py> = (String, Py<Assembly>, Vec<(String, Py<State>)>, Vec<KeptFile<'py>>, Option<KeptState<'py>>);
 
 impl File {

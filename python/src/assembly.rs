@@ -33,9 +33,9 @@ pub(crate) struct Assembly {
     called: Vec<CalledTerm>,
 }
 
-/// What a pickle keeps: scene, path, sheet, arrays and terms.
+/// Content of a pickled assembly: text of the scene, its path, the sheet, arrays by name, and terms.
 type Kept<'py> = (String, PathBuf, Sheet, BTreeMap<PathBuf, Array1<'py, f64>>, Vec<KeptTerm>);
-/// A kept term: name, vertices of each element and function.
+/// Content of a pickled term: name, vertices of each element, function.
 type KeptTerm = (String, Vec<Vec<usize>>, Py<PyAny>);
 
 impl Assembly {

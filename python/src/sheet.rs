@@ -29,7 +29,7 @@ fn no_letter(py: Python<'_>, letter: &str) -> PyErr {
     refused(py, format!("`{letter}` is no letter of an edge"), help)
 }
 
-/// What a pickle keeps: the text of the FOLD file, its name, and no number of a frame.
+/// Content of a pickled sheet, the arguments of `parse`: FOLD text, name for messages, and the first frame (`None`).
 type Kept = (String, &'static str, Option<usize>);
 
 #[pymethods]

@@ -12,7 +12,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The exception that ended a function of Python, until it is raised.
 type Failure = Arc<Mutex<Option<PyErr>>>;
 
-/// A term: its name, the vertices of each element, the function of their positions, and what became of it.
+/// A term: its name, the vertices of each element, the function of their positions, and the exception
+/// that ended it.
 pub(crate) struct CalledTerm {
     pub name: String,
     pub elements: Vec<Vec<usize>>,

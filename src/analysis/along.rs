@@ -24,8 +24,8 @@ const FAST_ENOUGH: f64 = 0.5;
 
 /// Most times that a step is halved.
 const HALVINGS: usize = 6;
-/// With soft measures, a fold angle whose step differs from the rigid one's by more than this part of the arc length
-/// has gone elsewhere.
+/// Largest difference between the steps of a fold angle with soft measures and with rigid ones, as a part of the arc
+/// length: beyond it the relaxed state has left the trajectory for another state.
 const ELSEWHERE: f64 = 0.5;
 /// Steps count as no shorter than this there.
 const SHORT: f64 = 0.01;

@@ -47,8 +47,8 @@ pub struct Branches {
     pub rays: Rays,
     /// Whether the one real direction is that of planar folding, along which the states stay spatially periodic.
     pub planar: bool,
-    /// Of every ray the sign of the curvature that it gives the sheet, positive towards the face normals: -1, 0 or 1;
-    /// `None` for a finite sheet.
+    /// Sign of the curvature into which each ray bends the sheet: 1 towards the face normals, -1 away from them, 0 for
+    /// none; `None` for a finite sheet, which has no curvature.
     pub curvature_signs: Vec<Option<i8>>,
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sh
     Ok((sheet, identified))
 }
 
-/// Does the same with arrays: their numbers of vertices may be wrong.
+/// Builds a sheet of arrays as [`build_listed`] does, after a check of the numbers of vertices in the list of edges.
 ///
 /// # Errors
 /// As [`build`]; also for a wrong list of edges.
@@ -43,7 +43,7 @@ pub fn build_arrays(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<Sheet, Def
     build_listed(drawn, listed).map(|(sheet, _)| sheet)
 }
 
-/// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error is that of an
+/// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error names the
 /// edge.
 pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize, Problem)> {
     let mut seen = BTreeMap::new();

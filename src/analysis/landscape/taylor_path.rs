@@ -31,8 +31,8 @@ impl HeldState {
 pub struct TaylorPath {
     /// Rates of the rest angles along the modes.
     pub rates: Vec<f64>,
-    /// What goes with the powers of the amplitude. To first order a mode makes no tensions and needs no rest angles
-    /// across.
+    /// Coefficients of the Taylor series of the state in the amplitude, from the first power on. That of the first power
+    /// has no tensions, and no rest angles other than those along the modes.
     pub orders: [HeldState; ORDERS],
 }
 

@@ -53,7 +53,7 @@ struct Failure {
 }
 
 impl Record {
-    /// Makes the result of a point of the summary of its run.
+    /// Returns the result of a point whose run has this summary.
     pub(super) fn of(summary: &Summary) -> Self {
         let studies = serde_json::to_value(&summary.studies).and_then(serde_json::from_value);
         Self::Computed(studies.unwrap_or_default())

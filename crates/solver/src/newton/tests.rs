@@ -4,11 +4,11 @@ use crate::{HessianKind, Layout, Linearization, Options, Problem, SoftElement, m
 use foldwell_numerics::sparse::Cliques;
 use std::sync::Arc;
 
-/// Where the wall stands.
+/// Coordinate of the wall, at which the energy becomes infinite.
 const WALL: f64 = 0.5;
-/// Where the spring is at rest: behind the wall.
+/// Coordinate at which the spring is at rest, behind the wall.
 const REST: f64 = 1.0;
-/// What the spring, of stiffness 1e6, yields to a force of 1.
+/// Compliance of the spring: its stretch by a force of 1, the inverse of its stiffness.
 const COMPLIANCE: f64 = 1e-6;
 
 /// A point `x` on a line, pushed back by `1 / (WALL - x)`, on a stiff spring.
