@@ -8,7 +8,7 @@
 use super::work::Work;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_model};
 use crate::analysis::restored;
-use crate::model::{Assembly, Configuration, Gauge, Model};
+use crate::model::{Assembly, Configuration, Element, Gauge, Model};
 use crate::solver::{Options, Problem, Step};
 
 /// A settled state.
@@ -33,8 +33,6 @@ pub struct MinimumTracker {
     hinges: Vec<usize>,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
-    /// For each stiff measure whether it is an elastic hinge.
-    is_hinge: Vec<bool>,
     work: Work,
 }
 
@@ -44,8 +42,7 @@ impl MinimumTracker {
         let model = assembly.model(Gauge::Held);
         let hinges = model.elastic_hinges().map(|hinge| hinge.number).collect();
         let (rest, stiffness) = model.elastic_hinges().map(|hinge| (hinge.spring.rest, hinge.spring.stiffness)).unzip();
-        let is_hinge = model.stiff().map(|element| element.is_elastic_hinge()).collect();
-        Self { model, strength, hinges, rest, stiffness, is_hinge, work: Work::new(assembly) }
+        Self { model, strength, hinges, rest, stiffness, work: Work::new(assembly) }
     }
 
     /// The drawn state.
@@ -107,11 +104,19 @@ impl MinimumTracker {
         let start = model.enter(from);
         let (relaxed, model, x) = relax_model(model, start, options, observe)?;
         let (rho, place) = (model.hinge_angles(&x), relaxed.configuration.clone());
-        let hinges = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
-        let others = place.tensions().iter().zip(model.compliance()).zip(&self.is_hinge).filter(|(_, hinge)| !**hinge);
-        let others = others.map(|((t, c), _)| c * t * t);
-        let elastic = 0.5 * (hinges.sum::<f64>() + others.sum::<f64>());
-        let energy = elastic - self.work.to(&relaxed.state.coordinates);
+        let energy = self.elastic_energy(&model, &place) - self.work.to(&relaxed.state.coordinates);
         Ok(Settled { place, rho, energy, relaxed })
+    }
+
+    /// The energy of all elements, with the springs of the sheet itself, in the state of a model that may be held. Stiff
+    /// elements other than hinges store it in their tensions.
+    fn elastic_energy(&self, held: &Model, state: &Configuration) -> f64 {
+        let of_value = |(held, own): (Element<'_>, Element<'_>)| own.response(held.value(&state.coordinates))[0];
+        let soft = held.soft().zip(self.model.soft()).map(of_value);
+        let stiff = held.stiff().zip(self.model.stiff()).zip(state.tensions().iter().zip(held.compliance()));
+        let stiff = stiff.map(|(elements, (tension, compliance))| {
+            if elements.1.is_elastic_hinge() { of_value(elements) } else { 0.5 * compliance * tension * tension }
+        });
+        soft.sum::<f64>() + stiff.sum::<f64>()
     }
 }

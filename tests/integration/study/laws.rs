@@ -2,10 +2,12 @@
 
 use crate::common::Scene;
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::model::{
     Assembly, Builder, Drive, Driven, GreenLagrange, Law, Length, Ogden, OwnTerm, Site, Spring, Stiffening,
 };
 use foldwell::sheet::{EdgeKind, Sheet, fold};
+use foldwell::solver::Options;
 use foldwell::{Pattern, RIGID, Rest, generate, relax};
 use std::f64::consts::PI;
 
@@ -194,5 +196,29 @@ fn springs_between_vertices() {
         ("[[spring]]\nvertices = [0, 1]\nstiffness = -1.0", "the stiffness is -1"),
     ] {
         scene(wrong).refused(said);
+    }
+}
+
+/// Claim: the energy of a well is that of all its terms: bars and creases with a law, and a term of one's own, soft or
+/// stiff. Source: the energies by term of the well's state. Tolerance: rounding of sums in another order.
+#[test]
+fn wells_have_the_energy_of_all_terms() {
+    let miura = || {
+        let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
+        Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).rest(Rest::Assigned(0.6))
+    };
+    let plain = miura().build().unwrap();
+    let ends = [0, 3 * plain.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
+    let band =
+        |stiffness: f64| plain.with_own_term(OwnTerm::new("band", Length, [(ends, Spring { stiffness, rest: 1.0 })]));
+    let of_bars = miura().bar_law(GreenLagrange).build().unwrap();
+    let of_creases = miura().crease_law(Stiffening { limits: [-3.0, 3.0] }).build().unwrap();
+    for assembly in [band(2.0), band(1e9), of_bars, of_creases, plain] {
+        let starts = Starts { count: 2, seed: 0, spread: 0.1, options: Options::default() };
+        for end in relax_all(&assembly, &starts, &|| true) {
+            let Outcome::Well(well) = end else { continue };
+            let total = well.relaxed.state.total();
+            assert!(total > 1e-3 && (well.energy - total).abs() <= 1e-12 * total, "{} {total}", well.energy);
+        }
     }
 }
