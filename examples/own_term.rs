@@ -1,30 +1,20 @@
-//! A law and a term of one's own: creases that harden, and magnets on two vertices of a sheet.
+//! A term of one's own: magnets on two vertices of a sheet.
 //!
-//! A law says how the energy of an element grows with its measure: two lines. A term is a measure of some points with
-//! its derivatives, on chosen vertices: here `1 / d` of two points, so that two like poles of strength `q` have the
-//! energy `q / d`. Everything else, relaxations, paths, wells, goes on as before.
+//! A term is a measure of some points with its derivatives and a law, on chosen vertices: here `1 / d` of two points at
+//! the distance `d`, so that two like poles of strength `q` have the energy `q / d`. Everything else, relaxations,
+//! paths, wells, files, goes on as before, and the term's energy is listed by its name.
 //!
 //! ```text
 //! cargo run --release --example own_term
 //! ```
 
-use foldwell::analysis::path::{PathOptions, follow_path};
+mod common;
+
 use foldwell::math::Vec3;
 use foldwell::model::{Drive, Driven, Law, Measure, OwnTerm, RIGID, Site, Spring};
 use foldwell::{Assembly, Pattern, Rest, generate, relax};
 use nalgebra::{Matrix3, SVector};
 use std::error::Error;
-
-/// A torque that grows with the third power of the angle too.
-#[derive(Debug)]
-struct Hardening;
-
-impl Law for Hardening {
-    fn at(&self, angle: f64, rest: f64) -> [f64; 3] {
-        let off = angle - rest;
-        [0.5 * off.powi(2) + 0.25 * off.powi(4), off + off.powi(3), 1.0 + 3.0 * off.powi(2)]
-    }
-}
 
 /// The reciprocal of the distance between two points.
 struct InverseDistance;
@@ -72,17 +62,10 @@ impl Law for Constant {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let sheet = generate(&Pattern::named("miura")?)?;
-    let energy = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Assigned(0.6));
-    let hardening = energy.crease_law(Hardening).build()?;
-    let poles = [0, 3 * hardening.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
+    let without = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Assigned(0.6)).build()?;
+    let poles = [0, 3 * without.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
     let strength = Spring { stiffness: 5.0, rest: 0.0 };
-    let magnets = hardening.with_own_term(OwnTerm::with_law("magnets", InverseDistance, [(poles, strength)], Constant));
-    for (name, assembly) in [("without", &hardening), ("with", &magnets)] {
-        let state = relax(assembly)?.state;
-        println!("{name} magnets: creases {:.6}, magnets {:.6}", state.energy_creases, state.energy_of_term("magnets"));
-    }
-    let drive = Drive { quantity: Driven::Rest, to: 1.0 };
-    let path = follow_path(&magnets, &drive, None, &PathOptions::default(), &mut |_, _| true)?;
-    println!("on the way of the rest angles: {} states, {:?}", path[0].points.len(), path[0].end);
-    Ok(())
+    let magnets = without.with_own_term(OwnTerm::with_law("magnets", InverseDistance, [(poles, strength)], Constant));
+    println!("the magnets store {:.9}", relax(&magnets)?.state.energy_of_term("magnets"));
+    common::use_it("magnets", &magnets, &Drive { quantity: Driven::Rest, to: 1.0 })
 }

@@ -31,7 +31,7 @@
 //! |---|---|
 //! | read a mesh or a crease pattern | [`sheet::fold::read`], [`sheet::obj::read`], [`sheet::pattern::read`]; [`generate()`] makes one |
 //! | give it stiffnesses, rest angles, locks, pins and loads | [`Assembly::patch`], [`Assembly::torus`], [`Assembly::screw`] and the builder they return |
-//! | give bars and hinges another law than that of a spring, or add a term of your own | [`model::Law`], [`model::OwnTerm`] |
+//! | add a law, a term or a domain of your own | [`model::Law`], [`model::OwnTerm`], [`model::CellMaps`] |
 //! | relax it | [`relax()`]; from another start, or step by step, [`analysis::relax::relax_from`] |
 //! | read fold angles, strains, tensions and energies edge by edge | [`analysis::state::State`] |
 //! | find zero modes, self stresses and eigenvalues | [`analysis::modes::modes`] |
@@ -50,7 +50,7 @@
 //! |---|---|
 //! | sheet, cell | one period of a triangulated surface with its two lattice vectors, or a finite piece |
 //! | tiling | the cells of a sheet that a study uses |
-//! | boundary conditions | patch (free edges), torus (periodic), screw (one cell repeated by screw motions) |
+//! | boundary conditions | patch (free edges), torus (periodic), screw (one cell repeated by screw motions), tube (the same, closed), or one's own |
 //! | assembly | a sheet with its boundary conditions and terms |
 //! | terms | stiffnesses and rest angles of bars, creases and facets; locks, pins, loads |
 //! | bar, crease, facet, hinge | an edge; an edge between polygons; a diagonal of a polygon; a crease or a facet |

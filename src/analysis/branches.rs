@@ -26,6 +26,9 @@ pub enum BranchesError {
         "on a torus with a lattice the folding angles of one cell do not say all; ask for domain \"screw\" or \"patch\""
     )]
     Torus,
+    /// Exact kinematics knows the closed forms of the built-in domains alone.
+    #[error("branches are not known on a domain of one's own")]
+    OwnDomain,
     /// Too many edges.
     #[error("the sheet has {edges} edges that fold; at most {MOST_EDGES} are looked at")]
     TooLarge {
@@ -56,12 +59,15 @@ pub struct Branches {
 /// answer.
 ///
 /// # Errors
-/// [`BranchesError`] for a torus, for periodic sheets with openings, for too many edges, and where ranks are not clear
+/// [`BranchesError`] for a torus, for a domain of one's own, for periodic sheets with openings, for too many edges, and where ranks are not clear
 /// or the solutions do not add up.
 pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
     let (sheet, boundary) = (assembly.sheet(), assembly.boundary());
     if matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
         return Err(BranchesError::Torus);
+    }
+    if boundary == Boundary::Own {
+        return Err(BranchesError::OwnDomain);
     }
     let closure = Closure::of_tiling(sheet, assembly.tiling())?.with_locked(&assembly.locked_edges());
     closure.is_complete()?;

@@ -98,7 +98,7 @@ impl Springs {
     /// can be said, as [`error_to_kinematic`].
     pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
-        let closes = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus | Domain::Tube { .. });
+        let closes = !matches!(model.domain(), Domain::Patch | Domain::Screw);
         let is_linear = model.elements().all(|element| !element.has_law() && element.edge().is_some());
         if edges > MOST_EDGES || model.held_or_loaded() || closes || !is_linear {
             return None;

@@ -186,7 +186,7 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let at =
         |corner: Corner| state.domain.point(&state.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
     let closure = Closure::of_edges(&hinged, at)?;
-    let tube = matches!(assembly.boundary(), Boundary::Tube { .. });
+    let tube = matches!(assembly.boundary(), Boundary::Tube { .. } | Boundary::Own);
     let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);

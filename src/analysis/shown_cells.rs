@@ -156,8 +156,7 @@ impl ShownCells {
     /// or their number is another one. Images may be left out.
     pub(crate) fn coordinates(&self, drawn: &Drawn, points: &[Vec3]) -> Option<Vec<f64>> {
         let home = self.patch.positions.len();
-        let known = matches!(drawn.domain, Domain::Patch | Domain::FixedTorus(_));
-        let fits = known && [home, self.sites.len()].contains(&points.len());
+        let fits = drawn.domain.is_fixed_translation() && [home, self.sites.len()].contains(&points.len());
         let place = |p: &Vec3| <[f64; 3]>::from(p - drawn.origin);
         fits.then(|| points[..home].iter().flat_map(place).collect())
     }

@@ -208,7 +208,7 @@ fn curvature_and_turns(domain: &Domain, x: &[f64]) -> (f64, [f64; 2]) {
 
 /// Chords from vertex 0 to its copies in the next cells.
 fn chords(domain: &Domain, x: &[f64]) -> Option<[Vec3; 2]> {
-    if matches!(domain, Domain::Patch) {
+    if matches!(domain, Domain::Patch | Domain::Own(_)) {
         return None;
     }
     let site = |shift| crate::model::Site { vertex: 0, shift };

@@ -3,6 +3,7 @@
 use super::assemble::assemble;
 use super::assembly_error::AssemblyError;
 use super::boundary::{Boundary, Drawn};
+use super::domain::OwnDomain;
 use super::own_term::OwnTerm;
 use super::problem::{Gauge, Model};
 use super::roll::Roll;
@@ -72,8 +73,10 @@ impl Assembly {
         if cells.contains(&0) {
             return Err(AssemblyError::NoCells);
         }
-        if let Boundary::Tube { .. } = boundary {
-            return Err(AssemblyError::NotRolled);
+        match boundary {
+            Boundary::Tube { .. } => return Err(AssemblyError::NotRolled),
+            Boundary::Own => return Err(AssemblyError::NoDomain),
+            _ => {}
         }
         let repeated = if boundary == Boundary::Screw { [1, 1] } else { cells };
         let tiling = tile(&sheet, repeated, boundary.is_periodic());
@@ -102,6 +105,35 @@ impl Assembly {
         let angles = tiling.edges.iter().map(of_file).collect();
         let start_angles = tiling.edges.iter().map(|tiled| roll.angles[tiled.edge]).collect();
         let geometry = Geometry { sheet, tiling, boundary: roll.boundary(), shown: cells, angles, start_angles };
+        Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
+    }
+
+    /// Makes an assembly of one cell on a domain of one's own, without terms. The drawn state has these coordinates: x, y
+    /// and z of every vertex of the cell, then the shared ones. `cells` counts the cells that pictures show.
+    ///
+    /// # Errors
+    /// [`AssemblyError::NoLattice`] for a sheet without lattice, [`AssemblyError::NoCells`] if a number of cells is zero,
+    /// and [`AssemblyError::Coordinates`] for another number of them.
+    pub fn own_without_terms(
+        sheet: Sheet,
+        (domain, coordinates): (OwnDomain, Vec<f64>),
+        cells: [usize; 2],
+    ) -> Result<Self, AssemblyError> {
+        if sheet.lattice.is_none() {
+            return Err(AssemblyError::NoLattice);
+        }
+        if cells.contains(&0) {
+            return Err(AssemblyError::NoCells);
+        }
+        let (tiling, drawn) = (tile(&sheet, [1, 1], true), Drawn::own(domain, coordinates));
+        let needed = 3 * sheet.vertices.len() + drawn.domain.shared();
+        if drawn.coordinates.len() != needed {
+            let given = drawn.coordinates.len();
+            return Err(AssemblyError::Coordinates { given, needed });
+        }
+        let angles = drawn.fold_angles(&tiling);
+        let start_angles = angles.clone();
+        let geometry = Geometry { sheet, tiling, boundary: Boundary::Own, shown: cells, angles, start_angles };
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 

@@ -12,6 +12,17 @@ pub enum AssemblyError {
     /// A tube was asked of a sheet that is not drawn as one and was not rolled up.
     #[error("the sheet is not drawn as a tube: roll it up first")]
     NotRolled,
+    /// A domain of one's own was asked for without giving one.
+    #[error("the boundary conditions are those of a domain of one's own, which is not given")]
+    NoDomain,
+    /// A drawn state on a domain of one's own has another number of coordinates than the domain.
+    #[error("{given} coordinates were given: the vertices and the domain have {needed}")]
+    Coordinates {
+        /// Number of coordinates that were given.
+        given: usize,
+        /// Three for each vertex, and the shared ones.
+        needed: usize,
+    },
     /// Lattice vectors were asked of a cell that screw motions repeat.
     #[error("the sheet is drawn as a tube: it is a tube or a patch")]
     DrawnAsTube,

@@ -1,6 +1,6 @@
 //! Boundary conditions of a tiling, and the drawn state in the coordinates that belong to them.
 
-use super::domain::Domain;
+use super::domain::{Domain, OwnDomain};
 use crate::math::{Vec3, fold_angle::fold_angle};
 use crate::sheet::tiling::{Site, Tiling};
 use crate::sheet::{Seam, SeamKept, Sheet};
@@ -28,6 +28,8 @@ pub enum Boundary {
         /// The closing conditions that are kept.
         kept: SeamKept,
     },
+    /// One cell on a [domain of one's own](super::OwnDomain).
+    Own,
 }
 
 impl Boundary {
@@ -36,9 +38,9 @@ impl Boundary {
         self != Self::Patch
     }
 
-    /// Whether the model is one cell, whose copies are moved by screw motions.
+    /// Whether the model is one cell, whose copies are moved by motions other than translations.
     pub fn is_one_cell(self) -> bool {
-        matches!(self, Self::Screw | Self::Tube { .. })
+        matches!(self, Self::Screw | Self::Tube { .. } | Self::Own)
     }
 }
 
@@ -93,6 +95,12 @@ impl Drawn {
         let held = vec![0, 1, 2, coordinates.len() + 2];
         coordinates.extend([axis, 0.0, l1.y, l2.y, l1.x, l2.x]);
         Self { domain: Domain::Screw, coordinates, held, frame, origin, chords: None }
+    }
+
+    /// Makes the drawn state of a domain of one's own.
+    pub(super) fn own(domain: OwnDomain, coordinates: Vec<f64>) -> Self {
+        let (frame, origin) = (Matrix3::identity(), Vec3::zeros());
+        Self { domain: Domain::Own(domain), coordinates, held: vec![], frame, origin, chords: None }
     }
 
     /// Returns the distance between two sites.

@@ -4,6 +4,7 @@
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
+use super::domain::OwnDomain;
 use super::law::{Law, Laws};
 use super::mass::Mass;
 use super::part::Part;
@@ -58,7 +59,13 @@ impl Assembly {
     /// Begins a tube from the state to which a sheet was [rolled up](crate::rolled_up); pictures show `cells[0]` of its
     /// strands and `cells[1]` rows of cells.
     pub fn tube(sheet: Sheet, roll: Roll, cells: [usize; 2]) -> Builder {
-        Builder { roll: Some(roll.clone()), ..Builder::new(sheet, cells, roll.boundary()) }
+        Builder { sheet, cells, place: Place::Rolled(Box::new(roll)), given: Given::default() }
+    }
+
+    /// Begins one cell on a domain of one's own, from the state with these coordinates: x, y and z of every vertex of
+    /// the cell, then the shared ones; pictures show `cells[0] x cells[1]` copies of it. See [`CellMaps`](super::CellMaps).
+    pub fn own(sheet: Sheet, domain: OwnDomain, coordinates: Vec<f64>, cells: [usize; 2]) -> Builder {
+        Builder { sheet, cells, place: Place::Own(domain, coordinates), given: Given::default() }
     }
 }
 
@@ -71,9 +78,19 @@ type NamedVertex = (usize, [usize; 2]);
 pub struct Builder {
     sheet: Sheet,
     cells: [usize; 2],
-    boundary: Boundary,
-    roll: Option<Roll>,
+    place: Place,
     given: Given,
+}
+
+/// Where the cell is drawn.
+#[derive(Clone, Debug)]
+enum Place {
+    /// As in the file, with these boundary conditions.
+    File(Boundary),
+    /// Rolled up to a tube.
+    Rolled(Box<Roll>),
+    /// On a domain of one's own, with these coordinates.
+    Own(OwnDomain, Vec<f64>),
 }
 
 /// The settings of a builder, by the names of vertices and edges of the sheet.
@@ -96,7 +113,7 @@ struct Given {
 
 impl Builder {
     pub(super) fn new(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Self {
-        Self { sheet, cells, boundary, roll: None, given: Given::default() }
+        Self { sheet, cells, place: Place::File(boundary), given: Given::default() }
     }
 
     /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly. The stiffness
@@ -217,10 +234,11 @@ impl Builder {
     /// not a positive number, rest values are given without a stiffness, the length of a list does not match the
     /// tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
-        let Self { sheet, cells, boundary, roll, given } = self;
-        let bare = match roll {
-            Some(roll) => Assembly::tube_without_terms(sheet, &roll, cells)?,
-            None => Assembly::without_terms(sheet, cells, boundary)?,
+        let Self { sheet, cells, place, given } = self;
+        let bare = match place {
+            Place::File(boundary) => Assembly::without_terms(sheet, cells, boundary)?,
+            Place::Rolled(roll) => Assembly::tube_without_terms(sheet, &roll, cells)?,
+            Place::Own(domain, coordinates) => Assembly::own_without_terms(sheet, (domain, coordinates), cells)?,
         };
         let creases = match (given.creases, given.rest) {
             (None, Some(_)) => return Err(AssemblyError::RestWithoutCreases),

@@ -18,6 +18,7 @@
 //! the map is the translation by `l` and does not depend on the direction; the derivatives by `kappa` are regular
 //! there.
 
+mod own;
 mod recentre;
 mod screw;
 mod shared;
@@ -28,6 +29,7 @@ use crate::math::taylor::{Path, Taylor};
 pub use crate::sheet::tiling::Site;
 use crate::sheet::{Seam, SeamKept};
 use nalgebra::{Matrix3, SMatrix, SVector};
+pub use own::{Affine, CellMap, CellMaps, OwnDomain};
 use recentre::{raise_axis, turn_back, unwind};
 use screw::ScrewMotion;
 pub(crate) use shared::{MOST_SHARED, Turns};
@@ -54,6 +56,8 @@ pub enum Domain {
         /// Whether the drawn lattice vectors turn counter-clockwise seen from the side of the face normals.
         counterclockwise: bool,
     },
+    /// One cell repeated by the maps of a user's own.
+    Own(OwnDomain),
 }
 
 /// Curvature times the unit length up to which a screw is straight: the direction of its axis has next to no effect
@@ -68,9 +72,9 @@ pub(crate) struct Placed {
     vertex: Vec3,
     motion: Motion,
     /// Derivatives of the position by the vertex.
-    by_vertex: Matrix3<f64>,
+    pub by_vertex: Matrix3<f64>,
     /// Derivatives of the position by the shared coordinates; `None` where it does not depend on them.
-    by_shared: Option<SharedMatrix>,
+    pub by_shared: Option<SharedMatrix>,
 }
 
 /// The motion that takes a vertex of cell (0, 0) to its copy in another cell.
@@ -78,6 +82,7 @@ enum Motion {
     Translation(Vec3),
     Screw(ScrewMotion),
     Tube(TubeMotion),
+    Own(CellMap),
 }
 
 impl Motion {
@@ -86,6 +91,7 @@ impl Motion {
             Self::Translation(by) => v + by,
             Self::Screw(screw) => screw.at(v).point(),
             Self::Tube(tube) => tube.point(v),
+            Self::Own(map) => map.point(v),
         }
     }
 }
@@ -97,7 +103,14 @@ impl Domain {
             Self::Patch | Self::FixedTorus(_) => 0,
             Self::FreeTorus | Self::Screw => 6,
             Self::Tube { kept, .. } => 2 + kept.free(),
+            Self::Own(own) => own.maps().shared(),
         }
+    }
+
+    /// Whether points are vertices plus constants, so that derivatives by points are those by coordinates.
+    #[inline]
+    pub(crate) fn is_fixed_translation(&self) -> bool {
+        matches!(self, Self::Patch | Self::FixedTorus(_))
     }
 
     /// Returns the shared coordinates, which are the last of all coordinates.
@@ -120,6 +133,7 @@ impl Domain {
             }
             Self::Screw => Motion::Screw(ScrewMotion::new(shared, shift)),
             Self::Tube { seam, kept, .. } => Motion::Tube(TubeMotion::new(seam, *kept, shared, shift)),
+            Self::Own(own) => Motion::Own(own.maps().map(shared, shift)),
         }
     }
 
@@ -134,10 +148,11 @@ impl Domain {
         let (vertex, motion) = (vertex(x, site), self.motion(x, site.shift));
         let point = motion.point(&vertex);
         let (by_vertex, by_shared) = match &motion {
-            _ if self.shared() == 0 || site.shift == [0, 0] => (Matrix3::identity(), None),
-            Motion::Translation(_) => (Matrix3::identity(), Some(by_lattice(site.shift))),
+            _ if site.shift == [0, 0] => (Matrix3::identity(), None),
+            Motion::Translation(_) => (Matrix3::identity(), (self.shared() > 0).then(|| by_lattice(site.shift))),
             Motion::Screw(screw) => screw.at(&vertex).derivatives(),
             Motion::Tube(tube) => tube.derivatives(&point),
+            Motion::Own(map) => map.derivatives(&vertex),
         };
         Placed { point, vertex, motion, by_vertex, by_shared }
     }
@@ -213,6 +228,7 @@ impl Domain {
             Motion::Translation(_) => {}
             Motion::Screw(screw) => screw.at(&placed.vertex).add_curvature(force, at, first, pulled),
             Motion::Tube(tube) => tube.add_curvature(&placed.point, force, at, (first, self.shared()), pulled),
+            Motion::Own(map) => map.add_curvature(&placed.vertex, force, (at, first), pulled),
         }
     }
 
@@ -258,6 +274,9 @@ impl Domain {
             let (turn, shift) = (1.0 / length, 1.0);
             let free = [(!kept.rise).then_some(shift), (!kept.turn).then_some(turn)];
             return [turn, shift].into_iter().chain(free.into_iter().flatten()).collect();
+        }
+        if let Self::Own(own) = self {
+            return own.maps().units(length);
         }
         let Some(Turns { kappa, .. }) = self.turns(x) else { return vec![] };
         let curvature = 1.0 / (length * length);

@@ -168,7 +168,7 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D
         let mut measure = |points: &[Vec3; N]| {
             if want_hessian { self.measure.hessian(points, &mut out.hessian) } else { self.measure.gradient(points) }
         };
-        out.value = if domain.shared() == 0 {
+        out.value = if domain.is_fixed_translation() {
             let (value, gradient) = measure(&domain.points(x, sites));
             out.gradient.extend_from_slice(gradient.as_slice());
             value

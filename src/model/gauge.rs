@@ -5,10 +5,12 @@
 //! one coordinate for each of them removes the drift and changes no shape. The coordinates are chosen greedily so
 //! that they separate the rigid motions well (Gram-Schmidt with pivoting on the rows of the matrix of rigid motions).
 
-use super::domain::Domain;
+use super::domain::{Domain, Site};
 use crate::math::Vec3;
+use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::{reciprocal_condition, symmetric_eigen_3};
-use nalgebra::{Matrix3, Rotation3, SVector};
+use crate::numerics::dense::{NullSpace, null_space_of_sums};
+use nalgebra::{Matrix3, Rotation3, SMatrix, SVector};
 
 /// Largest number of Newton steps towards the orientation in which the loads do the most work.
 const TURNS: usize = 30;
@@ -27,8 +29,10 @@ pub(crate) type Motion = SVector<f64, 6>;
 pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
-    if let Domain::Tube { .. } = domain {
-        return tube_motions(x, domain.shared(), rotations);
+    match domain {
+        Domain::Tube { .. } => return tube_motions(x, domain.shared(), rotations),
+        Domain::Own(_) => return kept_motions(domain, x, rotations),
+        _ => {}
     }
     let (centre, size) = centre_and_size(domain, x);
     let turns = rotations && matches!(domain, Domain::Patch | Domain::FreeTorus);
@@ -42,9 +46,51 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
             }
         }
         Domain::Screw => rows.extend([Motion::zeros(); 6]),
-        Domain::Patch | Domain::FixedTorus(_) | Domain::Tube { .. } => {}
+        Domain::Patch | Domain::FixedTorus(_) | Domain::Tube { .. } | Domain::Own(_) => {}
     }
     rows
+}
+
+/// Returns the same of any domain: the rigid motions with which all copies of the vertices move alike, for some rates of
+/// the shared coordinates; each column is one of a basis of them.
+///
+/// They are the null space of what a rigid motion of the vertices, with those rates, makes of a copy, less the same
+/// motion of the copy. It is asked at four points, as far apart as the sheet is large, in the two next cells: maps are
+/// affine.
+fn kept_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
+    let vertices = (x.len() - domain.shared()) / 3;
+    let ((centre, size), shared) = (centre_and_size(domain, x), &x[3 * vertices..]);
+    let (motions, turn) = if rotations { (6, 1.0 / size) } else { (3, 0.0) };
+    let units = domain.units(x, size);
+    let velocity = |point: Vec3| {
+        SMatrix::<f64, 3, 6>::from_rows(&rows_of(1.0, turn * (point - centre)).map(|row| row.transpose()))
+    };
+    let mut differences = DenseMatrix::zeros(0, motions + shared.len());
+    for arm in [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()] {
+        for shift in [[1, 0], [0, 1]] {
+            let corner = centre + size * arm;
+            let copy = domain.place(&[corner.as_slice(), shared].concat(), Site { vertex: 0, shift });
+            let off = copy.by_vertex * velocity(corner) - velocity(copy.point);
+            let row = differences.nrows();
+            differences = differences.resize_vertically(row + 3, 0.0);
+            differences.view_mut((row, 0), (3, motions)).copy_from(&off.columns(0, motions));
+            for (k, unit) in units.iter().enumerate() {
+                let rate = copy.by_shared.map_or(Vec3::zeros(), |by_shared| *unit * by_shared.column(k));
+                differences.view_mut((row, motions + k), (3, 1)).copy_from(&rate);
+            }
+        }
+    }
+    let Ok(NullSpace { basis, .. }) = null_space_of_sums(&differences, 1.0) else {
+        return vec![Motion::zeros(); x.len()];
+    };
+    let mut rates = DenseMatrix::zeros(x.len(), motions + shared.len());
+    for vertex in 0..vertices {
+        let of_vertex = velocity(Vec3::from_column_slice(&x[3 * vertex..3 * vertex + 3]));
+        rates.view_mut((3 * vertex, 0), (3, motions)).copy_from(&of_vertex.columns(0, motions));
+    }
+    units.iter().enumerate().for_each(|(k, unit)| rates[(3 * vertices + k, motions + k)] = *unit);
+    let kept = rates * basis;
+    kept.row_iter().map(|row| Motion::from_fn(|motion, _| row.get(motion).copied().unwrap_or(0.0))).collect()
 }
 
 /// Returns the same of a tube, which moves along its axis and turns about it; the shared coordinates stay.

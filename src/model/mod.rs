@@ -53,7 +53,7 @@ pub use boundary::{Boundary, Drawn};
 pub use builder::{Builder, Rest};
 pub use configuration::Configuration;
 pub(crate) use domain::Turns;
-pub use domain::{Domain, Site};
+pub use domain::{Affine, CellMap, CellMaps, Domain, OwnDomain, Site};
 pub use drive::{Drive, DriveError, Driven};
 pub(crate) use element::Local;
 pub use element::{Element, TermKind};

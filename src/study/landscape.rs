@@ -29,7 +29,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), S
     let torus = match assembly.boundary() {
         Boundary::Patch => false,
         Boundary::FixedTorus | Boundary::FreeTorus => true,
-        Boundary::Screw | Boundary::Tube { .. } => {
+        Boundary::Screw | Boundary::Tube { .. } | Boundary::Own => {
             return refuse("a landscape needs cells around its own", "use domain = \"patch\"");
         }
     };

@@ -85,10 +85,10 @@ impl Rigidity {
     /// state in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
     ///
     /// # Errors
-    /// [`BlochError`] on a patch.
+    /// [`BlochError`] on a patch and on a domain of one's own.
     pub(crate) fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
         let place = |Corner { vertex, shift }| domain.point(x, Site { vertex, shift });
-        if matches!(domain, Domain::Patch) {
+        if matches!(domain, Domain::Patch | Domain::Own(_)) {
             return Err(BlochError::NoLattice);
         }
         Ok(Self::placed(sheet, rigid_facets, place, |shift| cell_rotation(domain, x, shift)))

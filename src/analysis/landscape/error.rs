@@ -15,6 +15,9 @@ pub enum LandscapeError {
     /// The patch cannot be factored, or is not stable, or a linear solve loses too many digits.
     #[error(transparent)]
     Factor(#[from] FactorError),
+    /// The modes of a cell are those of a patch or a torus.
+    #[error("a landscape is that of a patch or a torus, not of a domain of one's own")]
+    OwnDomain,
     /// The elements of a term differ, and the expansion is that of equal cells.
     #[error("a landscape is that of equal cells, and the {term} have more than one stiffness")]
     Uneven {

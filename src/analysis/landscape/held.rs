@@ -53,6 +53,7 @@ impl HeldSheet {
         }
         match assembly.boundary() {
             Boundary::Patch => Self::patch(assembly),
+            Boundary::Own => Err(LandscapeError::OwnDomain),
             _ => Self::torus(assembly),
         }
     }

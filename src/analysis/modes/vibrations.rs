@@ -79,6 +79,7 @@ pub fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
         Boundary::Patch | Boundary::FixedTorus => Some("the turns of rigid parts"),
         Boundary::FreeTorus => Some("the vectors of a free lattice"),
         Boundary::Screw | Boundary::Tube { .. } => Some("the turns of a cylinder"),
+        Boundary::Own => Some("the shared coordinates of a domain of one's own"),
     };
     if let Some(of) = of {
         return Err(ModesError::NoMassMatrix { of });

@@ -2,12 +2,14 @@
 
 use super::{Numbers, symmetric};
 use crate::math::Vec3;
+use crate::model::gauge::{choose, rigid_motions};
 use crate::model::measure::{FoldAngle, Length, Measure};
 use crate::model::problem::{LEFT_WING, RIGHT_WING};
-use crate::model::{Domain, Site};
+use crate::model::{Affine, CellMap, CellMaps, Domain, OwnDomain, Site};
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use crate::sheet::{Seam, SeamKept};
-use std::f64::consts::TAU;
+use nalgebra::{Matrix3, Rotation3};
+use std::f64::consts::{PI, TAU};
 
 /// The coordinates of four vertices of a cell, followed by the shared coordinates.
 fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
@@ -15,6 +17,7 @@ fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
     x.iter_mut().for_each(|c| *c += numbers.within(0.1));
     match domain {
         Domain::Patch | Domain::FixedTorus(_) => {}
+        Domain::Own(_) => x.extend([0.7, 0.4]),
         Domain::FreeTorus => x.extend([2.0, 0.1, 0.05, 0.3, 1.9, -0.1]),
         Domain::Screw => x.extend([numbers.within(3.0), kappa, 0.2, 1.9, 2.0, 0.3]),
         Domain::Tube { kept, .. } => {
@@ -103,6 +106,45 @@ fn patch_and_tori() {
             let x = state(&mut Numbers::new(seed), &domain, 0.0);
             check_all(&domain, &x, &format!("{domain:?}, seed {seed}"));
         }
+    }
+}
+
+/// Cells along a helix about the z axis; turn and rise of a cell are shared.
+struct Helix;
+
+impl CellMaps for Helix {
+    fn shared(&self) -> usize {
+        2
+    }
+
+    fn map(&self, shared: &[f64], cell: [i32; 2]) -> CellMap {
+        let number = f64::from(cell[0] + 3 * cell[1]);
+        let turn = |quarters: f64| Rotation3::new(Vec3::z() * (number * shared[0] + quarters * 0.5 * PI)).into_inner();
+        let across = Matrix3::from_diagonal(&Vec3::new(1.0, 1.0, 0.0));
+        let still = Affine { linear: Matrix3::zeros(), shift: Vec3::zeros() };
+        let by_turn =
+            |times: i32| Affine { linear: number.powi(times) * turn(f64::from(times)) * across, ..still.clone() };
+        CellMap {
+            map: Affine { linear: turn(0.0), shift: number * shared[1] * Vec3::z() },
+            first: vec![by_turn(1), Affine { shift: number * Vec3::z(), ..still.clone() }],
+            second: vec![by_turn(2), still.clone(), still.clone()],
+        }
+    }
+}
+
+/// Claim: gradient and Hessian of bars and hinges are right on a domain of one's own whose maps depend on shared
+/// coordinates to every order. Source: extrapolated differences. Its rigid motions are those of a helix: along the axis
+/// and about it; the latter is none where loads may turn the sheet.
+#[test]
+fn a_domain_of_ones_own() {
+    let domain = Domain::Own(OwnDomain::new(Helix));
+    for seed in 0..6 {
+        let x = state(&mut Numbers::new(seed), &domain, 0.0);
+        check_all(&domain, &x, &format!("a helix, seed {seed}"));
+        let motions = rigid_motions(&domain, &x, true);
+        assert_eq!(choose(&motions, &vec![false; x.len()]).len(), 2);
+        let along = rigid_motions(&domain, &x, false);
+        assert_eq!(choose(&along, &vec![false; x.len()]).len(), 1);
     }
 }
 

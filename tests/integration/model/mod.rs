@@ -4,6 +4,7 @@ mod bent;
 mod elements;
 mod loads_and_units;
 mod miura;
+mod own_domain;
 mod periodic;
 mod redundant;
 mod rest_lengths;
