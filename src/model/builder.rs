@@ -7,6 +7,7 @@ use super::boundary::Boundary;
 use super::domain::OwnDomain;
 use super::law::{Law, Laws};
 use super::mass::Mass;
+use super::material::Material;
 use super::part::Part;
 use super::roll::Roll;
 use super::stiffness::Stiffness;
@@ -102,6 +103,7 @@ struct Given {
     rest: Option<Rest>,
     facets: Option<Stiffness>,
     facet_rest: Rest,
+    material: Option<Material>,
     locks: Vec<(EdgeKey, Option<f64>)>,
     pins: Vec<(NamedVertex, [bool; 3])>,
     loads: Vec<(NamedVertex, Vec3)>,
@@ -158,6 +160,13 @@ impl Builder {
     #[must_use]
     pub fn rest(mut self, rest: Rest) -> Self {
         self.given.rest = Some(rest);
+        self
+    }
+
+    /// Gives bars, creases and facets the stiffness of an elastic sheet, unless another one is given.
+    #[must_use]
+    pub fn material(mut self, material: Material) -> Self {
+        self.given.material = Some(material);
         self
     }
 
@@ -234,12 +243,17 @@ impl Builder {
     /// not a positive number, rest values are given without a stiffness, the length of a list does not match the
     /// tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
-        let Self { sheet, cells, place, given } = self;
+        let Self { sheet, cells, place, mut given } = self;
         let bare = match place {
             Place::File(boundary) => Assembly::without_terms(sheet, cells, boundary)?,
             Place::Rolled(roll) => Assembly::tube_without_terms(sheet, &roll, cells)?,
             Place::Own(domain, coordinates) => Assembly::own_without_terms(sheet, (domain, coordinates), cells)?,
         };
+        if let Some(material) = given.material {
+            given.bars = given.bars.or_else(|| Some(material.bars(&bare)));
+            given.creases = given.creases.or_else(|| material.creases());
+            given.facets = given.facets.or_else(|| Some(material.facets(&bare)));
+        }
         let creases = match (given.creases, given.rest) {
             (None, Some(_)) => return Err(AssemblyError::RestWithoutCreases),
             (None, None) => None,

@@ -3,10 +3,12 @@
 use super::elements::{ElementKind, ElementValues, name};
 use super::forms::{Mode, RatesFile};
 use super::mass::mass;
+use super::material::material;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::Column;
-use super::spec::{BarLawSpec, DomainSpec, HingeLawSpec, Lattice};
+use super::spec::{BarLawSpec, DomainSpec, EnergySpec, HingeLawSpec, Lattice};
+use super::stiffness::StiffnessSpec;
 use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives};
 use crate::kinematics::folding_modes_with_locked;
@@ -161,42 +163,60 @@ impl<'a> Reader<'a> {
     }
 
     fn terms(&self) -> Result<Terms, SceneError> {
-        let energy = &self.file.scene.energy;
-        let bars = match &energy.bars {
-            Some(spec) => Some(Bars {
-                stiffness: self.values.stiffness(&spec.stiffness, ElementKind::Bars)?,
-                rest: self.values.lengths(spec.rest.as_ref())?,
-            }),
+        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec } = &self.file.scene.energy;
+        let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
+        let bars = match self.stiffness(given, ElementKind::Bars)? {
+            Some(stiffness) => {
+                let rest = bar_spec.as_ref().and_then(|spec| spec.rest.as_ref());
+                Some(Bars { stiffness, rest: self.values.lengths(rest)? })
+            }
             None => None,
         };
         // without facets on the tiling, those of the cell still say which folding modes there are
-        let facet_stiffness = match &energy.facets {
-            Some(spec) => self.values.stiffness(&spec.stiffness, ElementKind::Facets)?,
-            None => RIGID.into(),
-        };
+        let given = facet_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
+        let facet_stiffness = self.stiffness(given, ElementKind::Facets)?.unwrap_or(RIGID.into());
         let rigid = self.rigid_facets(&facet_stiffness);
-        let creases = match &energy.creases {
-            Some(spec) => Some(Hinges {
-                stiffness: self.values.stiffness(&spec.stiffness, ElementKind::Creases)?,
-                rest: self.rest((spec.rest.as_ref(), spec.fraction.as_ref()), ElementKind::Creases, &rigid)?,
-            }),
+        let given = crease_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
+        let creases = match self.stiffness(given, ElementKind::Creases)? {
+            Some(stiffness) => {
+                let spec = crease_spec.as_ref();
+                let rest = (spec.and_then(|spec| spec.rest.as_ref()), spec.and_then(|spec| spec.fraction.as_ref()));
+                Some(Hinges { stiffness, rest: self.rest(rest, ElementKind::Creases, &rigid)? })
+            }
             None => None,
         };
         let facets = if self.tiling.facets().next().is_some() {
-            let spec = energy.facets.as_ref();
+            let spec = facet_spec.as_ref();
             let rest = (spec.and_then(|spec| spec.rest.as_ref()), spec.and_then(|spec| spec.fraction.as_ref()));
             Some(Hinges { stiffness: facet_stiffness, rest: self.rest(rest, ElementKind::Facets, &rigid)? })
         } else {
             None
         };
         let laws = Laws {
-            bars: energy.bars.as_ref().and_then(|bars| bars.law.as_ref()).map(BarLawSpec::law),
-            creases: energy.creases.as_ref().and_then(|creases| creases.law.as_ref()).map(HingeLawSpec::law),
-            facets: energy.facets.as_ref().and_then(|facets| facets.law.as_ref()).map(HingeLawSpec::law),
+            bars: bar_spec.as_ref().and_then(|bars| bars.law.as_ref()).map(BarLawSpec::law),
+            creases: crease_spec.as_ref().and_then(|creases| creases.law.as_ref()).map(HingeLawSpec::law),
+            facets: facet_spec.as_ref().and_then(|facets| facets.law.as_ref()).map(HingeLawSpec::law),
         };
         let (locks, mass) = (self.locks()?, mass(self.file));
         let terms = Terms { bars, creases, facets, locks, mass, laws, ..Terms::default() };
         self.placed(terms)
+    }
+
+    /// Returns the stiffness of a term, as given or as the material has it; `None` if neither says anything of it.
+    fn stiffness(
+        &self,
+        given: Option<&Located<StiffnessSpec>>,
+        of: ElementKind,
+    ) -> Result<Option<Stiffness>, SceneError> {
+        if let Some(spec) = given {
+            return self.values.stiffness(spec, of).map(Some);
+        }
+        let Some(material) = material(self.file) else { return Ok(None) };
+        Ok(match of {
+            ElementKind::Bars => Some(material.bars(self.assembly)),
+            ElementKind::Creases => material.creases(),
+            ElementKind::Facets => Some(material.facets(self.assembly)),
+        })
     }
 
     /// Returns the diagonals of the cell's polygons that are rigid in every cell.

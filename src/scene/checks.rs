@@ -19,6 +19,7 @@ type Checked = Result<(), SceneError>;
 pub(super) fn check(file: &SceneFile) -> Checked {
     sheet(file)?;
     super::mass::check(file)?;
+    super::material::check(file)?;
     locks(file)?;
     super::turns::check(file)?;
     fractions(file)?;

@@ -90,8 +90,8 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     found.into_iter().map(|path| file.resolve(&path)).collect()
 }
 
-fn stiffness_table(spec: &StiffnessSpec) -> Option<PathBuf> {
-    if let StiffnessSpec::File(name) = spec { Some(name.file.to_path_buf()) } else { None }
+fn stiffness_table(spec: &Option<Located<StiffnessSpec>>) -> Option<PathBuf> {
+    if let Some(StiffnessSpec::File(name)) = spec.as_deref() { Some(name.file.to_path_buf()) } else { None }
 }
 
 fn length_table(bars: &BarsSpec) -> Option<PathBuf> {

@@ -13,6 +13,7 @@ mod file;
 pub(crate) mod forms;
 mod located;
 pub(crate) mod mass;
+mod material;
 mod memory;
 mod notes;
 pub(crate) mod outputs;

@@ -60,7 +60,10 @@ mod tests {
         let schema: Value = serde_json::from_str(&schema()).unwrap();
         assert_eq!(
             properties(&schema),
-            ["drive", "energy", "load", "lock", "mass", "part", "pin", "sheet", "spring", "study", "sweep", "title"]
+            [
+                "drive", "energy", "load", "lock", "mass", "material", "part", "pin", "sheet", "spring", "study",
+                "sweep", "title", "units"
+            ]
         );
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));
     }

@@ -6,6 +6,7 @@
 
 mod drive;
 mod law;
+mod material;
 mod study;
 mod sweep;
 mod vertices;
@@ -22,6 +23,7 @@ use std::path::PathBuf;
 
 pub use drive::*;
 pub use law::*;
+pub use material::*;
 pub use study::*;
 pub use sweep::*;
 pub use vertices::*;
@@ -35,6 +37,10 @@ pub struct Scene {
     pub title: Option<String>,
     /// The sheet and its boundary conditions.
     pub sheet: SheetSpec,
+    /// Names of units, which change no number.
+    pub units: Option<UnitsSpec>,
+    /// The elastic sheet from which the stiffnesses follow that `energy` does not give.
+    pub material: Option<Located<MaterialSpec>>,
     /// The terms of the energy; a term that is absent is not built.
     #[serde(default)]
     pub energy: EnergySpec,
@@ -175,19 +181,20 @@ impl SheetSpec {
 #[serde(deny_unknown_fields)]
 pub struct EnergySpec {
     /// Bars along all edges, diagonals of polygons included.
-    pub bars: Option<BarsSpec>,
+    pub bars: Option<Located<BarsSpec>>,
     /// Hinges at the creases.
-    pub creases: Option<CreasesSpec>,
-    /// Hinges at the diagonals of polygons; left out, polygons are rigid.
-    pub facets: Option<FacetsSpec>,
+    pub creases: Option<Located<CreasesSpec>>,
+    /// Hinges at the diagonals of polygons; left out, polygons are rigid, unless there is a material.
+    pub facets: Option<Located<FacetsSpec>>,
 }
 
 /// `bars = { stiffness, rest, law }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BarsSpec {
-    /// EA, a force; the spring constant is EA / L0 with the rest length L0; `inf`: exactly rigid.
-    pub stiffness: Located<StiffnessSpec>,
+    /// EA, a force; the spring constant is EA / L0 with the rest length L0; `inf`: exactly rigid. Left out: that of the
+    /// material.
+    pub stiffness: Option<Located<StiffnessSpec>>,
     /// Rest lengths; left out: as drawn.
     pub rest: Option<Located<RestLengthSpec>>,
     /// How the force grows with the stretch; left out: linearly.
@@ -198,8 +205,9 @@ pub struct BarsSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
-    /// Torque per radian and per length of crease; the spring constant is stiffness * L0.
-    pub stiffness: Located<StiffnessSpec>,
+    /// Torque per radian and per length of crease; the spring constant is stiffness * L0. Left out: that of the
+    /// material.
+    pub stiffness: Option<Located<StiffnessSpec>>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
     /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
@@ -213,8 +221,9 @@ pub struct CreasesSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacetsSpec {
-    /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0.
-    pub stiffness: Located<StiffnessSpec>,
+    /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0. Left out: that of the
+    /// material.
+    pub stiffness: Option<Located<StiffnessSpec>>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
     /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by

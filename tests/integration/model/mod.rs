@@ -3,6 +3,7 @@
 mod bent;
 mod elements;
 mod loads_and_units;
+mod material;
 mod miura;
 mod own_domain;
 mod periodic;

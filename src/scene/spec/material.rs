@@ -1,0 +1,61 @@
+//! `[units]` and `[material]`: what a sheet is measured in, and what it is made of.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::values::{Positive, ValueError};
+
+/// `[units]`: names of units for axes, tables and summaries.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UnitsSpec {
+    /// The unit of lengths, as "mm".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<String>,
+    /// The unit of forces, as "N".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<String>,
+}
+
+impl UnitsSpec {
+    /// Returns a quantity with its unit in parentheses: that of force, of length, or their product. Without names of
+    /// these units the quantity alone.
+    pub(crate) fn label(&self, quantity: &str, forces: bool, lengths: bool) -> String {
+        let wanted = [(forces, &self.force), (lengths, &self.length)];
+        let mut names = Vec::new();
+        for (_, name) in wanted.into_iter().filter(|(wanted, _)| *wanted) {
+            let Some(name) = name else { return quantity.to_owned() };
+            names.push(name.as_str());
+        }
+        if names.is_empty() { quantity.to_owned() } else { format!("{quantity} ({})", names.join(" ")) }
+    }
+}
+
+/// `[material]`: an elastic sheet of uniform thickness.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialSpec {
+    /// Young's modulus, force per area.
+    pub young: Positive,
+    /// Poisson's ratio.
+    pub poisson: Poisson,
+    /// Thickness of the sheet.
+    pub thickness: Positive,
+    /// Length scale of the creases: the width of the strip of sheet that bends as one of them. Left out: `energy` gives
+    /// the stiffness of creases, or there are none.
+    pub crease_length: Option<Positive>,
+}
+
+/// Poisson's ratio of an isotropic elastic material.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5))]
+pub struct Poisson(pub f64);
+
+impl TryFrom<f64> for Poisson {
+    type Error = ValueError;
+
+    fn try_from(value: f64) -> Result<Self, ValueError> {
+        if value > -1.0 && value <= 0.5 { Ok(Self(value)) } else { Err(ValueError::NoPoisson(value)) }
+    }
+}
