@@ -219,6 +219,7 @@ pub(super) fn summary_of(file: &SceneFile, assembly: &Assembly, digest: String) 
         scene: file.path().display().to_string(),
         settings: file.settings().to_vec(),
         title: file.title(),
+        units: file.scene.units.clone(),
         digest,
         sheet: SheetSummary {
             vertices: info.vertices,

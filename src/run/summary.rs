@@ -5,6 +5,7 @@
 
 use crate::output::json::to_json;
 use crate::output::{OutputError, files};
+use crate::scene::spec::UnitsSpec;
 use crate::study::StudySummary;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -24,6 +25,9 @@ pub struct Summary {
     pub settings: Vec<String>,
     /// The title of the scene; the name of its file where it has none.
     pub title: String,
+    /// The names of units that the scene gives; left out where it gives none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsSpec>,
     /// A fingerprint of the scene and of every file that it names.
     pub digest: String,
     /// The sheet.
@@ -106,6 +110,7 @@ mod tests {
             title: "scene".into(),
             digest: "0".into(),
             settings: vec![],
+            units: None,
             sheet: SheetSummary {
                 vertices: 4,
                 edges: 12,

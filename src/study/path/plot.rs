@@ -12,21 +12,27 @@ pub(crate) struct Words {
     /// The quantity, for an axis.
     pub quantity: String,
     /// Its conjugate, for an axis.
-    pub reaction: &'static str,
+    pub reaction: String,
 }
 
 impl Words {
     /// Returns the words for a drive of this scene.
     pub(crate) fn new(context: &Context<'_>, drive: &Drive) -> Self {
-        let words = |driven, quantity: String, reaction| Self { driven, quantity, reaction };
+        let units = context.file.scene.units.clone().unwrap_or_default();
+        let words = |driven, quantity, reaction| Self { driven, quantity, reaction };
+        let moved = |quantity: String| {
+            words("displacement", units.label(&quantity, false, true), units.label("force", true, false))
+        };
+        let energy = || units.label("derivative of the energy", true, true);
+        let torque = || units.label("torque", true, true);
         match &drive.quantity {
             Driven::Part { part, axis } => {
                 let name = context.file.scene.parts.get(*part).map_or("", |part| &part.name.0);
                 let along = ["x", "y", "z"][axis % 3];
                 if *axis < 3 {
-                    words("displacement", format!("displacement of part {name} along {along}"), "force")
+                    moved(format!("displacement of part {name} along {along}"))
                 } else {
-                    words("rotation", format!("rotation of part {name} about {along} (rad)"), "torque")
+                    words("rotation", format!("rotation of part {name} about {along} (rad)"), torque())
                 }
             }
             Driven::Vertices { vertices, direction: d } => {
@@ -35,16 +41,17 @@ impl Words {
                 let axis = (0..3).find(|&axis| d[axis] == 1.0);
                 let along =
                     axis.map_or_else(|| format!("({:.3}, {:.3}, {:.3})", d.x, d.y, d.z), |k| ["x", "y", "z"][k].into());
-                words("displacement", format!("displacement of {which} along {along}"), "force")
+                moved(format!("displacement of {which} along {along}"))
             }
             Driven::Loads => {
-                words("load", "factor of the loads".into(), "displacement of the loads (force times length)")
+                let conjugate = "displacement of the loads";
+                let named = Some(units.label(conjugate, true, true)).filter(|label| label != conjugate);
+                let conjugate = named.unwrap_or_else(|| format!("{conjugate} (force times length)"));
+                words("load", "factor of the loads".into(), conjugate)
             }
-            Driven::Lock(_) => words("lock", "fold angle of the lock (rad)".into(), "torque"),
-            Driven::Rest => words("rest", "rest angles (0: as drawn, 1: as given)".into(), "derivative of the energy"),
-            Driven::Stiffness(kind) => {
-                words("stiffness", format!("stiffness of {}", kind.name()), "derivative of the energy")
-            }
+            Driven::Lock(_) => words("lock", "fold angle of the lock (rad)".into(), torque()),
+            Driven::Rest => words("rest", "rest angles (0: as drawn, 1: as given)".into(), energy()),
+            Driven::Stiffness(kind) => words("stiffness", format!("stiffness of {}", kind.name()), energy()),
         }
     }
 }
@@ -75,7 +82,7 @@ pub(crate) fn figure(context: &Context<'_>, drive: &Drive, branches: &[PathBranc
     };
     let plot = ReactionPlot {
         drive: quantity,
-        reaction: reaction.to_owned(),
+        reaction,
         logarithmic: matches!(drive.quantity, Driven::Stiffness(_)),
         branches: branches.iter().map(branch).collect(),
     };
