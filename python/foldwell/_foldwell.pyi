@@ -26,6 +26,7 @@ class Assembly:
     edges: Ints
     kinds: list[str]
     cells: list[int]
+    units: dict[str, str]
     def __new__(
         cls, scene: dict[str, Any] | Path, base: Path, settings: list[str], sheet: Sheet | None, arrays: dict[str, Floats]
     ) -> Assembly: ...

@@ -57,6 +57,8 @@ class Terms(TypedDict, total=False):
     drives: Iterable[Table] | None
     laws: Mapping[str, Table] | None
     mass: Table | None
+    material: Table | None
+    units: Table | None
 
 
 def with_terms(make: F) -> F:
@@ -111,6 +113,9 @@ class Assembly:
             laws: Laws other than that of a spring, by term: `{"bars": {"kind": "ogden", "exponents": [5.0, 1.0]},
                 "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`.
             mass: Mass, from which frequencies follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
+            material: The elastic sheet from which stiffnesses follow that are not given: `{"young": 1400.0, "poisson": 0.4,
+                "thickness": 0.3, "crease_length": 20.0}`; without `crease_length` there are no creases. Left out: none.
+            units: Names of units for axes and xarray, `{"length": "mm", "force": "N"}`; they change no number.
 
         Raises:
             SceneError: a value is wrong, or does not fit the sheet.
@@ -355,16 +360,17 @@ def _terms(terms: dict[str, Any]) -> tuple[dict[str, Any], dict[str, NDArray[np.
     energy: dict[str, dict[str, Any]] = {k: {"stiffness": given[k]} for k in ("bars", "creases", "facets") if k in given}
     for term, name in [("bars", "rest_lengths"), ("creases", "rest"), ("facets", "facet_rest")]:
         if name in given:
-            if term not in energy:
+            if term not in energy and "material" not in given:
                 raise TypeError(f"{name} is given without {term}")
-            energy[term]["rest"] = given[name]
+            energy.setdefault(term, {})["rest"] = given[name]
     for term, law in given.get("laws", {}).items():
         if term not in energy:
             raise TypeError(f"a law of {term} is given without their stiffness")
         energy[term]["law"] = law
     if "fraction" in given:
         energy.setdefault("creases", {})["fraction"] = given["fraction"]
-    scene: dict[str, Any] = {"energy": energy, "mass": given.get("mass"), "lock": _locks(given.get("locks", ()))}
+    scene: dict[str, Any] = {"energy": energy, "lock": _locks(given.get("locks", ()))}
+    scene |= {name: given.get(name) for name in ("mass", "material", "units")}
     scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "spring", "drive")}
     return {name: value for name, value in scene.items() if value}, arrays
 

@@ -33,13 +33,14 @@ class Result:
         summary: What `summary.json` says of the study, a dict; the keys of each kind are described in the book.
     """
 
-    def __init__(self, inner: _foldwell.Answer, study: Mapping[str, Any]) -> None:
+    def __init__(self, inner: _foldwell.Answer, study: Mapping[str, Any], units: Mapping[str, str] | None = None) -> None:
         self._inner = inner
         self._study = dict(study)
+        self._units = dict(units or {})
         self.summary: dict[str, Any] = json.loads(inner.summary)
 
     def __reduce__(self) -> tuple[type[Result], tuple[Any, ...]]:
-        return (type(self), (self._inner, self._study))
+        return (type(self), (self._inner, self._study, self._units))
 
     @property
     def name(self) -> str:
@@ -109,7 +110,7 @@ class Result:
         """Returns `table` as an `xarray.Dataset` with dimension `row`. Needs xarray.
 
         Fold angles of edges are one variable, `fold_angle` (`row`, `edge`) in radians; the coordinate `edge` is the name of an edge of
-        the cell as a text, "i,j,n1,n2".
+        the cell as a text, "i,j,n1,n2". Variables have the attribute `units` where the assembly or scene names them.
         """
         import xarray
 
@@ -119,7 +120,24 @@ class Result:
         if folds:
             angles = np.stack([self.table[name] for name in folds], axis=1)
             found = found.assign(fold_angle=(("row", "edge"), angles)).assign_coords(edge=list(folds.values()))
+        for name, variable in found.data_vars.items():
+            if unit := self._unit(str(name)):
+                variable.attrs["units"] = unit
         return found
+
+    def _unit(self, column: str) -> str | None:
+        """The unit of a column; None if it has none, or none that is named."""
+        length, force = self._units.get("length"), self._units.get("force")
+        energy = f"{force} {length}" if force and length else None
+        if column.startswith(("energy", "work")):
+            return energy
+        if column.startswith(("fold_angle", "theta")):
+            return "rad"
+        if column == "curvature":
+            return f"1/{length}" if length else None
+        driven = {"displacement": (length, force), "rotation": ("rad", energy), "lock": ("rad", energy)}
+        drive, reaction = driven.get(self.summary.get("driven", ""), (None, energy))
+        return {"drive": drive, "reaction": reaction}.get(column)
 
     def to_pyvista(self) -> Any:
         """Returns the final state, or else the last one that was kept, as a `pyvista.UnstructuredGrid`. Needs PyVista."""

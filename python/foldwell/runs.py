@@ -50,7 +50,8 @@ def run(
     with listener(progress) as callback:
         place, options = (Path(base), settings(set)), (folder, threads, resume)
         text, answers, interrupted = _foldwell.run_scene(given, place, options, callback)
-    return Run(json.loads(text), [Result(answer, {}) for answer in answers], interrupted)
+    summary = json.loads(text)
+    return Run(summary, [Result(answer, {}, summary.get("units")) for answer in answers], interrupted)
 
 
 def convert(source: str | os.PathLike[str], target: str | os.PathLike[str], *, frame: int | None = None) -> None:

@@ -352,7 +352,7 @@ def compute(
     with listener(progress) as callback:
         tables = [dict(before) for before, _ in earlier] + [study]
         _, answers, _ = assembly._inner.compute(tables, dict(arrays or {}), names, threads, callback)
-    result = Result(answers[0], study)
+    result = Result(answers[0], study, assembly._inner.units)
     if must_converge and not result.converged:
         raise DidNotConverge(f"{result.name}: {result.summary.get('reason', 'no answer')}", result)
     return result

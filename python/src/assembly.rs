@@ -198,6 +198,14 @@ impl Assembly {
         self.assembly.tiling().edges.iter().map(|edge| crate::sheet::kind_word(edge.kind)).collect()
     }
 
+    /// The names of units that the scene gives.
+    #[getter]
+    fn units(&self) -> BTreeMap<String, String> {
+        let given = self.scene.get("units").and_then(Value::as_table);
+        let names = given.into_iter().flatten();
+        names.filter_map(|(key, name)| Some((key.clone(), name.as_str()?.to_owned()))).collect()
+    }
+
     /// The numbers of cells of the model.
     #[getter]
     fn cells(&self) -> [usize; 2] {
