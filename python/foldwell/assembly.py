@@ -77,6 +77,14 @@ class Assembly:
     The terms are those of a scene, with the names and forms of its keys; the book describes them. Wherever a scene takes a table
     in a file, an array is taken here: one number for each edge of the sheet's cell (`sheet.edges`), or for each edge of the model
     (`assembly.edges`); numbers at edges that are no element of the term are not read.
+
+    Example:
+        >>> import foldwell as fw
+        >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+        >>> held.cells, len(held.edges), sorted(set(held.kinds.tolist()))
+        ((2, 2), 33, ['boundary', 'crease', 'facet'])
+        >>> bool(held.energy(held.start) < 1e-20), held.drawn.positions.shape
+        (True, (16, 3))
     """
 
     def __init__(self, inner: _foldwell.Assembly) -> None:
@@ -120,6 +128,13 @@ class Assembly:
         Raises:
             SceneError: a value is wrong, or does not fit the sheet.
             ValueError, TypeError: an array has the wrong length, type or numbers.
+
+        Example:
+            >>> import foldwell as fw
+            >>> sheet = fw.generate("miura")
+            >>> held = fw.Assembly.patch(sheet, (3, 3), bars=fw.RIGID, creases=1.0, rest={"M": -1.2, "V": 1.2})
+            >>> fw.relax(held).converged
+            True
         """
         return cls._build(sheet, {"domain": "patch", "cells": cells}, terms)
 
@@ -131,6 +146,11 @@ class Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
         Terms as in `patch`, without pins, loads and parts.
+
+        Example:
+            >>> import foldwell as fw
+            >>> fw.Assembly.torus(fw.generate("miura"), bars=1e3, creases=1.0, lattice="fixed").cells
+            (1, 1)
         """
         return cls._build(sheet, {"domain": "torus", "cells": cells, "lattice": lattice}, terms)
 
@@ -143,6 +163,13 @@ class Assembly:
             sheet: The sheet.
             cells: Cells of pictures; they have no influence on numbers.
             terms: As in `patch`, without pins, loads and parts.
+
+        Example:
+            >>> import foldwell as fw
+            >>> star = fw.Sheet.read("meshes/open-star.fold")
+            >>> rolled = fw.Assembly.screw(star, bars=fw.RIGID, creases=1.0, rest="flat")
+            >>> rolled.cells
+            (1, 1)
         """
         return cls._build(sheet, {"domain": "screw", "cells": cells}, terms)
 
@@ -171,6 +198,12 @@ class Assembly:
 
         Raises:
             SceneError: the sheet cannot be rolled up until it closes, or is drawn as a tube that does not close there.
+
+        Example:
+            >>> import foldwell as fw
+            >>> cell = fw.Sheet.read("meshes/kresling-cell.fold")
+            >>> fw.Assembly.tube(cell, (6, 0), bars=1e3, creases=1.0).cells
+            (1, 1)
         """
         optional = {"cells": cells, "inwards": inwards}
         place = {"domain": "tube", "seam": seam, "closing": closing, **{k: v for k, v in optional.items() if v is not None}}
@@ -189,6 +222,12 @@ class Assembly:
 
         Raises:
             SceneError: the scene is wrong.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.from_scene("meshes/star.toml", set={"sheet.cells": [2, 2]})
+            >>> held.cells
+            (2, 2)
         """
         given = dict(scene) if isinstance(scene, Mapping) else Path(scene)
         return cls(_foldwell.Assembly(given, Path(base), settings(set), None, {}))
@@ -213,6 +252,16 @@ class Assembly:
 
         Raises:
             SceneError: the assembly is no patch, has a term of this name, or lacks a vertex.
+
+        Example:
+            >>> import foldwell as fw
+            >>> import numpy as np
+            >>> def pull(points):  # vertex 0 to the plane z = 0
+            ...     z = points[0, 2]
+            ...     return z**2 / 2, [0, 0, z], np.diag([0, 0, 1.0])
+            >>> held = fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0, pins=[{"vertex": v} for v in (1, 2, 3)])
+            >>> fw.relax(held.with_term("pull", [[0]], pull)).converged
+            True
         """
         given = np.asarray(vertices)
         if given.ndim != 2 or given.dtype.kind not in "iu" or given.size == 0 or given.min() < 0:
@@ -266,12 +315,25 @@ class Assembly:
 
         Raises:
             ValueError: the result has no final state, or is one of another assembly.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0, rest="flat")
+            >>> held.unknowns(fw.relax(held)).shape
+            (48,)
         """
         coordinates = getattr(result, "coordinates", result)
         return self._forms.unknowns_at(np.ascontiguousarray(coordinates, dtype=np.float64))
 
     def state(self, x: ArrayLike) -> State:
-        """Returns the state with these unknowns: positions, angles, strains, forces and energies."""
+        """Returns the state with these unknowns: positions, angles, strains, forces and energies.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.state(held.start * 1.01).strains[:2].round(6).tolist()
+            [0.01, 0.01]
+        """
         return State(self._forms.state_at(self._x(x)))
 
     def energy(self, x: ArrayLike) -> float:
@@ -281,15 +343,35 @@ class Assembly:
 
         Raises:
             ValueError, TypeError: `x` has the wrong length or type, or a number in it is not finite.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.energy(held.start * 1.01) > held.energy(held.start)
+            True
         """
         return self._forms.energy(self._x(x))
 
     def gradient(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Returns the derivative of the energy by the unknowns, shape of `x`."""
+        """Returns the derivative of the energy by the unknowns, shape of `x`.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> bool(abs(held.gradient(held.start)).max() < 1e-9)
+            True
+        """
         return self._forms.gradient(self._x(x))
 
     def hessian(self, x: ArrayLike) -> csc_array[Any]:
-        """Returns the second derivative of the energy, a symmetric `scipy.sparse.csc_array`. Needs SciPy."""
+        """Returns the second derivative of the energy, a symmetric `scipy.sparse.csc_array`. Needs SciPy.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.hessian(held.start).shape
+            (48, 48)
+        """
         from scipy.sparse import csc_array, tril
 
         values, rows, begins = self._forms.hessian(self._x(x))
@@ -297,30 +379,71 @@ class Assembly:
         return csc_array(lower + tril(lower, -1).T)
 
     def constraints(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Returns the lengths and angles of rigid elements minus their rest values; zero where the constraints hold."""
+        """Returns the lengths and angles of rigid elements minus their rest values; zero where the constraints hold.
+
+        Example:
+            >>> import foldwell as fw
+            >>> rigid = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=fw.RIGID, creases=1.0)
+            >>> bool(abs(rigid.constraints(rigid.start)).max() < 1e-12)
+            True
+        """
         return self._forms.constraints(self._x(x))
 
     def constraint_jacobian(self, x: ArrayLike) -> csr_array[Any, Any]:
-        """Returns the derivative of the constraints, a `scipy.sparse.csr_array`. Needs SciPy."""
+        """Returns the derivative of the constraints, a `scipy.sparse.csr_array`. Needs SciPy.
+
+        Example:
+            >>> import foldwell as fw
+            >>> rigid = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=fw.RIGID, creases=1.0)
+            >>> rigid.constraint_jacobian(rigid.start).shape == (len(rigid.constraints(rigid.start)), 48)
+            True
+        """
         return self._rows(self._forms.constraint_jacobian(self._x(x)))
 
     def lengths(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Returns the length of each edge of the model; NaN inside rigid parts."""
+        """Returns the length of each edge of the model; NaN inside rigid parts.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.lengths(held.start).shape
+            (33,)
+        """
         return self._forms.measures(self._x(x), False)
 
     def lengths_jacobian(self, x: ArrayLike) -> csr_array[Any, Any]:
-        """Returns the derivative of `lengths`, a `scipy.sparse.csr_array`. Needs SciPy."""
+        """Returns the derivative of `lengths`, a `scipy.sparse.csr_array`. Needs SciPy.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.lengths_jacobian(held.start).shape
+            (33, 48)
+        """
         return self._rows(self._forms.measures_jacobian(self._x(x), False))
 
     def fold_angles(self, x: ArrayLike) -> NDArray[np.float64]:
         """Returns the fold angle of each edge of the model in radians, valley positive; NaN where there is no hinge.
 
         Angles continue from those of the drawn state, as in `energy`.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.fold_angles(held.start).shape
+            (33,)
         """
         return self._forms.measures(self._x(x), True)
 
     def fold_angles_jacobian(self, x: ArrayLike) -> csr_array[Any, Any]:
-        """Returns the derivative of `fold_angles`, a `scipy.sparse.csr_array`; rows of edges without a hinge are empty."""
+        """Returns the derivative of `fold_angles`, a `scipy.sparse.csr_array`; rows of edges without a hinge are empty.
+
+        Example:
+            >>> import foldwell as fw
+            >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+            >>> held.fold_angles_jacobian(held.start).shape
+            (33, 48)
+        """
         return self._rows(self._forms.measures_jacobian(self._x(x), True))
 
     def _rows(self, sparse: tuple[NDArray[Any], NDArray[Any], NDArray[Any]]) -> csr_array[Any, Any]:
@@ -340,6 +463,13 @@ class Assembly:
         Returns:
             The residual, the rotation vector of the product of rotations around each vertex, three numbers for each interior
             vertex, and its derivative by the angles, shape (3 v, m). A set of angles folds rigidly if the residual is zero.
+
+        Example:
+            >>> import foldwell as fw
+            >>> sheet = fw.generate("miura")
+            >>> residual, derivative = fw.Assembly.torus(sheet).closure(sheet.fold_angles)
+            >>> bool(abs(residual).max() < 1e-12), derivative.shape
+            (True, (12, 12))
         """
         sheet = self._inner.sheet
         return _foldwell.closure(sheet, vector(rho, "rho", len(sheet.edges)))

@@ -19,6 +19,14 @@ class FoldwellError(Exception):
         help: What would be right, if the program can say.
         file: Name of the file or scene with the mistake, if it is known.
         line: Its line there, from 1, if it is known.
+
+    Example:
+        >>> import foldwell as fw
+        >>> try:
+        ...     fw.Assembly.patch(fw.generate("miura"), bars=-1.0)
+        ... except fw.FoldwellError as error:
+        ...     print(type(error).__name__)
+        SceneError
     """
 
     def __init__(
@@ -38,15 +46,43 @@ class FoldwellError(Exception):
 
 
 class SceneError(FoldwellError, ValueError):
-    """Something that was given is wrong: a key of a scene, an argument, or a combination of them. Nothing was computed."""
+    """Something that was given is wrong: a key of a scene, an argument, or a combination of them. Nothing was computed.
+
+    Example:
+        >>> import foldwell as fw
+        >>> try:
+        ...     fw.Assembly.patch(fw.generate("miura"), bars=-1.0)
+        ... except fw.SceneError as error:
+        ...     print(error.help)
+        expected a positive number or `inf` (exactly rigid)
+    """
 
 
 class SheetError(SceneError):
-    """A mesh is wrong, or cannot be read."""
+    """A mesh is wrong, or cannot be read.
+
+    Example:
+        >>> import foldwell as fw
+        >>> try:
+        ...     fw.Sheet.read("nothing.fold")
+        ... except fw.SheetError as error:
+        ...     print("nothing.fold" in str(error))
+        True
+    """
 
 
 class OutputError(FoldwellError):
-    """A file cannot be read or written: no space, no permission, another process at work in the folder."""
+    """A file cannot be read or written: no space, no permission, another process at work in the folder.
+
+    Example:
+        >>> import foldwell as fw
+        >>> relaxed = fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0))
+        >>> try:
+        ...     relaxed.state.save("meshes/star.toml/state.vtu")  # in a file, which is no folder
+        ... except fw.OutputError as error:
+        ...     print("state.vtu" in str(error))
+        True
+    """
 
 
 class DidNotConverge(FoldwellError):
@@ -54,6 +90,15 @@ class DidNotConverge(FoldwellError):
 
     Attributes:
         result: The study as far as it came; `result.summary["reason"]` says why it ended.
+
+    Example:
+        >>> import foldwell as fw
+        >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0, rest="flat")
+        >>> try:
+        ...     fw.relax(held, tolerance=1e-40)
+        ... except fw.DidNotConverge as error:
+        ...     print(error.result.converged, error.state.positions.shape, len(error.history) > 0)
+        False (16, 3) True
     """
 
     def __init__(self, message: str, result: Result) -> None:

@@ -31,6 +31,15 @@ class Result:
 
     Attributes:
         summary: What `summary.json` says of the study, a dict; the keys of each kind are described in the book.
+
+    Example:
+        >>> import foldwell as fw
+        >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0, rest="flat")
+        >>> relaxed = fw.relax(held, name="flattened")
+        >>> relaxed.name, relaxed.kind, relaxed.converged, relaxed.summary["negative_eigenvalues"]
+        ('flattened', 'relax', True, 0)
+        >>> len(relaxed.table["energy_total"]) == len(relaxed.states)
+        True
     """
 
     def __init__(self, inner: _foldwell.Answer, study: Mapping[str, Any], units: Mapping[str, str] | None = None) -> None:
@@ -101,7 +110,13 @@ class Result:
         return found
 
     def to_pandas(self) -> Any:
-        """Returns `table` as a `pandas.DataFrame`. Needs pandas."""
+        """Returns `table` as a `pandas.DataFrame`. Needs pandas.
+
+        Example:
+            >>> import foldwell as fw
+            >>> "energy_bars" in fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)).to_pandas()
+            True
+        """
         import pandas
 
         return pandas.DataFrame(self.table)
@@ -111,6 +126,11 @@ class Result:
 
         Fold angles of edges are one variable, `fold_angle` (`row`, `edge`) in radians; the coordinate `edge` is the name of an edge of
         the cell as a text, "i,j,n1,n2". Variables have the attribute `units` where the assembly or scene names them.
+
+        Example:
+            >>> import foldwell as fw
+            >>> "fold_angle" in fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)).to_xarray()
+            True
         """
         import xarray
 
@@ -140,11 +160,22 @@ class Result:
         return {"drive": drive, "reaction": reaction}.get(column)
 
     def to_pyvista(self) -> Any:
-        """Returns the final state, or else the last one that was kept, as a `pyvista.UnstructuredGrid`. Needs PyVista."""
+        """Returns the final state, or else the last one that was kept, as a `pyvista.UnstructuredGrid`. Needs PyVista.
+
+        Example:
+            >>> import foldwell as fw
+            >>> fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)).to_pyvista().n_points
+            4
+        """
         return self._shown().to_pyvista()
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws what the study is about: the curves of a path, trace or landscape, otherwise its state. Needs Matplotlib."""
+        """Draws what the study is about: the curves of a path, trace or landscape, otherwise its state. Needs Matplotlib.
+
+        Example:
+            >>> import foldwell as fw
+            >>> axes = fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)).plot()
+        """
         from .plots import draw_result
 
         return draw_result(self, ax)
@@ -159,6 +190,12 @@ class Result:
 
         Raises:
             OutputError: a file cannot be written.
+
+        Example:
+            >>> import foldwell as fw
+            >>> relaxed = fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0))
+            >>> "relax.csv" in [path.name for path in relaxed.save("relaxed")]
+            True
         """
         return [Path(folder) / name for name in self._inner.save(Path(folder))]
 
@@ -178,6 +215,12 @@ class Run(Mapping[str, Result]):
     Attributes:
         summary: The content of `summary.json`, a dict.
         interrupted: Whether the callback stopped the run; studies after that are missing.
+
+    Example:
+        >>> import foldwell as fw
+        >>> found = fw.run("meshes/star.toml", set={"sheet.cells": [2, 2]})
+        >>> list(found), found.converged, found["relaxed"].kind
+        (['relaxed'], True, 'relax')
     """
 
     def __init__(self, summary: dict[str, Any], results: list[Result], interrupted: bool) -> None:

@@ -44,6 +44,11 @@ def run(
     Raises:
         SceneError: the scene is wrong; nothing was computed.
         OutputError: a file cannot be written.
+
+    Example:
+        >>> import foldwell as fw
+        >>> fw.run("meshes/star.toml", set={"sheet.cells": [2, 2]})["relaxed"].converged
+        True
     """
     given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
     folder = None if out is None else Path(out)
@@ -60,12 +65,24 @@ def convert(source: str | os.PathLike[str], target: str | os.PathLike[str], *, f
     Raises:
         SheetError: the mesh cannot be read or is wrong.
         SceneError: an ending is unknown.
+
+    Example:
+        >>> import foldwell as fw
+        >>> fw.convert("meshes/crane.fold", "crane.obj")
+        >>> fw.Sheet.read("crane.obj").vertices.shape == fw.Sheet.read("meshes/crane.fold").vertices.shape
+        True
     """
     for note in _foldwell.convert(Path(source), Path(target), frame):
         warnings.warn(note, stacklevel=2)
 
 
 def schema(of: str = "scene") -> dict[str, Any]:
-    """Returns the JSON schema of a scene ("scene") or of a summary ("summary")."""
+    """Returns the JSON schema of a scene ("scene") or of a summary ("summary").
+
+    Example:
+        >>> import foldwell as fw
+        >>> "sheet" in fw.schema()["required"]
+        True
+    """
     found: dict[str, Any] = json.loads(_foldwell.schema(of))
     return found

@@ -26,6 +26,14 @@ class Sheet:
 
     Sheets come from files (`Sheet.read`), from arrays (`Sheet.from_arrays`) and from patterns (`generate`), all through the same
     checks. They do not change.
+
+    Example:
+        >>> import foldwell as fw
+        >>> sheet = fw.generate("miura")
+        >>> sheet.vertices.shape, sheet.edges.shape, len(sheet.polygons)
+        ((4, 3), (12, 4), 4)
+        >>> sorted(set(sheet.kinds.tolist())), sorted(set(sheet.letters.tolist()))
+        (['crease', 'facet'], ['J', 'M', 'V'])
     """
 
     def __init__(self, inner: _foldwell.Sheet) -> None:
@@ -45,6 +53,11 @@ class Sheet:
         Raises:
             SheetError: the file cannot be read or draws no sheet; the message names the place.
             ValueError: the open file is closed.
+
+        Example:
+            >>> import foldwell as fw
+            >>> fw.Sheet.read("meshes/crane.fold").lattice is None
+            True
         """
         if isinstance(source, (str, os.PathLike)):
             return cls(_foldwell.Sheet.read(Path(source), frame))
@@ -78,6 +91,19 @@ class Sheet:
         Raises:
             ValueError: an array has the wrong shape, or numbers that are not finite.
             SheetError: the arrays draw no sheet; the message names the vertex, edge or face.
+
+        Example:
+            >>> import foldwell as fw
+            >>> square = fw.Sheet.from_arrays([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
+            >>> square.info["creases"]
+            1
+
+            A cell of two triangles that repeats: the copies of its vertex are in the list too.
+
+            >>> corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+            >>> cell = fw.Sheet.from_arrays(corners, [(0, 1, 2), (0, 2, 3)], lattice=[(1, 0, 0), (0, 1, 0)])
+            >>> cell.vertices.shape, cell.edges.tolist()
+            ((1, 3), [[0, 0, 1, 0], [0, 0, 0, 1], [0, 0, 1, 1]])
         """
         points = matrix(vertices, "vertices", (2, 3))
         vectors = None if lattice is None else matrix(lattice, "lattice", (2, 3), rows=2)
@@ -152,18 +178,35 @@ class Sheet:
         Raises:
             SceneError: the ending is unknown, or a flat format is asked for and the sheet is not flat.
             OutputError: the file cannot be written.
+
+        Example:
+            >>> import foldwell as fw
+            >>> fw.generate("miura").save("miura.fold")
+            >>> fw.Sheet.read("miura.fold").vertices.shape
+            (4, 3)
         """
         for note in self._inner.write(Path(path)):
             warnings.warn(note, stacklevel=2)
 
     def to_fold(self) -> dict[str, Any]:
-        """Returns the content of a FOLD file of the sheet."""
+        """Returns the content of a FOLD file of the sheet.
+
+        Example:
+            >>> import foldwell as fw
+            >>> sorted(set(fw.generate("miura").to_fold()["edges_assignment"]))
+            ['M', 'V']
+        """
         found: dict[str, Any] = json.loads(self._inner.to_fold())
         return found
 
     def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4", numbers: bool = False) -> Axes:
         """Draws all faces of one cell as they are drawn, of the cell of a tube with its neighbours, with the options of `State.plot`. Needs
-        Matplotlib."""
+        Matplotlib.
+
+        Example:
+            >>> import foldwell as fw
+            >>> axes = fw.generate("miura").plot(numbers=True)
+        """
         from .assembly import Assembly
 
         if self.screws is not None:
@@ -186,12 +229,23 @@ def generate(pattern: str, **parameters: Any) -> Sheet:
 
     Raises:
         SceneError: there is no such pattern, or a parameter is unknown or outside its range.
+
+    Example:
+        >>> import foldwell as fw
+        >>> fw.generate("miura", fold="15 deg").lattice.shape
+        (2, 3)
     """
     return Sheet(_foldwell.Sheet.generate({"pattern": pattern, **parameters}))
 
 
 def patterns() -> list[str]:
-    """Returns the names of the patterns."""
+    """Returns the names of the patterns.
+
+    Example:
+        >>> import foldwell as fw
+        >>> "kresling" in fw.patterns()
+        True
+    """
     return _foldwell.patterns()
 
 
@@ -200,5 +254,10 @@ def pattern_help(pattern: str) -> str:
 
     Raises:
         ValueError: there is no such pattern.
+
+    Example:
+        >>> import foldwell as fw
+        >>> "fold" in fw.pattern_help("miura")
+        True
     """
     return _foldwell.pattern_help(pattern)

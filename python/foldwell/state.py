@@ -23,6 +23,12 @@ class State:
     Arrays of numbers are views of the memory of the program, without a copy, and cannot be written. `n` is the number of
     points, `m` of edges and `f` of faces. A patch has its vertices cell by cell. A torus also has the points of the neighbouring
     cells that its edges end at, and a screw all points of the cells that are shown.
+
+    Example:
+        >>> import foldwell as fw
+        >>> state = fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0, rest="flat")).state
+        >>> len(state.positions), len(state.edges), len(state.fold_angles)
+        (4, 5, 5)
     """
 
     def __init__(self, inner: _foldwell.State) -> None:
@@ -115,11 +121,26 @@ class State:
         Raises:
             SceneError: the ending is another one, or the faces are no sheet: one has no area. Nothing is written.
             OutputError: the file cannot be written.
+
+        Example:
+            >>> import foldwell as fw
+            >>> from pathlib import Path
+            >>> state = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0).drawn
+            >>> state.save("drawn.vtu")
+            >>> Path("drawn.vtu").exists()
+            True
         """
         self._inner.save(Path(path))
 
     def to_pyvista(self) -> Any:
-        """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files. Needs PyVista."""
+        """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files. Needs PyVista.
+
+        Example:
+            >>> import foldwell as fw
+            >>> state = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0).drawn
+            >>> state.to_pyvista().n_points
+            16
+        """
         import pyvista
 
         cells = {pyvista.CellType.TRIANGLE: self.faces, pyvista.CellType.LINE: self.edges}
@@ -149,6 +170,10 @@ class State:
 
         Returns:
             The axes.
+
+        Example:
+            >>> import foldwell as fw
+            >>> axes = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0).drawn.plot()
         """
         from .plots import draw_state
 

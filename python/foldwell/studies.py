@@ -41,6 +41,12 @@ def relax(
         method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
         keep_every: Steps between the states on the way that are kept; left out: none are.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> held = fw.Assembly.patch(fw.generate("miura"), (3, 3), bars=fw.RIGID, creases=1.0, rest="flat")
+        >>> fw.relax(held).summary["negative_eigenvalues"]
+        0
     """
     keys = {"tolerance": tolerance, "method": method, "keep_every": keep_every}
     return compute(
@@ -64,6 +70,12 @@ def modes(
         start: The state whose modes are wanted, as in `relax`.
         eigenvalues: How many, and how many frequencies where the assembly has a mass; left out: none.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> summary = fw.modes(fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=fw.RIGID, creases=1.0)).summary
+        >>> summary["rigid_motions"], summary["folding_modes"]
+        (6, 1)
     """
     return compute(
         assembly, "modes", {"eigenvalues": eigenvalues}, start=start,
@@ -82,6 +94,12 @@ def branches(
     Args:
         assembly: The sheet.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> star = fw.Sheet.read("meshes/open-star.fold")
+        >>> fw.branches(fw.Assembly.screw(star)).summary["expected"] > 0
+        True
     """
     return compute(
         assembly, "branches", {},
@@ -114,6 +132,13 @@ def trace(
         response: Whether the table has Poisson's ratios of every state: "rigid" of the assembly's modes, "bending" of those with
             polygons that bend and without locks.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> star = fw.Sheet.read("meshes/open-star.fold")
+        >>> driven = fw.Assembly.screw(star, bars=fw.RIGID, creases=1.0, locks=[(0, 1, 0, 0)])
+        >>> {branch["end"] for branch in fw.trace(driven, stop={"arc_length": 0.5}).summary["branches"]}
+        {'stop'}
     """
     keys = {"engine": engine, "branch": branch, "max_step": max_step, "tolerance": tolerance, "stop": stop}
     return compute(
@@ -137,6 +162,12 @@ def response(
         start: The state whose response is wanted, as in `relax`.
         directions: Number of directions over half a turn at which Poisson's ratios are given; left out: 72.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> miura = fw.Assembly.torus(fw.generate("miura"), bars=fw.RIGID, creases=1.0)
+        >>> fw.response(miura).summary["poisson"]["in_plane"] < 0
+        True
     """
     return compute(
         assembly, "response", {"directions": directions}, start=start,
@@ -159,6 +190,12 @@ def surface(
         resolution: States along each direction over a whole turn of fold angles; left out: 32.
         max_curvature: Curvature at which the surface ends, 1/length; left out: one over the square root of the cell's area.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> star = fw.Sheet.read("meshes/open-star.fold")
+        >>> fw.surface(fw.Assembly.screw(star), resolution=8, max_curvature=0.2).kind
+        'surface'
     """
     return compute(
         assembly, "surface", {"resolution": resolution, "max_curvature": max_curvature},
@@ -184,6 +221,14 @@ def landscape(
         amplitudes: Amplitudes along each mode, positive.
         map: Energies in all directions: `{"amplitude": a, "rings": n}`.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> star = fw.Sheet.read("meshes/open-star.fold")
+        >>> patch = fw.Assembly.patch(star, (2, 2), bars=1e4, creases=1.0)
+        >>> measured = fw.landscape(patch, [(1, 1, 0)], [0.001, 0.002, 0.004])
+        >>> round(measured.summary["modes"][0]["exponent"])
+        4
     """
     given = {f"modes[{k}]": mode for k, mode in enumerate(modes)}
     rates = {name: numbers(mode, name, 1) for name, mode in given.items() if not isinstance(mode, Mapping) and len(mode) != 3}
@@ -224,6 +269,12 @@ def bloch(
             the upper half, with `"clamped": True` clamped edges.
         zero_modes_at: Wavenumbers `(q1, q2)` at which zero modes and self stresses are counted.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> star = fw.Sheet.read("meshes/open-star.fold")
+        >>> fw.bloch(fw.Assembly.torus(star), grid=(16, 16), q1=[0.5]).summary["pairing_error"] < 1e-6
+        True
     """
     keys = {"grid": grid, "q1": q1, "modes": modes, "path": path, "density": density, "strip": strip}
     return compute(
@@ -259,6 +310,12 @@ def wells(
         resolution: With `rigid`, states over a whole turn of fold angles; left out: 64.
         max_curvature: With `rigid`, curvature up to which the states of a screw are sought, 1/length.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> held = fw.Assembly.patch(fw.generate("miura"), (2, 2), bars=1e3, creases=1.0)
+        >>> len(fw.wells(held, starts=4, spread=0.3).summary["wells"])
+        1
     """
     keys = {"starts": starts, "seed": seed, "spread": spread, "barriers": barriers, "rigid": rigid}
     keys |= {"resolution": resolution, "max_curvature": max_curvature}
@@ -293,6 +350,16 @@ def path(
         stop: Conditions of which the first ends a branch, as in `trace`.
         response: Whether the table has Poisson's ratios of every state of a periodic sheet, as in `trace`.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> drum = fw.generate("kresling", closed=True)
+        >>> bottom, top = ({"where": {"z": end}} for end in ("min", "max"))
+        >>> parts = [{"name": "floor", "vertices": bottom, "free": []}, {"name": "lid", "vertices": top, "free": ["z", "rz"]}]
+        >>> drives = [{"name": "press", "part": "lid", "axis": "z", "to": -0.1}]
+        >>> pressed = fw.path(fw.Assembly.patch(drum, bars=1.0, parts=parts, drives=drives))
+        >>> pressed.summary["branches"][0]["end"], float(pressed.table["drive"][-1])
+        ('arrived', -0.1)
     """
     keys = {"drive": drive, "tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
     return compute(
@@ -338,6 +405,12 @@ def compute(
         SceneError: the study does not fit the sheet, or a key is wrong.
         DidNotConverge: it did not reach its answer; the exception has what it reached.
         KeyboardInterrupt: at Ctrl-C, soon after the key.
+
+    Example:
+        >>> import foldwell as fw
+        >>> held = fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)
+        >>> fw.compute(held, "relax", {"tolerance": 1e-8}).converged
+        True
     """
     study = {"name": name or kind, "kind": kind, "draw": list(draw), "check": list(check), **keys}
     earlier: list[tuple[Mapping[str, Any], _foldwell.Answer]] = []

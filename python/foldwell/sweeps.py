@@ -69,6 +69,12 @@ def sweep(
     Raises:
         SceneError: the scene, an axis or the scene of a point is wrong; nothing was computed.
         OutputError: a file cannot be written.
+
+    Example:
+        >>> import foldwell as fw
+        >>> data = fw.sweep("meshes/star.toml", {"energy.creases.stiffness": [1.0, 2.0]}, set={"sheet.cells": [2, 2]})
+        >>> data.status.values.tolist()
+        ['converged', 'converged']
     """
     given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
     wanted = {f"sweep.{json.dumps(key)}": _values(values) for key, values in (axes or {}).items()}
@@ -99,6 +105,13 @@ def open_sweep(folder: str | os.PathLike[str]) -> Dataset:
 
     Raises:
         FileNotFoundError: the folder has no `sweep.csv`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> axes = {"energy.creases.stiffness": [1.0, 2.0]}
+        >>> data = fw.sweep("meshes/star.toml", axes, set={"sheet.cells": [2, 2]}, out="creases")
+        >>> fw.open_sweep("creases").sizes["point"]
+        2
     """
     return _of_folder(Path(folder), [])
 

@@ -1,10 +1,13 @@
 """The programs of README, book and docstring run as they are shown."""
 
+import doctest
 import importlib.util
+import inspect
 import os
 import re
 import subprocess
 import sys
+from functools import cached_property
 from pathlib import Path
 
 import foldwell as fw
@@ -88,6 +91,28 @@ def test_the_page_about_python_says_the_names_of_the_package():
     studies = {"bloch", "branches", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"}
     for name in studies | {"run", "sweep", "open_sweep", "generate", "patterns", "pattern_help", "Sheet", "Assembly"}:
         assert name in text, name
+
+
+def examples():
+    """The functions and classes of the package, and the methods of the classes, by name."""
+    named = {name: getattr(fw, name) for name in fw.__all__}
+    named = {name: found for name, found in named.items() if inspect.isclass(found) or inspect.isfunction(found)}
+    for name, found in list(named.items()):
+        if inspect.isclass(found):
+            inner = {key: getattr(found, key) for key, kind in vars(found).items() if not isinstance(kind, cached_property)}
+            inner = {key: method for key, method in inner.items() if not key.startswith("_")}
+            named |= {f"{name}.{key}": method for key, method in inner.items() if inspect.isroutine(method)}
+    return named
+
+
+@pytest.mark.parametrize("name", examples())
+def test_every_function_and_class_has_an_example_that_runs(name, tmp_path, monkeypatch):
+    (tmp_path / "meshes").symlink_to(ROOT / "meshes")
+    monkeypatch.chdir(tmp_path)
+    test = doctest.DocTestParser().get_doctest(inspect.getdoc(examples()[name]), {}, name, None, 0)
+    assert test.examples, f"{name} has no example"
+    assert doctest.DocTestRunner().run(test).failed == 0
+    plt.close("all")
 
 
 def test_the_example_of_the_docstring_runs(tmp_path, monkeypatch):
