@@ -25,7 +25,8 @@ pub fn html(report: &Report) -> String {
     report.cases.iter().for_each(|case| text += &row(case));
     text += "</table>\n";
     if !report.diagrams.is_empty() {
-        text += "<h2>Error against run time</h2>\n<p>Lower and further to the left is better. Rest the pointer on a mark to \
+        text += "<h2>Error against run time</h2>\n<p>Each mark is a method at one setting: further left its answer is nearer to the \
+                 right one, lower it came sooner. Times are medians of five runs in turns. Rest the pointer on a mark to \
                  see its setting.</p>\n";
     }
     for diagram in &report.diagrams {

@@ -14,7 +14,7 @@ pub struct Setting {
     pub label: String,
     /// Error of the result; NaN without a result.
     pub error: f64,
-    /// Run time in seconds.
+    /// Run time in seconds, the median of several runs.
     pub seconds: f64,
 }
 
@@ -64,18 +64,19 @@ impl Diagram {
     }
 }
 
-/// Returns the shortest run time of each piece of `work` over `rounds` rounds. The pieces are run by turns, so that
-/// other load on the machine affects all of them alike.
-pub fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
-    let mut times = vec![f64::INFINITY; work.len()];
+/// Returns the median run time of each piece of `work` over `rounds` rounds, the upper one of an even number. The pieces
+/// are run by turns, so that other load on the machine affects all of them alike.
+pub fn medians(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
+    let mut times = vec![Vec::with_capacity(rounds); work.len()];
     for _ in 0..rounds {
-        for (time, work) in times.iter_mut().zip(work.iter_mut()) {
+        for (times, work) in times.iter_mut().zip(work.iter_mut()) {
             let clock = Instant::now();
             work();
-            *time = time.min(clock.elapsed().as_secs_f64());
+            times.push(clock.elapsed().as_secs_f64());
         }
     }
-    times
+    times.iter_mut().for_each(|times| times.sort_by(f64::total_cmp));
+    times.iter().map(|times| times[rounds / 2]).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::super::findings::{ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
-use super::super::precision::shortest;
+use super::super::precision::medians;
 use super::super::report::figure;
 use super::super::star::{Star, size};
 use super::trial::distance;
@@ -50,15 +50,13 @@ pub fn measure(quick: bool) -> Result<Findings, ExperimentError> {
     let exact = Star::cylinder(FOLDED)?;
     let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !quick)).collect();
     let stars = cells.iter().map(|&n| Star::resting([n, n], &exact)).collect::<Result<Vec<_>, _>>()?;
-    let mut times = vec![[f64::INFINITY; 2]; cells.len()];
-    for _ in 0..ROUNDS {
-        for (star, times) in stars.iter().zip(&mut times) {
-            for (method, time) in METHODS.into_iter().zip(times) {
-                *time = time.min(shortest(1, &mut [Box::new(|| _ = rigid(star, method))])[0]);
-            }
-        }
+    let mut work: Vec<Box<dyn FnMut() + '_>> = Vec::new();
+    for star in &stars {
+        METHODS.into_iter().for_each(|method| work.push(Box::new(move || _ = rigid(star, method))));
     }
-    let measured = stars.iter().zip(&cells).zip(&times).map(|((star, &n), &seconds)| relaxed(star, n, seconds));
+    let times = medians(ROUNDS, &mut work);
+    let times = times.chunks(METHODS.len()).map(|times| [times[0], times[1]]);
+    let measured = stars.iter().zip(&cells).zip(times).map(|((star, &n), seconds)| relaxed(star, n, seconds));
     let sizes = measured.collect::<Result<Vec<_>, _>>()?;
     let growth: Vec<(f64, f64)> = sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.stored as f64)).collect();
     let values = json!({
@@ -79,7 +77,7 @@ fn relaxed(star: &Star, n: usize, seconds: [f64; 2]) -> Result<Size, ExperimentE
     let found = [vertices?, angles?];
     let penalty = (n <= MOST_FOR_PENALTY).then(|| {
         let mut angles = Vec::new();
-        let seconds = shortest(1, &mut [Box::new(|| angles = by_penalty(star))])[0];
+        let seconds = medians(1, &mut [Box::new(|| angles = by_penalty(star))])[0];
         [distance(&angles, &star.rest), seconds]
     });
     let model = star.model(f64::INFINITY);

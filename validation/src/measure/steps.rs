@@ -1,7 +1,7 @@
 //! Error and run time of a trajectory against the length of its steps and the degree of its interpolant.
 
 use super::super::findings::{ExperimentError, Findings};
-use super::super::precision::{Diagram, Method, Setting, shortest};
+use super::super::precision::{Diagram, Method, Setting, medians};
 use super::super::star;
 use foldwell::analysis::branches::{BranchesError, branches};
 use foldwell::kinematics::{Closing, Closure, KinematicsError};
@@ -20,7 +20,7 @@ const REFERENCE: f64 = 0.003;
 /// the program, and the errors of shorter ones are rounding errors. With degree three the order has not settled at
 /// these steps, and with degree seven all errors are rounding errors.
 const ASYMPTOTIC: [usize; 2] = [2, 4];
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 5;
 
 /// Follows the shorter loop of the reference cell, about 9.93 rad long, with steps of at most each length and
 /// interpolants of degree three, five and seven. All points lie on the curve within 3e-14 in every case; only the
@@ -34,7 +34,7 @@ pub fn measure(_quick: bool) -> Result<Findings, ExperimentError> {
         let mut settings = Vec::new();
         for max_step in STEPS {
             let error = (short.length(max_step, points)? - reference).abs();
-            let seconds = shortest(ROUNDS, &mut [Box::new(|| _ = short.length(max_step, points))])[0];
+            let seconds = medians(ROUNDS, &mut [Box::new(|| _ = short.length(max_step, points))])[0];
             settings.push(Setting { label: format!("step {max_step}"), error, seconds });
         }
         methods.push(Method { name: format!("through {points} points, degree {}", 2 * points - 1), settings });

@@ -3,7 +3,7 @@
 
 use super::super::findings::{ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
-use super::super::precision::{Diagram, Method, Setting, shortest};
+use super::super::precision::{Diagram, Method, Setting, medians};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
@@ -114,13 +114,13 @@ fn times(star: &Star) -> Vec<[f64; 3]> {
             Box::new(move || _ = k.is_finite().then(|| by_form(star, k, Form::Penalty))),
             Box::new(move || _ = by_form(star, k, Form::Augmented(WEIGHT))),
         ];
-        let found = shortest(ROUNDS, &mut work);
+        let found = medians(ROUNDS, &mut work);
         [found[0], found[1], found[2]]
     };
     let mut seconds: Vec<[f64; 3]> = STIFFNESSES.into_iter().map(at).collect();
     // once more by turns over the stiffnesses, whose times are compared with each other
     let tension = |k: f64| Box::new(move || _ = by_tension(star, k)) as Box<dyn FnMut() + '_>;
-    let in_turns = shortest(ROUNDS, &mut STIFFNESSES.map(tension));
+    let in_turns = medians(ROUNDS, &mut STIFFNESSES.map(tension));
     seconds.iter_mut().zip(in_turns).for_each(|(all, time)| all[0] = time);
     seconds
 }
