@@ -69,8 +69,8 @@ enum Command {
     },
     /// Counts and measures of the sheet of a mesh or a scene, and of the energy of a scene
     Info {
-        /// A mesh (.fold, .obj, .vtu, .svg, .cp, .opx) or a scene (.toml): one cell of its mesh, and the energy of all
-        /// cells
+        /// A mesh (.fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori, .dxf) or a scene (.toml): one cell of its mesh, and
+        /// the energy of all cells
         mesh_or_scene: PathBuf,
         /// Set a key of the scene, as in energy.bars.stiffness=1e4; may be repeated
         #[arg(long, value_name = "KEY=VALUE")]
@@ -102,7 +102,7 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },
-    /// Convert a mesh: from FOLD, OBJ, VTU, SVG, CP or OPX to FOLD, OBJ, VTU, STL, SVG or CP
+    /// Convert a mesh: from FOLD, OBJ, STL, VTU, SVG, CP, OPX, ORI or DXF to FOLD, OBJ, STL, PLY, GLB, VTU, SVG, CP or DXF
     Convert {
         /// The file that is there
         from: PathBuf,
@@ -111,7 +111,8 @@ enum Command {
         /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
         #[arg(long, value_name = "N")]
         frame: Option<usize>,
-        /// Merge vertices of a flat crease pattern within this distance, in units of the file
+        /// Merge vertices of a flat crease pattern within this distance, in units of the file [default: 1e-4 of the
+        /// extent, or more where lines end beside each other otherwise]
         #[arg(long, value_name = "TOL")]
         merge: Option<f64>,
         /// Split edges of a flat crease pattern where they cross or touch

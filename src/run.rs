@@ -159,19 +159,24 @@ impl Wanted {
     }
 }
 
-/// Reads the sheet of a mesh in the format of its ending; of a FOLD file the given frame, or the first with a mesh.
+/// Reads the sheet of a mesh in the format of its ending; of a FOLD file the given frame, or the first with a mesh. With
+/// a distance `merge`, in units of the file, points of a drawing of lines or of a flat FOLD file within it are one.
 ///
 /// # Errors
-/// [`RunError`] if the file cannot be read, is wrong or has an unknown ending, and if there is no such frame.
-pub fn read_sheet(path: &Path, frame: Option<usize>) -> Result<Sheet, RunError> {
-    read_mesh(path, frame, meshes::READ)
+/// [`RunError`] if the file cannot be read, is wrong or has an unknown ending, if there is no such frame, and if points
+/// are to be merged in a file of faces.
+pub fn read_sheet(path: &Path, frame: Option<usize>, merge: Option<f64>) -> Result<Sheet, RunError> {
+    match merge {
+        Some(_) => meshes::read_cleaned(path, frame, &Cleanup { merge, split: true }),
+        None => read_mesh(path, frame, meshes::READ),
+    }
 }
 
-/// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.obj`, `.fold` or `.glb`.
+/// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.ply`, `.obj`, `.fold` or `.glb`.
 ///
 /// # Errors
-/// [`RunError`] if the ending is another one, if the file cannot be written, and if the state is no sheet for STL, OBJ
-/// and FOLD: a face has no area, for instance.
+/// [`RunError`] if the ending is another one, if the file cannot be written, and if the state is no sheet for STL, PLY,
+/// OBJ and FOLD: a face has no area, for instance.
 pub fn write_state(picture: &Picture, path: &Path) -> Result<(), RunError> {
     meshes::write_state(picture, path)
 }

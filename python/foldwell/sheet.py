@@ -43,16 +43,20 @@ class Sheet:
         return (type(self), (self._inner,))
 
     @classmethod
-    def read(cls, source: str | os.PathLike[str] | TextIO, *, frame: int | None = None) -> Sheet:
+    def read(
+        cls, source: str | os.PathLike[str] | TextIO, *, frame: int | None = None, merge: float | None = None
+    ) -> Sheet:
         """Reads a mesh.
 
         Args:
-            source: Path of a .fold, .obj, .vtu, .svg, .cp or .opx file, or an open text file in the FOLD format.
+            source: Path of a .fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori or .dxf file, or an open text file in the FOLD format.
             frame: Frame of a FOLD file: 0 is its top, those of `file_frames` are 1, 2, ...; left out: the first with a mesh.
+            merge: Distance, in units of the file, up to which line ends of a drawing are one point; left out: 1e-4 of its extent,
+                or more where lines end beside each other otherwise. For paths of drawings and flat FOLD files.
 
         Raises:
             SheetError: the file cannot be read or draws no sheet; the message names the place.
-            ValueError: the open file is closed.
+            ValueError: the open file is closed, or `merge` is given for an open file.
 
         Example:
             >>> import foldwell as fw
@@ -60,7 +64,9 @@ class Sheet:
             True
         """
         if isinstance(source, (str, os.PathLike)):
-            return cls(_foldwell.Sheet.read(Path(source), frame))
+            return cls(_foldwell.Sheet.read(Path(source), frame, merge))
+        if merge is not None:
+            raise ValueError("`merge` is for files that are given by their path")
         return cls(_foldwell.Sheet.parse(source.read(), str(getattr(source, "name", "<text>")), frame))
 
     @classmethod

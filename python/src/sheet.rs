@@ -36,8 +36,8 @@ type Kept = (String, &'static str, Option<usize>);
 impl Sheet {
     /// Reads a mesh file in the format of its ending.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf, frame: Option<usize>) -> PyResult<Self> {
-        let read = watched(py, None, move |_| run::read_sheet(&path, frame))?;
+    fn read(py: Python<'_>, path: PathBuf, frame: Option<usize>, merge: Option<f64>) -> PyResult<Self> {
+        let read = watched(py, None, move |_| run::read_sheet(&path, frame, merge))?;
         read.map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
     }
 

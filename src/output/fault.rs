@@ -48,7 +48,7 @@ pub enum VtuFault {
     #[error("the coordinates of the points are no floating-point numbers")]
     Coordinates,
     /// A cell is neither a triangle nor a line.
-    #[error("cell {cell} is a {kind}, expected triangles and lines only")]
+    #[error("cell {cell} is a {kind}, expected triangles, quadrangles, polygons and lines only")]
     CellKind {
         /// Index of the cell, counted from 0.
         cell: usize,

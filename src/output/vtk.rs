@@ -4,6 +4,7 @@
 //! Arrays are written uncompressed, because ParaView has failed to open compressed files of several writers. Their
 //! lengths are checked first, because ParaView crashes on an array that is too short.
 
+mod appended;
 mod read;
 
 use std::fmt::Write as _;

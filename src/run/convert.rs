@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::output::picture::Picture;
 use crate::output::vtk::VtuMesh;
 use crate::sheet::build::{self, Drawing};
-use crate::sheet::info::{TURNED_OVER, gap_said};
+use crate::sheet::info::TURNED_OVER;
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
@@ -15,8 +15,11 @@ const FLAT_RAD: f64 = 1e-6;
 /// a mountain or valley that the state has folded to the other side is what the state shows.
 pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let sides = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(sorted);
-    let sides: BTreeSet<[usize; 2]> = mesh.triangles.iter().flat_map(sides).collect();
+    let sides = |face: &[usize]| -> Vec<[usize; 2]> {
+        (0..face.len()).map(|k| sorted([face[k], face[(k + 1) % face.len()]])).collect()
+    };
+    let triangles = mesh.triangles.iter().flat_map(|corners| sides(corners));
+    let sides: BTreeSet<[usize; 2]> = triangles.chain(mesh.polygons.iter().flat_map(|face| sides(face))).collect();
     let letters = mesh.letters.unwrap_or_default();
     let angles = mesh.fold_angle.unwrap_or_else(|| vec![0.0; letters.len()]);
     let told = mesh.lines.iter().zip(letters).zip(angles).filter_map(|((ends, letter), angle)| {
@@ -32,7 +35,7 @@ pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
         title,
         assignments: told.collect(),
         coords: mesh.points,
-        faces: mesh.triangles.iter().map(|t| t.to_vec()).collect(),
+        faces: mesh.triangles.iter().map(|t| t.to_vec()).chain(mesh.polygons).collect(),
         ..Drawing::default()
     }
 }
@@ -50,7 +53,7 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if sheet.record.turned_over {
         notes.push(TURNED_OVER.to_owned());
     }
-    notes.extend(sheet.record.gap.map(gap_said));
+    notes.extend(sheet.record.redrawing.said());
     if ending == "obj" && !sheet.listed_edges.is_empty() {
         notes.push("OBJ has no list of edges: their order is not kept".to_owned());
     }
@@ -60,18 +63,18 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if !["fold", "obj"].contains(&ending) && !sheet.record.metadata.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.metadata.iter().map(|(key, _)| key))));
     }
-    if ["vtu", "stl"].contains(&ending) && !sheet.targets.is_empty() {
+    if ["vtu", "stl", "ply", "glb"].contains(&ending) && !sheet.targets.is_empty() {
         notes.push(format!(
             "{name} has no target angles: {} that are not drawn are not kept",
             sheet.targets_not_drawn()
         ));
     }
     let partial = partly_folded(sheet);
-    if ending == "cp" && partial > 0 {
-        notes.push(format!("CP has no target angles: {partial} that are not those of a flat fold are not kept"));
+    if ["cp", "dxf"].contains(&ending) && partial > 0 {
+        notes.push(format!("{name} has no target angles: {partial} that are not those of a flat fold are not kept"));
     }
-    if ending == "stl" && (sheet.lattice.is_some() || !sheet.assignments.is_empty()) {
-        notes.push("STL has triangles only: lattice vectors and letters of edges are not kept".to_owned());
+    if ["stl", "ply", "glb"].contains(&ending) && (sheet.lattice.is_some() || !sheet.assignments.is_empty()) {
+        notes.push(format!("{name} has faces only: lattice vectors and letters of edges are not kept"));
     }
     if ending == "vtu" && sheet.lattice.is_some() {
         let again = build::build(&drawing(mesh(Picture::drawn(sheet)), String::new()));

@@ -8,24 +8,25 @@ use super::error::RunError;
 use crate::output::picture::Picture;
 use crate::output::{files, glb, vtk};
 use crate::sheet::pattern::{self, Cleanup, Format};
-use crate::sheet::{Sheet, build, fold, obj, stl};
+use crate::sheet::{Sheet, build, fold, obj, ply, stl};
 
 /// Endings of meshes that are read.
-pub(super) const READ: &str = ".fold, .obj, .vtu, .svg, .cp or .opx";
+pub(super) const READ: &str = ".fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori or .dxf";
 /// Endings of meshes and scenes.
-pub(super) const READ_OR_SCENE: &str = ".fold, .obj, .vtu, .svg, .cp, .opx or .toml";
+pub(super) const READ_OR_SCENE: &str = ".fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori, .dxf or .toml";
 /// Endings of meshes that are written.
-const WRITTEN: &str = ".fold, .obj, .vtu, .stl, .svg or .cp";
+const WRITTEN: &str = ".fold, .obj, .vtu, .stl, .ply, .glb, .svg, .cp or .dxf";
 /// Endings of states that are written.
-const STATES: &str = ".vtu, .stl, .obj, .fold or .glb";
+const STATES: &str = ".vtu, .stl, .ply, .obj, .fold or .glb";
 /// Endings of flat crease patterns that can be cleaned.
-const CLEANED: &str = ".fold, .svg, .cp or .opx";
+const CLEANED: &str = ".fold, .svg, .cp, .opx, .ori or .dxf";
 
 /// The kinds of files that hold a mesh.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum MeshKind {
     Fold,
     Obj,
+    Stl,
     Vtu,
     Lines(Format),
 }
@@ -35,6 +36,7 @@ impl MeshKind {
         match ending(path).as_str() {
             "fold" => Some(Self::Fold),
             "obj" => Some(Self::Obj),
+            "stl" => Some(Self::Stl),
             "vtu" => Some(Self::Vtu),
             _ => Format::of(path).map(Self::Lines),
         }
@@ -57,6 +59,7 @@ fn read_kind(path: &Path, kind: MeshKind) -> Result<Sheet, RunError> {
     match kind {
         MeshKind::Fold => Ok(fold::read(path)?),
         MeshKind::Obj => Ok(obj::read(path)?),
+        MeshKind::Stl => Ok(stl::read(path)?),
         MeshKind::Lines(format) => Ok(pattern::read(path, format)?),
         MeshKind::Vtu => {
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -86,28 +89,31 @@ pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
         "obj" => files::write(to, obj::write(sheet))?,
         "vtu" => vtk::write_vtu(to, &Picture::drawn(sheet))?,
         "stl" => files::write(to, stl::write(sheet))?,
+        "ply" => files::write(to, ply::write(sheet))?,
+        "glb" => files::write(to, glb::bytes(&Picture::drawn(sheet)))?,
         "svg" => files::write(to, pattern::write_svg(sheet).map_err(refused)?)?,
         "cp" => {
             let (text, others) = pattern::write_cp(sheet).map_err(refused)?;
             changed = others;
             files::write(to, text)?;
         }
+        "dxf" => files::write(to, pattern::write_dxf(sheet).map_err(refused)?)?,
         ending => return Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: WRITTEN }),
     }
     let mut notes = convert::not_kept(sheet, &ending(to));
     if changed > 0 {
-        notes.push(format!("CP has no hinges, joints and cuts: {changed} lines are written as auxiliary or boundary"));
+        notes.push(format!("CP has no hinges, facets and joints: {changed} lines are written as auxiliary"));
     }
     Ok(notes)
 }
 
-/// Writes a state into a file of the format of its ending; STL, OBJ and FOLD files have the sheet as it is drawn in
+/// Writes a state into a file of the format of its ending; STL, PLY, OBJ and FOLD files have the sheet as it is drawn in
 /// this state.
 pub(super) fn write_state(picture: &Picture, to: &Path) -> Result<(), RunError> {
     match ending(to).as_str() {
         "vtu" => Ok(vtk::write_vtu(to, picture)?),
         "glb" => Ok(files::write(to, glb::bytes(picture))?),
-        "stl" | "obj" | "fold" => {
+        "stl" | "ply" | "obj" | "fold" => {
             let title = to.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let sheet = build::build(&convert::drawing(convert::mesh(picture.clone()), title));
             let sheet = sheet.map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;

@@ -13,8 +13,8 @@ use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, Laws, RIGID, Stiffness, Terms};
-use crate::sheet::pattern::{self, Format};
-use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj};
+use crate::sheet::pattern::{self, Cleanup, Format};
+use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj, stl};
 use std::ops::Range;
 use std::path::Path;
 
@@ -99,25 +99,31 @@ pub(crate) fn other_sheet(file: &SceneFile, path: &Path) -> Result<Sheet, SceneE
 
 /// Reads the mesh at `path` in the format of its ending; FOLD if that is unknown.
 fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
-    let frame = file.scene.sheet.frame.as_ref();
+    let spec = &file.scene.sheet;
+    let frame = spec.frame.as_ref();
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let lines = Format::of(path);
-    if let Some(frame) = frame.filter(|_| lines.is_some() || ending == "obj") {
-        let kind = if lines.is_some() { "a crease pattern of lines" } else { "an OBJ file" };
+    let is_mesh = ["obj", "stl"].contains(&ending.as_str());
+    if let Some(frame) = frame.filter(|_| lines.is_some() || is_mesh) {
+        let kind = if lines.is_some() { "a crease pattern of lines" } else { "a mesh of faces" };
         let help = "frames are those of FOLD files; leave out `frame`";
         return Err(file.error_at(frame.span(), format!("{kind} has no frames"), help));
     }
+    if let Some(merge) = spec.merge.as_ref().filter(|_| is_mesh) {
+        let help = "points are merged in drawings of lines and in flat FOLD files; leave out `merge`";
+        return Err(file.error_at(merge.span(), "a mesh of faces has no lines to join", help));
+    }
+    let cleanup = Cleanup { merge: spec.merge.as_ref().map(|merge| **merge), split: true };
     match (lines, ending.as_str()) {
-        (Some(format), _) => Ok(pattern::read(path, format)?),
+        (Some(format), _) => Ok(pattern::read_cleaned(path, format, &cleanup)?),
         (None, "obj") => Ok(obj::read(path)?),
-        (None, "vtu" | "stl") => {
+        (None, "stl") => Ok(stl::read(path)?),
+        (None, "vtu") => {
             let span = file.scene.sheet.mesh.as_ref().map_or(0..0, Located::span);
-            let help = match ending.as_str() {
-                "vtu" => "`foldwell convert` makes a .fold file of it; a state to start from is `start` of a study",
-                _ => "an STL file has triangles without edges that fold; give a .fold or .obj file",
-            };
-            Err(file.error_at(span, format!("a mesh of a scene is no .{ending} file"), help))
+            let help = "`foldwell convert` makes a .fold file of it; a state to start from is `start` of a study";
+            Err(file.error_at(span, "a mesh of a scene is no .vtu file", help))
         }
+        (None, _) if spec.merge.is_some() => Ok(fold::read_cleaned(path, frame.map(|frame| **frame), &cleanup)?),
         (None, _) => Ok(fold::read_frame(path, frame.map(|frame| **frame))?),
     }
 }

@@ -41,9 +41,13 @@ fn sheet(file: &SceneFile) -> Checked {
         }
         _ => {}
     }
-    if let Some(frame) = sheet.frame.as_ref().filter(|_| sheet.mesh.is_none()) {
-        let help = "it belongs to mesh = \"file.fold\"; leave it out otherwise";
-        return Err(file.error_at(frame.span(), "`frame` is given for a pattern", help));
+    let of_files =
+        [("frame", sheet.frame.as_ref().map(Located::span)), ("merge", sheet.merge.as_ref().map(Located::span))];
+    for (key, span) in of_files {
+        if let Some(span) = span.filter(|_| sheet.mesh.is_none()) {
+            let help = "it belongs to mesh = \"file.fold\"; leave it out otherwise";
+            return Err(file.error_at(span, format!("`{key}` is given for a pattern"), help));
+        }
     }
     of_tube(file)?;
     match &sheet.lattice {

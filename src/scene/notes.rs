@@ -3,7 +3,7 @@
 use super::SceneFile;
 use super::rest::RestSpec;
 use crate::model::Assembly;
-use crate::sheet::info::{TURNED_OVER, frames_said, gap_said, targets_said};
+use crate::sheet::info::{TURNED_OVER, frames_said, targets_said};
 use crate::sheet::{Assignment, EdgeKind};
 
 /// Returns remarks about a scene, made before its studies.
@@ -22,7 +22,7 @@ pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
         ));
     }
     let record = &assembly.sheet().record;
-    notes.extend(record.gap.map(gap_said));
+    notes.extend(record.redrawing.said());
     notes.extend(frames_said(record.frame, record.further_frames).filter(|_| file.scene.sheet.frame.is_none()));
     notes
 }

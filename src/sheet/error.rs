@@ -329,7 +329,10 @@ pub enum Problem {
         ends: DrawnEdge,
     },
     /// A listed edge is not a side of a face.
-    #[error("edge {edge} of the list, {ends}, is a side of no face; every edge should bound a face")]
+    #[error(
+        "edge {edge} of the list, {ends}, is a side of no face; every edge should bound a face, and the outline of the \
+         sheet be listed too"
+    )]
     LooseEdge {
         /// Index in `edges_vertices`.
         edge: usize,
@@ -350,11 +353,16 @@ pub enum Problem {
         /// The edge.
         edge: DrawnEdge,
     },
-    /// The edges are not connected, and faces cannot be rebuilt from them.
-    #[error("the edges fall into {pieces} separate pieces; give `faces_vertices`, which cannot be rebuilt for them")]
-    Pieces {
-        /// Number of connected pieces.
-        pieces: usize,
+    /// Edges inside a face that no edge joins to the others, so that faces cannot be rebuilt from them.
+    #[error(
+        "edge {edge} of the list, {ends}, belongs to edges inside a face that are not joined to the others; give \
+         `faces_vertices`, which cannot be rebuilt for them, or join them"
+    )]
+    Nested {
+        /// Index in `edges_vertices`.
+        edge: usize,
+        /// Its ends.
+        ends: DrawnEdge,
     },
     /// An assignment that contradicts the mesh.
     #[error(transparent)]

@@ -94,10 +94,9 @@ pub struct Info {
     pub frame: usize,
     /// Number of the other frames of the file.
     pub further_frames: usize,
-    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller
-    /// one within which points were merged.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gap: Option<[f64; 2]>,
+    /// What was done to a drawing of lines to read it, and what is in doubt.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
 }
 
 impl Info {
@@ -140,7 +139,7 @@ impl Info {
             touching_vertices: touching(sheet),
             frame: sheet.record.frame,
             further_frames: sheet.record.further_frames,
-            gap: sheet.record.gap,
+            remarks: sheet.record.redrawing.said(),
         }
     }
 }
@@ -256,22 +255,14 @@ impl fmt::Display for Info {
         if self.touching_vertices > 0 {
             write!(f, "\ntouching layers        {} vertices stand where others stand", self.touching_vertices)?;
         }
-        if let Some(said) = self.gap.map(gap_said) {
-            write!(f, "\nclose vertices         {said}")?;
+        for said in &self.remarks {
+            write!(f, "\nremark                 {said}")?;
         }
         match frames_said(self.frame, self.further_frames) {
             None => Ok(()),
             Some(said) => write!(f, "\nframes                 {said}"),
         }
     }
-}
-
-/// Says that two vertices of a drawing of lines are close, from their distance and that of merging.
-pub(crate) fn gap_said([distance, tolerance]: [f64; 2]) -> String {
-    format!(
-        "two vertices are {distance:.3e} apart, and points are merged up to {tolerance:.3e}; if they are meant as one, \
-         `foldwell convert --merge` merges within more"
-    )
 }
 
 /// Says which frame of a file is read, if it has several.

@@ -71,8 +71,8 @@ pub enum PatternFault {
     },
     /// Two points that are a little too far apart to be merged, where the pattern is wrong.
     #[error(
-        "there is a gap of {distance:.3e} {gap}, and points are merged up to {tolerance:.3e}; draw one point, or merge within \
-         more, as `foldwell convert --merge` does"
+        "there is a gap of {distance:.3e} {gap}, and points are merged up to {tolerance:.3e}; draw one point, or {}",
+        merging(*cure)
     )]
     Apart {
         /// The two points, as the ends of a line.
@@ -81,17 +81,37 @@ pub enum PatternFault {
         distance: f64,
         /// The distance within which points are merged.
         tolerance: f64,
+        /// Distance of merging with which the lines are a crease pattern.
+        cure: Option<f64>,
     },
     /// Points that are near each other without being near one point.
     #[error(
         "the line {line} meets a chain of points of which each is within {tolerance:.3e} of the next, or of a line at the next, \
-         too long to be one point; draw them as one point, or merge within another distance, as `foldwell convert --merge` does"
+         too long to be one point; draw them as one point, or {}",
+        merging(*cure)
     )]
     Tangled {
         /// A line at these points.
         line: LineName,
         /// The distance within which points are merged.
         tolerance: f64,
+        /// Distance of merging with which the lines are a crease pattern.
+        cure: Option<f64>,
+    },
+    /// Lines that cross at more points than a crease pattern has.
+    #[error("the lines meet at more than {points} points; a crease pattern should have fewer")]
+    TooMany {
+        /// The number of points.
+        points: usize,
+    },
+    /// Lines of which none is the rim of a sheet.
+    #[error(
+        "the line {line} bounds no face, and no line is a boundary; draw the outline of the sheet too: black in SVG, type 1 \
+         in CP and OPX, BLACK_0 in ORI, B in FOLD"
+    )]
+    NoRim {
+        /// The line.
+        line: LineName,
     },
     /// A line that separates no faces.
     #[error(
@@ -110,14 +130,14 @@ pub enum PatternFault {
         /// Description of the error of its edge.
         problem: String,
     },
-    /// The lines are not connected.
+    /// An outline inside a face that no line joins to the others.
     #[error(
-        "the lines fall into {pieces} pieces that do not touch; one sheet has one piece, and an outline inside a face should be \
-         joined to the other lines"
+        "the line {line} belongs to an outline inside a face that does not touch the other lines; join it to them, or draw it \
+         beside the sheet, where it is a piece of its own"
     )]
-    Pieces {
-        /// Number of connected pieces.
-        pieces: usize,
+    Nested {
+        /// A line of the outline.
+        line: LineName,
     },
     /// A merging distance that is not positive or not smaller than the sheet.
     #[error(
@@ -135,6 +155,15 @@ pub enum PatternFault {
         /// Description of the mesh.
         found: &'static str,
     },
+}
+
+/// Returns the advice to merge points within another distance.
+fn merging(cure: Option<f64>) -> String {
+    let how = "as `merge` in [sheet] of a scene and `foldwell convert --merge` do";
+    cure.map_or_else(
+        || format!("merge within another distance, {how}"),
+        |cure| format!("merge within {cure:.2e}, {how}"),
+    )
 }
 
 fn meaning((letter, angle): (Assignment, Option<f64>)) -> String {

@@ -1,5 +1,7 @@
 //! Content of a mesh file other than the shape of the sheet.
 
+use super::redrawing::Redrawing;
+
 /// Content of a mesh file other than the shape of the sheet: the keys that are kept, and the names of those that are
 /// not.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,7 +18,6 @@ pub struct FileRecord {
     pub further_frames: usize,
     /// The text of `file_frames`, if the frames can be kept beside the one that is read.
     pub frames: Option<String>,
-    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller
-    /// one within which points were merged, both in units of the file.
-    pub gap: Option<[f64; 2]>,
+    /// What was done to a drawing of lines.
+    pub redrawing: Redrawing,
 }

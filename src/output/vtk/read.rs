@@ -4,11 +4,15 @@ use std::path::Path;
 
 use vtkio::model::{Attribute, Attributes, CellType, Cells, DataSet, UnstructuredGridPiece, Vtk};
 
+use super::appended::inlined;
 use crate::math::Vec3;
 use crate::output::OutputError;
 use crate::output::fault::VtuFault;
 use crate::output::picture::Picture;
 use crate::sheet::{Assignment, EdgeKind, text};
+
+/// The name of a compression that is not read.
+const LZMA: &[u8] = b"vtkLZMADataCompressor";
 
 /// The mesh of a sheet read from a VTU file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +21,8 @@ pub struct VtuMesh {
     pub points: Vec<Vec3>,
     /// Points at the corners of each triangle.
     pub triangles: Vec<[usize; 3]>,
+    /// Points at the corners of each quadrangle and polygon.
+    pub polygons: Vec<Vec<usize>>,
     /// Points at the ends of each edge.
     pub lines: Vec<[usize; 2]>,
     /// Fold angle of each line in radians; `None` if the file has no such array.
@@ -29,7 +35,7 @@ pub struct VtuMesh {
     pub torque: Option<Vec<f64>>,
 }
 
-/// Reads a VTU file of triangles and lines, uncompressed or compressed with zlib. The points of all its pieces are
+/// Reads a VTU file of triangles, polygons and lines, uncompressed or compressed with zlib. The points of all its pieces are
 /// numbered one piece after the other, and arrays are read that all pieces have.
 ///
 /// # Errors
@@ -61,6 +67,9 @@ pub fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
     let mut mesh = VtuMesh { points: points(&piece)?, ..<_>::default() };
     let types = piece.cells.types.clone();
     let line_cells = mesh.add_cells(piece.cells)?;
+    if let Some(cell) = types.iter().position(|kind| ![CellType::Triangle, CellType::Line].contains(kind)) {
+        return Err(VtuFault::CellKind { cell, kind: format!("{:?}", types[cell]) });
+    }
     let face_cells: Vec<usize> = (0..types.len()).filter(|&cell| types[cell] == CellType::Triangle).collect();
     let lines = mesh.lines.len();
     let on_lines = |name: &str| numbers_on(name, &piece.data, &line_cells).unwrap_or_else(|| vec![f64::NAN; lines]);
@@ -161,7 +170,11 @@ fn guarded_pieces(bytes: &[u8]) -> Result<Vec<UnstructuredGridPiece>, VtuFault> 
     if !bytes.windows(7).any(|tag| tag == b"<Points") {
         return Err(VtuFault::Format("it has no points".into()));
     }
-    let pieces = std::panic::catch_unwind(|| parse_pieces(bytes));
+    if bytes.windows(LZMA.len()).any(|part| part == LZMA) {
+        return Err(VtuFault::Format("it is compressed with LZMA; save it with zlib or without compression".into()));
+    }
+    let whole = inlined(bytes)?;
+    let pieces = std::panic::catch_unwind(|| parse_pieces(&whole));
     pieces.unwrap_or_else(|_| Err(VtuFault::Format("the XML is not complete".into())))
 }
 
@@ -182,6 +195,7 @@ impl VtuMesh {
         let points = self.points.len();
         self.points.extend(other.points);
         self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|point| point + points)));
+        self.polygons.extend(other.polygons.iter().map(|face| face.iter().map(|point| point + points).collect()));
         self.lines.extend(other.lines.iter().map(|ends| ends.map(|point| point + points)));
         self.fold_angle = both(self.fold_angle, other.fold_angle);
         self.letters = both(self.letters, other.letters);
@@ -206,6 +220,7 @@ impl VtuMesh {
                     self.lines.push(self.points_of(cell, used)?);
                     line_cells.push(cell);
                 }
+                CellType::Quad | CellType::Polygon => self.polygons.push(checked(cell, used, self.points.len())?),
                 other => return Err(VtuFault::CellKind { cell, kind: format!("{other:?}") }),
             }
         }
@@ -215,11 +230,16 @@ impl VtuMesh {
     fn points_of<const N: usize>(&self, cell: usize, used: &[u64]) -> Result<[usize; N], VtuFault> {
         let wrong_size = VtuFault::CellSize { cell, found: used.len(), expected: N };
         let used: [u64; N] = used.try_into().map_err(|_| wrong_size)?;
-        let count = self.points.len();
-        match used.iter().find(|&&point| point >= count as u64) {
-            Some(&point) => Err(VtuFault::NoSuchPoint { cell, point, count }),
-            None => Ok(used.map(|point| point as usize)),
-        }
+        let used = checked(cell, &used, self.points.len())?;
+        Ok(std::array::from_fn(|k| used[k]))
+    }
+}
+
+/// Returns the points of a cell as indices, of which there are `count`.
+fn checked(cell: usize, used: &[u64], count: usize) -> Result<Vec<usize>, VtuFault> {
+    match used.iter().find(|&&point| point >= count as u64) {
+        Some(&point) => Err(VtuFault::NoSuchPoint { cell, point, count }),
+        None => Ok(used.iter().map(|&point| point as usize).collect()),
     }
 }
 

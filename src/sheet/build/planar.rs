@@ -52,9 +52,9 @@ fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
 
 /// Returns the faces that `edges` bound, counter-clockwise seen from above.
 ///
-/// Every edge is walked once in both directions, turning as far left as possible; the one walk that runs clockwise is
-/// the outer boundary. Edges must be connected, must not cross, and must separate two faces (or a face from the
-/// outside).
+/// Every edge is walked once in both directions, turning as far left as possible; a walk that runs clockwise is the
+/// outer boundary of a piece. Edges must not cross, must separate two faces (or a face from the outside), and those of
+/// one piece must not lie inside another one.
 ///
 /// # Errors
 /// [`Defect`] that names the edge.
@@ -72,10 +72,33 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
         return Err(Defect::new(MeshPart::Edge(e), problem));
     }
     let (faces, outside): (Vec<_>, Vec<_>) = walks.into_iter().partition(|walk| area(x, walk) > 0.0);
-    match outside.len() {
-        1 => Ok(faces),
-        pieces => Err(Defect::new(MeshPart::Mesh, Problem::Pieces { pieces })),
-    }
+    let Some(inner) = nested(x, &outside) else { return Ok(faces) };
+    let edge = edges.iter().position(|ends| ends.contains(&inner)).unwrap_or_default();
+    Err(Defect::new(MeshPart::Edge(edge), Problem::Nested { edge, ends: drawn.edge_name(edges[edge]) }))
+}
+
+/// Returns a vertex of a closed walk that lies inside another one, of walks that do not cross.
+fn nested(x: &[Vec3], walks: &[Vec<usize>]) -> Option<usize> {
+    let bounds = |walk: &Vec<usize>| {
+        let first = x[walk[0]].xy();
+        walk.iter().fold([first; 2], |[low, high], &v| [low.inf(&x[v].xy()), high.sup(&x[v].xy())])
+    };
+    let boxes: Vec<[Vec2; 2]> = walks.iter().map(bounds).collect();
+    let found = for_pairs_that_meet(&boxes, |p, q| {
+        let inner = [(p, q), (q, p)].into_iter().find(|(inner, outer)| is_inside(x, walks[*inner][0], &walks[*outer]));
+        inner.map_or(ControlFlow::Continue(()), |(inner, _)| ControlFlow::Break(walks[inner][0]))
+    });
+    found.break_value()
+}
+
+/// Whether a ray from vertex `v` along x leaves a closed walk: it crosses its sides an odd number of times.
+fn is_inside(x: &[Vec3], v: usize, walk: &[usize]) -> bool {
+    let at = x[v].xy();
+    let crosses = |&(&a, &b): &(&usize, &usize)| {
+        let [a, b] = [a, b].map(|end| x[end].xy() - at);
+        (a.y > 0.0) != (b.y > 0.0) && (a.x * (b.y - a.y) - a.y * (b.x - a.x)) * (b.y - a.y) > 0.0
+    };
+    walk.iter().zip(walk.iter().cycle().skip(1)).filter(crosses).count() % 2 == 1
 }
 
 /// Returns the neighbours of every vertex, counter-clockwise.
@@ -136,6 +159,7 @@ pub(super) fn area(x: &[Vec3], walk: &[usize]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sheet::error::DrawnEdge;
 
     fn drawn(xy: &[[f64; 2]]) -> Drawing {
         Drawing { coords: xy.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect(), ..Drawing::default() }
@@ -160,13 +184,17 @@ mod tests {
         assert!(!meet(&five.coords, [0, 1], [4, 2]));
     }
 
-    /// Claim: an edge with the outside on both sides bounds no face, and two unconnected parts are not one sheet.
+    /// Claim: an edge with the outside on both sides bounds no face; two parts beside each other are two
+    /// pieces, and one inside the other is refused.
     #[test]
     fn loose_edges_and_islands() {
         let xy = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];
         let loose = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [1, 3]]).unwrap_err();
         assert!(matches!(*loose.problem, Problem::LooseEdge { edge: 3, .. }), "{loose}");
-        let islands = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap_err();
-        assert_eq!(*islands.problem, Problem::Pieces { pieces: 2 });
+        let apart = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap();
+        assert_eq!(apart, [vec![0, 1, 2], vec![3, 4, 5]]);
+        let within = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [1.0, 1.0], [2.0, 1.0], [1.0, 2.0]];
+        let nested = faces_of(&drawn(&within), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap_err();
+        assert_eq!(*nested.problem, Problem::Nested { edge: 3, ends: DrawnEdge(3, 4) });
     }
 }

@@ -1,15 +1,14 @@
 //! Flat crease patterns of FOLD files whose vertices are merged and whose edges are split before faces are found.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde_json::value::RawValue;
 
 use super::edges::Edges;
-use super::keys::Keys;
+use super::frames::Frame;
 use super::locate::Source;
-use super::read::{Rows, read_drawing};
-use super::{frames, record};
+use super::read::{Drawn, Rows};
+use super::record;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::Drawing;
 use crate::sheet::cell::Sheet;
@@ -17,49 +16,64 @@ use crate::sheet::error::SheetError;
 use crate::sheet::pattern::{Cleanup, Line, sheet_of_lines};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::record::FileRecord;
-use crate::sheet::text;
 
 /// Largest difference in z, relative to the extent, of a drawing that counts as flat.
 const FLAT: f64 = 1e-9;
 
+/// Distance, relative to the extent, within which vertices of a file that is read as it is listed are one.
+const ONE_PLACE: f64 = 1e-9;
+
 /// Keys of the sheet that are not kept where vertices and edges get other numbers.
 const LOST: [&str; 3] = ["foldwell:stiffness", "foldwell:bar_stiffness", "foldwell:names"];
 
-/// Reads one frame of the file at `path` as [`parse_cleaned`] does.
-///
-/// # Errors
-/// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse_cleaned`].
-pub fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
-    let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
-    parse_cleaned(&text, &path.display().to_string(), frame, cleanup)
-}
-
-/// Reads one frame of a FOLD text, a flat crease pattern, with its vertices merged and its edges split. The faces are
-/// found from the edges; keys about the file and its frame are kept, with the letters and target angles of the edges.
-///
-/// # Errors
-/// As [`parse_frame`](super::parse_frame); also if the pattern is folded or periodic, or edges that lie on each other
-/// have different letters or angles.
-pub fn parse_cleaned(text: &str, name: &str, frame: Option<usize>, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = Source { name, text };
-    let frame = frames::choose(&source, frame)?;
-    let keys = Keys::new(&frame.values);
-    let (drawn, rows, mut edges) = read_drawing(&source, &keys)?;
+/// Returns the sheet of a flat crease pattern, with its vertices merged and its edges split.
+pub(super) fn sheet(
+    source: &Source,
+    frame: &Frame,
+    (drawn, rows, mut edges): Drawn,
+    cleanup: &Cleanup,
+) -> Result<Sheet, SheetError> {
     if let Some(found) = no_flat_pattern(&drawn) {
         return Err(source.at_start(PatternFault::NotFlat { found }.into()));
     }
-    let (lines, places): (Vec<Line>, Vec<&RawValue>) = lines(&drawn, &edges, &rows).into_iter().unzip();
-    let title = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
-    let mut sheet = sheet_of_lines(&lines, cleanup, title).map_err(|(line, problem)| match line {
+    let (parts, places): (Vec<Part>, Vec<&RawValue>) = parts(&drawn, &edges, &rows).into_iter().unzip();
+    let line = |part: &Part| {
+        let ends = part.ends.map(|v| drawn.coords[v].xy());
+        let Part { letter, angle, auxiliary, .. } = *part;
+        Line { ends, letter, angle, auxiliary, contour: false, at: 0, flipped: false }
+    };
+    let lines: Vec<Line> = parts.iter().map(line).collect();
+    let head = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
+    let mut sheet = sheet_of_lines(&lines, cleanup, &head).map_err(|(line, problem)| match line {
         Some(line) => source.at(places[line], *problem),
         None => source.at_start(*problem),
     })?;
     edges.rebuilt = true;
-    sheet.record = FileRecord { gap: sheet.record.gap, ..record::read_renumbered(&frame, &edges) };
+    sheet.record = FileRecord { redrawing: sheet.record.redrawing, ..record::read_renumbered(frame, &edges) };
     let lost = LOST.into_iter().filter(|key| frame.values.get(key).is_some());
     sheet.record.left_out.extend(lost.map(str::to_owned));
     Ok(sheet)
+}
+
+/// Returns the clean-up of a flat pattern with auxiliary edges that end inside a face, or with cuts of one edge; `None`
+/// if it has none of these.
+pub(super) fn needed((drawn, rows, edges): &Drawn) -> Option<Cleanup> {
+    if edges.ends.is_empty() || no_flat_pattern(drawn).is_some() {
+        return None;
+    }
+    let parts = parts(drawn, edges, rows);
+    let degrees = |counts: fn(&Part) -> bool| {
+        let mut degrees = vec![0; drawn.coords.len()];
+        let counted = parts.iter().filter(|(part, _)| counts(part));
+        counted.flat_map(|(part, _)| part.ends).for_each(|v| degrees[v] += 1);
+        degrees
+    };
+    let (all, open) = (degrees(|_| true), degrees(Part::is_open));
+    let is_loose = |part: &Part| part.auxiliary && part.ends.iter().any(|&v| all[v] == 1);
+    let is_slit = |part: &Part| part.letter == Assignment::Cut && part.ends.iter().all(|&v| open[v] == 1);
+    let extent = drawn.coords.iter().map(|x| (x - drawn.coords[0]).amax()).fold(0.0, f64::max);
+    let needed = parts.iter().any(|(part, _)| is_loose(part) || is_slit(part));
+    needed.then_some(Cleanup { merge: Some(ONE_PLACE * extent), split: false })
 }
 
 /// Returns what a drawing is if it is not a flat crease pattern.
@@ -70,25 +84,38 @@ fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
         Some("this sheet is periodic")
     } else if drawn.folded {
         Some("this frame is a folded form")
-    } else if high.z - low.z > FLAT * (high - low).max() {
+    } else if !(high.z - low.z <= FLAT * (high - low).max()) {
         Some("the vertices of this mesh differ in z")
     } else {
         None
     }
 }
 
-/// Returns the edges of a drawing as lines, each with its place in the text; sides of faces that are not listed have
-/// the letter B or U.
-fn lines<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Line, &'a RawValue)> {
+/// An edge of a drawing.
+struct Part {
+    ends: [usize; 2],
+    letter: Assignment,
+    angle: Option<f64>,
+    auxiliary: bool,
+}
+
+impl Part {
+    /// Whether the sheet ends at the edge, on one side of it or on both.
+    fn is_open(&self) -> bool {
+        matches!(self.letter, Assignment::Cut | Assignment::Boundary)
+    }
+}
+
+/// Returns the edges of a drawing, each with its place in the text; sides of faces that are not listed have the letter
+/// B or U.
+fn parts<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Part, &'a RawValue)> {
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let line = |ends: [usize; 2], letter: Assignment, angle: Option<f64>| {
-        let ends = ends.map(|v| drawn.coords[v].xy());
-        Line { ends, letter, angle, auxiliary: false, place: [1, 1], flipped: false }
-    };
-    let listed = edges.ends.iter().enumerate().map(|(e, ends)| {
-        let letter = edges.assignments.get(e).copied().unwrap_or(Assignment::Unassigned);
+    let listed = edges.ends.iter().enumerate().map(|(e, &ends)| {
+        let given = edges.assignments.get(e).copied();
+        let letter = given.unwrap_or(Assignment::Unassigned);
         let angle = edges.angles.get(e).and_then(|(_, angle)| *angle);
-        (line(*ends, letter, angle), edges.rows[e])
+        let auxiliary = matches!(given, Some(Assignment::Flat | Assignment::Unassigned));
+        (Part { ends, letter, angle, auxiliary }, edges.rows[e])
     });
     let mut sides: BTreeMap<[usize; 2], (usize, usize)> = BTreeMap::new();
     for (f, face) in drawn.faces.iter().enumerate() {
@@ -101,7 +128,7 @@ fn lines<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Line, 
     }
     let others = sides.into_iter().map(|(ends, (face, count))| {
         let letter = if count == 1 { Assignment::Boundary } else { Assignment::Unassigned };
-        (line(ends, letter, None), rows.faces[face])
+        (Part { ends, letter, angle: None, auxiliary: false }, rows.faces[face])
     });
     listed.chain(others).collect()
 }

@@ -6,7 +6,6 @@ use super::keys::Keys;
 use super::locate::Source;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::{Problem, SheetError};
-use crate::sheet::listed::check_ends;
 
 /// The edges of a file; the lists are empty if the file does not have the keys.
 #[derive(Default)]
@@ -30,7 +29,6 @@ pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Re
         edges.rows = source.list(value, || "`edges_vertices`".into(), "a list of edges, [[0, 1], ...]")?;
     }
     edges.ends = edges.rows.iter().enumerate().map(|(e, row)| ends(source, row, e, count)).collect::<Result<_, _>>()?;
-    check_ends(&edges.ends, count).map_err(|(e, problem)| source.at(edges.rows[e], problem))?;
     edges.angles = angles(source, keys, edges.rows.len())?;
     edges.assignments = assignments(source, keys, edges.rows.len())?;
     Ok(edges)

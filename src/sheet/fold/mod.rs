@@ -30,13 +30,13 @@ mod edges;
 mod frames;
 mod keys;
 mod locate;
+mod parse;
 mod read;
 mod record;
 mod stiffness;
 mod write;
 
-pub use clean::{parse_cleaned, read_cleaned};
-pub use read::{parse, parse_frame, read, read_frame};
+pub use parse::{parse, parse_cleaned, parse_frame, read, read_cleaned, read_frame};
 pub(crate) use write::in_degrees;
 pub use write::write;
 

@@ -7,17 +7,17 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::edges::{self, Edges};
+use super::frames::Frame;
 use super::keys::Keys;
 use super::locate::Source;
-use super::{frames, record, stiffness};
+use super::{record, stiffness};
 use crate::math::Vec3;
 use crate::sheet::ScrewLattice;
 use crate::sheet::build::{Drawing, rebuild_faces};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
-use crate::sheet::listed::build_listed;
+use crate::sheet::listed::{build_listed, check_ends};
 use crate::sheet::record::FileRecord;
-use crate::sheet::text;
 
 /// The parts of the mesh as they stand in the text, for the line of messages.
 #[derive(Default)]
@@ -27,63 +27,34 @@ pub(super) struct Rows<'a> {
     holes: Vec<&'a RawValue>,
 }
 
-/// Reads the sheet of the file at `path`.
-///
-/// # Errors
-/// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse`].
-pub fn read(path: &Path) -> Result<Sheet, SheetError> {
-    read_frame(path, None)
-}
+/// What a frame draws, where its parts stand in the text, and its edges.
+pub(super) type Drawn<'a> = (Drawing, Rows<'a>, Edges<'a>);
 
-/// Reads one frame of the file at `path`; see [`parse_frame`].
-///
-/// # Errors
-/// As [`read`]; also if there is no such frame, or its parents lead back to it.
-pub fn read_frame(path: &Path, frame: Option<usize>) -> Result<Sheet, SheetError> {
-    let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
-    parse_frame(&text, &path.display().to_string(), frame)
-}
-
-/// Reads the sheet of a FOLD text. `name` is the name of its file: it appears in messages, and is the title if the
-/// file has none.
-///
-/// # Errors
-/// [`SheetError::Bad`] with line, column, and the vertex, face or edge that is wrong.
-pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
-    parse_frame(text, name, None)
-}
-
-/// Reads one frame of a FOLD text: 0 is the top of the file, and those of `file_frames` are numbered from 1. If no
-/// number is given it is the first frame with a mesh. Keys are inherited as `frame_inherit` and `frame_parent` say.
-///
-/// # Errors
-/// As [`parse`]; also if there is no such frame, or its parents lead back to it.
-pub fn parse_frame(text: &str, name: &str, frame: Option<usize>) -> Result<Sheet, SheetError> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = Source { name, text };
-    let frame = frames::choose(&source, frame)?;
-    let keys = Keys::new(&frame.values);
-    let (mut drawn, mut rows, mut edges) = read_drawing(&source, &keys)?;
+/// Returns the sheet that a frame draws, with the numbers of its vertices and edges.
+pub(super) fn sheet<'a>(
+    source: &Source<'a>,
+    frame: &Frame<'a>,
+    keys: &Keys<'a>,
+    (mut drawn, mut rows, mut edges): Drawn<'a>,
+) -> Result<Sheet, SheetError> {
+    check_ends(&edges.ends, drawn.coords.len()).map_err(|(e, problem)| source.at(edges.rows[e], problem))?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     drawn.fold_angles = edges.fold_angles();
-    read_holes(&source, &keys, &mut drawn, &mut rows)?;
-    drawn.names = read_names(&source, &keys, drawn.coords.len())?;
+    read_holes(source, keys, &mut drawn, &mut rows)?;
+    drawn.names = read_names(source, keys, drawn.coords.len())?;
     edges.rebuilt = keys.faces_vertices.is_none();
-    let locate = |defect| located(&source, &keys, &rows, &edges, defect);
+    let locate = |defect| located(source, keys, &rows, &edges, defect);
     if edges.rebuilt {
         rebuild_faces(&mut drawn, &edges.ends).map_err(locate)?;
     }
     let (mut sheet, identified) = build_listed(&drawn, &edges.ends).map_err(locate)?;
-    sheet.stiffness = stiffness::read(&source, &keys, &edges, &sheet, &identified)?;
-    sheet.record = FileRecord { turned_over: sheet.record.turned_over, ..record::read(&frame, &drawn, &edges) };
+    sheet.stiffness = stiffness::read(source, keys, &edges, &sheet, &identified)?;
+    sheet.record = FileRecord { turned_over: sheet.record.turned_over, ..record::read(frame, &drawn, &edges) };
     Ok(sheet)
 }
 
 /// Reads title, vertices, edges and faces of a frame.
-pub(super) fn read_drawing<'a>(
-    source: &Source<'a>,
-    keys: &Keys<'a>,
-) -> Result<(Drawing, Rows<'a>, Edges<'a>), SheetError> {
+pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Keys<'a>) -> Result<Drawn<'a>, SheetError> {
     let mut rows = Rows::default();
     let mut drawn = head(source, keys)?;
     read_vertices(source, keys, &mut drawn, &mut rows)?;

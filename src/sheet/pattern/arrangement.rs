@@ -1,11 +1,13 @@
 //! The arrangement of segments in the plane: their points and the pieces between them, which meet at common points
 //! only.
 //!
-//! Points within a tolerance of each other are one point, the first of them. Then segments are split at the points that
-//! lie on them, within the tolerance, and where two of them cross, which exact determinants decide; a point on a
-//! segment and near its end is that end. A split moves a segment by up to the tolerance, so that this is repeated until
-//! nothing is left to split. Every repetition makes pieces shorter or points fewer: a part of a piece is longer than
-//! the tolerance and shorter than the piece.
+//! This is iterated snap rounding (D. Halperin, E. Packer, "Iterated snap rounding", Computational Geometry 23, 2002)
+//! with clusters of points in the place of the cells of a grid, so that no line of the grid parts two points that are
+//! close. Points within a tolerance of each other are one cluster, which stands at the first of them. Then segments are
+//! split at the clusters that lie on them, within the tolerance, and where two of them cross, which exact determinants
+//! decide; a point on a segment and near its end is that end. A split moves a segment by up to the tolerance, so that
+//! this is repeated until nothing is left to split. Every repetition makes pieces shorter or points fewer: a part of a
+//! piece is longer than the tolerance and shorter than the piece.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
@@ -27,6 +29,19 @@ const NEAR_END: f64 = std::f64::consts::SQRT_2;
 /// point are a few tolerances apart; a longer chain of near points is a curve drawn in small steps, which would vanish.
 const WIDEST: f64 = 4.0;
 
+/// Most points of an arrangement; ten thousand lines that all cross have a hundred times as many.
+const MOST_POINTS: usize = 500_000;
+
+/// The reason why segments have no arrangement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Disorder {
+    /// The end of the segment of this number belongs to a chain of near points that is too wide for one point, or its
+    /// pieces are still split after all repetitions.
+    Tangled(usize),
+    /// There are more than this number of points.
+    TooMany(usize),
+}
+
 /// A piece of a segment between two points of an arrangement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
@@ -47,31 +62,35 @@ pub(crate) struct Arrangement {
 }
 
 /// Returns the arrangement of `segments`, whose points are merged within the length `tolerance`; without `split` they
-/// are only merged.
+/// are only merged. Adds the number of pairs of pieces that were compared to `compared`.
 ///
 /// # Errors
-/// The number of a segment whose end belongs to a chain of near points that is too wide for one point, or whose pieces
-/// are still split after all repetitions.
-pub(crate) fn arrange(segments: &[[Vec2; 2]], tolerance: f64, split: bool) -> Result<Arrangement, usize> {
-    let mut places = Places { tolerance, points: vec![], merged: vec![], merges: 0, buckets: HashMap::new() };
+/// [`Disorder`] if there are too many points, or points in a chain.
+pub(crate) fn arrange(
+    segments: &[[Vec2; 2]],
+    tolerance: f64,
+    split: bool,
+    compared: &mut usize,
+) -> Result<Arrangement, Disorder> {
+    let mut places =
+        Places { tolerance, points: vec![], merged: vec![], merges: 0, cells: HashMap::new(), before: vec![] };
     let numbered = segments.iter().map(|ends| ends.map(|end| places.number(end)));
     let drawn: Vec<Piece> = numbered.enumerate().map(|(segment, ends)| Piece { ends, segment }).collect();
     let mut pieces = places.distinct(drawn.clone());
     if split {
-        for _ in 0..MOST_ROUNDS {
-            match split_once(&mut places, &pieces) {
-                Some(parts) => pieces = parts,
-                None => break,
+        let mut rounds = 0;
+        while let Some(parts) = split_once(&mut places, &pieces, compared)? {
+            pieces = parts;
+            rounds += 1;
+            if rounds > MOST_ROUNDS {
+                return Err(Disorder::Tangled(pieces.first().map_or(0, |piece| piece.segment)));
             }
-        }
-        if let Some(unsettled) = split_once(&mut places, &pieces) {
-            return Err(unsettled.first().map_or(0, |piece| piece.segment));
         }
     }
     for piece in &drawn {
         for (end, v) in segments[piece.segment].iter().zip(piece.ends) {
             if (places.position(v) - end).norm() > WIDEST * tolerance {
-                return Err(piece.segment);
+                return Err(Disorder::Tangled(piece.segment));
             }
         }
     }
@@ -86,23 +105,34 @@ struct Places {
     merged: Vec<usize>,
     /// Number of merges so far.
     merges: usize,
-    buckets: HashMap<[i64; 2], Vec<usize>>,
+    /// The last point in every cell of a grid, which is two tolerances wide, and for each point the one before it there.
+    cells: HashMap<[i64; 2], usize>,
+    before: Vec<Option<usize>>,
 }
 
 impl Places {
     /// Returns the number of a point at `x`, merged with the points within the tolerance.
     fn number(&mut self, x: Vec2) -> usize {
-        let [i, j] = [x.x, x.y].map(|c| (c / self.tolerance).floor() as i64);
-        let around = (-1..=1).flat_map(|a| (-1..=1).map(move |b| [i.saturating_add(a), j.saturating_add(b)]));
-        let near = around.filter_map(|bucket| self.buckets.get(&bucket)).flatten().copied();
-        let near: Vec<usize> = near.filter(|&v| (self.points[v] - x).norm() <= self.tolerance).collect();
-        if let Some(&same) = near.iter().find(|&&v| self.points[v] == x) {
-            return same;
+        let cell = |c: f64| (c / (2.0 * self.tolerance)).floor() as i64;
+        let mut near: Vec<usize> = Vec::new();
+        for i in cell(x.x - self.tolerance)..=cell(x.x + self.tolerance) {
+            for j in cell(x.y - self.tolerance)..=cell(x.y + self.tolerance) {
+                let mut next = self.cells.get(&[i, j]).copied();
+                while let Some(v) = next {
+                    if self.points[v] == x {
+                        return v;
+                    }
+                    if (self.points[v] - x).norm() <= self.tolerance {
+                        near.push(v);
+                    }
+                    next = self.before[v];
+                }
+            }
         }
         let new = self.points.len();
         self.points.push(x);
         self.merged.push(new);
-        self.buckets.entry([i, j]).or_default().push(new);
+        self.before.push(self.cells.insert([cell(x.x), cell(x.y)], new));
         near.into_iter().for_each(|v| self.merge(v, new));
         new
     }
@@ -142,7 +172,7 @@ fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
 }
 
 /// Returns the parts of the pieces between the points at which they meet; `None` if there is nothing to split or merge.
-fn split_once(places: &mut Places, pieces: &[Piece]) -> Option<Vec<Piece>> {
+fn split_once(places: &mut Places, pieces: &[Piece], compared: &mut usize) -> Result<Option<Vec<Piece>>, Disorder> {
     let mut edges: Vec<[usize; 2]> = Vec::new();
     let mut numbers = HashMap::new();
     let mut number = |ends: [usize; 2]| {
@@ -156,16 +186,21 @@ fn split_once(places: &mut Places, pieces: &[Piece]) -> Option<Vec<Piece>> {
     let ends = edges.iter().map(|ends| ends.map(|v| places.points[v]));
     let boxes: Vec<[Vec2; 2]> = ends.map(|ends| around(ends, places.tolerance)).collect();
     let mut cuts = Cuts { of_edge: vec![Vec::new(); edges.len()], edges, places };
-    let _: ControlFlow<()> = for_pairs_that_meet(&boxes, |p, q| {
+    let stopped = for_pairs_that_meet(&boxes, |p, q| {
         cuts.meet(p, q);
-        ControlFlow::Continue(())
+        *compared += 1;
+        let points = cuts.places.points.len();
+        if points > MOST_POINTS { ControlFlow::Break(Disorder::TooMany(points)) } else { ControlFlow::Continue(()) }
     });
+    if let ControlFlow::Break(disorder) = stopped {
+        return Err(disorder);
+    }
     let Cuts { of_edge, places, .. } = cuts;
     if of_edge.iter().all(Vec::is_empty) && places.merges == merges {
-        return None;
+        return Ok(None);
     }
     let parts = pieces.iter().zip(edge_of).flat_map(|(piece, edge)| parts(places, *piece, &of_edge[edge])).collect();
-    Some(places.distinct(parts))
+    Ok(Some(places.distinct(parts)))
 }
 
 /// The points at which edges are to be split.
@@ -247,7 +282,7 @@ mod tests {
 
     fn arranged(segments: &[[f64; 4]]) -> Arrangement {
         let ends = segments.iter().map(|s| [Vec2::new(s[0], s[1]), Vec2::new(s[2], s[3])]);
-        arrange(&ends.collect::<Vec<_>>(), 1e-6, true).unwrap()
+        arrange(&ends.collect::<Vec<_>>(), 1e-6, true, &mut 0).unwrap()
     }
 
     fn points(found: &Arrangement) -> usize {
@@ -308,6 +343,6 @@ mod tests {
         assert_eq!(ends(&chain), [[0, 1], [0, 3], [0, 5]]);
         let step = |k: usize| Vec2::new(k as f64 * 0.9e-6, 0.0);
         let curve: Vec<[Vec2; 2]> = (0..10).map(|k| [step(k), step(k + 1)]).collect();
-        assert_eq!(arrange(&curve, 1e-6, true).unwrap_err(), 4);
+        assert_eq!(arrange(&curve, 1e-6, true, &mut 0).unwrap_err(), Disorder::Tangled(4));
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Drawing programs change colours a little, so that red is every saturated colour whose hue is within 30 degrees of
 //! pure red, and so for the others; cyan, which only FOLD's joints have, within 10. Black is what has less than a
-//! quarter of full brightness in every channel.
+//! quarter of full brightness in every channel. Grey is what is neither black nor white and has hardly any hue: so
+//! programs draw grids, and lines that are flat or not yet assigned.
 
 use crate::sheet::assignment::Assignment;
 
@@ -21,9 +22,15 @@ const COLOURS: [(Assignment, &str, Option<[f64; 2]>); 7] = [
 /// Brightness of a channel, of 255, below which a colour is black if all channels are.
 const BLACK: u8 = 64;
 
+/// Brightness of a channel, of 255, from which a colour without a hue is white.
+const WHITE: u8 = 240;
+
+/// Difference of the channels of grey, relative to the largest one.
+const HARDLY_ANY_HUE: f64 = 0.15;
+
 /// The colours as messages name them.
-pub(super) const RIGHT: &str =
-    "black (boundary), red (mountain), blue (valley), yellow (facet), magenta (hinge), green (cut) or cyan (joint)";
+pub(super) const RIGHT: &str = "black (boundary), red (mountain), blue (valley), yellow (facet), magenta (hinge), \
+                                green (cut), cyan (joint) or grey (auxiliary)";
 
 /// Returns the colour of a letter.
 pub(super) fn of_letter(letter: Assignment) -> &'static str {
@@ -39,6 +46,12 @@ pub(super) fn letter(rgb: [u8; 3]) -> Option<Assignment> {
     let off = |from: f64| (hue - from + 180.0).rem_euclid(360.0) - 180.0;
     let near = |range: &Option<[f64; 2]>| range.is_some_and(|[from, most]| off(from).abs() < most);
     COLOURS.iter().find(|(.., range)| near(range)).map(|(letter, ..)| *letter)
+}
+
+/// Whether a colour is grey, as auxiliary lines are.
+pub(super) fn is_grey(rgb: [u8; 3]) -> bool {
+    let [most, least] = [rgb.iter().max(), rgb.iter().min()].map(|channel| channel.copied().unwrap_or_default());
+    (BLACK..WHITE).contains(&most) && f64::from(most - least) <= HARDLY_ANY_HUE * f64::from(most)
 }
 
 /// Returns the hue of a colour in degrees; `None` if it is closer to grey than to a pure colour.
@@ -64,7 +77,7 @@ mod tests {
     use super::*;
 
     /// Claim: pure colours and those of Illustrator's default swatches have their letters; white, grey and azure have
-    /// none. Source: CSS Color 3 for names, Illustrator's RGB swatches for the others.
+    /// none, and grey is grey. Source: CSS Color 3 for names, Illustrator's RGB swatches for the others.
     #[test]
     fn colours_and_letters() {
         let pure = [[0, 0, 0], [255, 0, 0], [255, 255, 0], [0, 255, 0], [0, 255, 255], [0, 0, 255], [255, 0, 255]];
@@ -82,8 +95,10 @@ mod tests {
         for (rgb, name) in swatches {
             assert_eq!(letter(rgb).map(Assignment::letter), Some(name), "{rgb:?}");
         }
-        for rgb in [[255; 3], [128; 3], [0x00, 0x71, 0xbc], [0xb0, 0xa0, 0xa0]] {
-            assert_eq!(letter(rgb), None, "{rgb:?}");
+        for (rgb, grey) in
+            [([255; 3], false), ([128; 3], true), ([0x00, 0x71, 0xbc], false), ([0xb0, 0xa0, 0xa0], true)]
+        {
+            assert_eq!((letter(rgb), is_grey(rgb)), (None, grey), "{rgb:?}");
         }
     }
 }

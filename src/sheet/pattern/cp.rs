@@ -1,6 +1,6 @@
 //! `.cp` files of ORIPA and Oriedita: a line of text for each line of the pattern, `type x1 y1 x2 y2`.
 
-use super::line::{Line, Lines, flip};
+use super::line::{Drawn, Line, Lines, flip, offset, place};
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -21,19 +21,24 @@ pub(super) const TYPES: [LineType; 5] = [
 const RIGHT: &str = "1 (boundary), 2 (mountain), 3 (valley), or 0 or 4 (auxiliary)";
 
 /// Returns the line of the pattern with one of these types between two points of the file, whose y points downwards;
-/// `place` is its place in the file, and `right` names the types in messages.
+/// `at` is its place in the file, and `right` names the types in messages.
 pub(super) fn typed(
     found: &str,
     (types, right): (&[LineType], &'static str),
     numbers: [f64; 4],
-    place: [usize; 2],
+    at: usize,
 ) -> Result<Line, PatternFault> {
     let number: Option<i64> = found.parse().ok();
     let known = types.iter().find(|(type_, ..)| Some(*type_) == number);
     let Some(&(_, letter, angle, auxiliary)) = known else { return Err(value(found, "type of a line", right)) };
     let [x1, y1, x2, y2] = numbers;
     let ends = [Vec2::new(x1, flip(y1)), Vec2::new(x2, flip(y2))];
-    Ok(Line { ends, letter, angle, auxiliary, place, flipped: true })
+    Ok(Line { ends, letter, angle, auxiliary, contour: letter == Assignment::Boundary, at, flipped: true })
+}
+
+/// Returns the number that a word says, NaN and infinities included.
+pub(super) fn number(word: &str) -> Result<f64, PatternFault> {
+    word.parse().map_err(|_| value(word, "coordinate", "a number"))
 }
 
 /// Returns the fault of a value that cannot be read.
@@ -43,26 +48,24 @@ pub(super) fn value(found: &str, what: &'static str, right: &'static str) -> Pat
 
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
-    let mut lines = Vec::new();
-    for (k, row) in text.lines().enumerate() {
+    let mut drawn = Drawn::default();
+    for row in text.lines() {
         let words: Vec<&str> = row.split_whitespace().collect();
-        let place = [k + 1, 1 + row.chars().take_while(|c| c.is_whitespace()).count()];
-        let located = |fault: PatternFault| (place, fault.into());
+        let at = offset(text, row.trim_start());
+        let located = |fault: PatternFault| (place(text, at), fault.into());
         match words[..] {
             [] => {}
             [type_, ref numbers @ ..] if numbers.len() == 4 => {
                 let mut ends = [0.0; 4];
                 for (end, word) in ends.iter_mut().zip(numbers) {
-                    let number = word.parse().ok().filter(|number: &f64| number.is_finite());
-                    let fault = || located(value(word, "coordinate", "a finite number"));
-                    *end = number.ok_or_else(fault)?;
+                    *end = number(word).map_err(located)?;
                 }
-                lines.push(typed(type_, (&TYPES, RIGHT), ends, place).map_err(located)?);
+                drawn.push(typed(type_, (&TYPES, RIGHT), ends, at).map_err(located)?);
             }
             _ => {
                 return Err(located(value(row.trim(), "line of a crease pattern", "five numbers, `type x1 y1 x2 y2`")));
             }
         }
     }
-    Ok((lines, String::new()))
+    Ok(drawn)
 }

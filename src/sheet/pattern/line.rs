@@ -4,12 +4,34 @@ use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::Problem;
 use crate::sheet::pattern_fault::{LineName, PatternFault};
+use crate::sheet::redrawing::Redrawing;
 
-/// The lines of a file, and its title if it has one; an error has its line and column.
-pub(super) type Lines = Result<(Vec<Line>, String), Misread>;
+/// The lines of a file, or an error with its line and column.
+pub(super) type Lines = Result<Drawn, Misread>;
+
+/// The lines of a file.
+#[derive(Default)]
+pub(super) struct Drawn {
+    pub lines: Vec<Line>,
+    /// Title of the file; empty if it has none.
+    pub title: String,
+    /// What was done to read the lines.
+    pub redrawing: Redrawing,
+}
 
 /// A problem together with the line and column of the file that have it.
 pub(super) type Misread = ([usize; 2], Box<Problem>);
+
+impl Drawn {
+    /// Adds a line; one without a finite length draws nothing, and is counted.
+    pub fn push(&mut self, line: Line) {
+        if line.ends.iter().flat_map(|end| end.iter()).all(|c| c.is_finite()) {
+            self.lines.push(line);
+        } else {
+            self.redrawing.not_finite += 1;
+        }
+    }
+}
 
 impl From<PatternFault> for Box<Problem> {
     fn from(fault: PatternFault) -> Self {
@@ -28,8 +50,11 @@ pub(crate) struct Line {
     pub angle: Option<f64>,
     /// Whether it is auxiliary: another line on it counts instead, and what separates no faces is left out.
     pub auxiliary: bool,
-    /// Place in the file: line and column, from 1.
-    pub place: [usize; 2],
+    /// Whether it is a contour, which cuts the sheet where it lies between two faces; other boundaries are refused
+    /// there.
+    pub contour: bool,
+    /// Place in the text of the file, in bytes.
+    pub at: usize,
     /// Whether y points downwards in the file.
     pub flipped: bool,
 }
@@ -39,6 +64,18 @@ impl Line {
     pub(super) fn name(&self) -> LineName {
         LineName(self.ends.map(|end| [end.x, if self.flipped { flip(end.y) } else { end.y }]))
     }
+}
+
+/// Returns the place in bytes of a part of a text.
+pub(super) fn offset(text: &str, part: &str) -> usize {
+    (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
+}
+
+/// Returns the line and column, from 1, of a place in a text.
+pub(super) fn place(text: &str, at: usize) -> [usize; 2] {
+    let before = text.get(..at).unwrap_or_default();
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+    [1 + before.matches('\n').count(), 1 + before[line_start..].chars().count()]
 }
 
 /// Returns the coordinate along the other direction of y; zero has no sign.

@@ -1,4 +1,5 @@
-//! Crease patterns drawn as lines: SVG with the colours of Origami Simulator, and the files of ORIPA (`.cp`, `.opx`).
+//! Crease patterns drawn as lines: SVG with the colours of Origami Simulator, the files of ORIPA (`.cp`, `.opx`) and
+//! Oriedita (`.ori`), and DXF.
 //!
 //! | line | `.svg`: colour of the stroke | `.cp`, `.opx`: type | letter | target angle |
 //! |---|---|---|---|---|
@@ -7,14 +8,16 @@
 //! | boundary | black | 1 | `B` | |
 //! | facet, which stays flat | yellow | | `F` | 0 |
 //! | hinge, which is free | magenta | 4 (`.opx`) | `U` | |
-//! | cut | green | | `C` | |
+//! | cut | green | 1, between two faces | `C` | |
 //! | joint of two faces | cyan | | `J` | |
-//! | auxiliary | | 0, 4 (`.cp`) | `F` | 0 |
+//! | auxiliary | grey | 0, 4 (`.cp`) | `F` | 0 |
 //!
-//! Lines are split where they cross and touch, points within 1e-4 of the extent are merged, and lines that lie on each
-//! other are one ([`Cleanup`]); faces are what the lines bound. In these files y points downwards: a point `(x, y)` of
-//! the file is the vertex `(x, -y, 0)`, so that a sheet looks as in the program that drew it, seen from the side of its
-//! face normals. A closed outline of black lines inside the sheet, with faces all round, is a hole.
+//! Lines are split where they cross and touch, points within 1e-4 of the extent, or more where lines end beside each
+//! other otherwise, are merged, and lines that lie on each other are one ([`Cleanup`]); faces are what the lines bound.
+//! In these files but DXF y points downwards: a point `(x, y)` of the file is the vertex `(x, -y, 0)`, so that a sheet
+//! looks as in the program that drew it, seen from the side of its face normals. A closed outline of black lines inside
+//! the sheet, with faces all round, is a hole. What was done is in
+//! [`record.redrawing`](crate::sheet::Redrawing) of the sheet.
 //!
 //! Sources: A. Ghassaei, E. D. Demaine, N. Gershenfeld, "Fast, interactive origami simulation using GPU computation",
 //! Origami 7 (2018), and the files that its program Origami Simulator reads and writes, for the colours and the
@@ -32,12 +35,17 @@
 //! ```
 
 mod arrangement;
+mod auxiliary;
 mod cleanup;
 mod colour;
 mod cp;
+mod dxf;
 mod flat;
 mod line;
+mod mesh;
 mod opx;
+mod ori;
+mod outline;
 mod svg;
 mod svg_shape;
 mod svg_style;
@@ -50,7 +58,9 @@ pub use cleanup::Cleanup;
 pub(crate) use cleanup::sheet as sheet_of_lines;
 pub use flat::NotFlat;
 pub(crate) use line::Line;
-pub use write::{write_cp, write_svg};
+pub use write::{write_cp, write_dxf, write_svg};
+
+use line::Drawn;
 
 use super::build::Drawing;
 use super::cell::Sheet;
@@ -66,6 +76,10 @@ pub enum Format {
     Cp,
     /// The XML file of ORIPA.
     Opx,
+    /// The file of Oriedita.
+    Ori,
+    /// A drawing of a CAD program.
+    Dxf,
 }
 
 impl Format {
@@ -75,6 +89,8 @@ impl Format {
             "svg" => Some(Self::Svg),
             "cp" => Some(Self::Cp),
             "opx" => Some(Self::Opx),
+            "ori" => Some(Self::Ori),
+            "dxf" => Some(Self::Dxf),
             _ => None,
         }
     }
@@ -119,6 +135,8 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         Format::Svg => svg::lines(text),
         Format::Cp => cp::lines(text),
         Format::Opx => opx::lines(text),
+        Format::Ori => ori::lines(text),
+        Format::Dxf => dxf::lines(text),
     };
     let bad = |[line, column]: [usize; 2], problem: Box<Problem>| SheetError::Bad {
         name: name.to_owned(),
@@ -126,11 +144,14 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         column,
         problem,
     };
-    let (lines, mut title) = read.map_err(|(place, problem)| bad(place, problem))?;
+    let Drawn { lines, mut title, redrawing } = read.map_err(|(place, problem)| bad(place, problem))?;
     if title.is_empty() {
         title = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     }
     let head = Drawing { title, ..Drawing::default() };
-    sheet_of_lines(&lines, &Cleanup { split: true, ..*cleanup }, head)
-        .map_err(|(line, problem)| bad(line.map_or([1, 1], |line| lines[line].place), problem))
+    let mut sheet = sheet_of_lines(&lines, &Cleanup { split: true, ..*cleanup }, &head)
+        .map_err(|(line, problem)| bad(line.map_or([1, 1], |line| line::place(text, lines[line].at)), problem))?;
+    let found = &mut sheet.record.redrawing;
+    (found.curves, found.grey, found.not_finite) = (redrawing.curves, redrawing.grey, redrawing.not_finite);
+    Ok(sheet)
 }

@@ -7,10 +7,10 @@
 //!   ...
 //! ```
 
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
-use super::cp::{self, LineType, typed, value};
-use super::line::Lines;
+use super::cp::{self, LineType, typed};
+use super::line::{Drawn, Line, Lines};
 use super::xml;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -30,16 +30,16 @@ pub(super) fn lines(text: &str) -> Lines {
     let document = xml::document(text, "an OPX file")?;
     let objects = document.descendants().filter(|node| node.attribute("class").is_some_and(|c| c.ends_with(LINE)));
     let objects = objects.filter(|node| node.has_tag_name("object"));
-    let lines = objects.map(|object| {
-        let place = xml::place(&document, object);
-        line(&document, object).map_err(|fault| (place, fault.into()))
-    });
     let title = document.descendants().find(|node| node.attribute("property") == Some("title"));
     let title = title.and_then(|node| node.first_element_child()).and_then(|node| node.text()).unwrap_or_default();
-    Ok((lines.collect::<Result<_, _>>()?, title.trim().to_owned()))
+    let mut drawn = Drawn { title: title.trim().to_owned(), ..Drawn::default() };
+    for object in objects {
+        drawn.push(line(object).map_err(|fault| (xml::place(&document, object), fault.into()))?);
+    }
+    Ok(drawn)
 }
 
-fn line(document: &Document, object: Node) -> Result<super::line::Line, PatternFault> {
+fn line(object: Node) -> Result<Line, PatternFault> {
     let given = |name: &str| {
         let property = object.children().find(|node| node.attribute("property") == Some(name))?;
         Some(property.first_element_child().and_then(|node| node.text()).unwrap_or_default().trim())
@@ -47,9 +47,8 @@ fn line(document: &Document, object: Node) -> Result<super::line::Line, PatternF
     let mut numbers = [0.0; 4];
     for (number, name) in numbers.iter_mut().zip(["x0", "y0", "x1", "y1"]) {
         if let Some(word) = given(name) {
-            let finite = word.parse().ok().filter(|number: &f64| number.is_finite());
-            *number = finite.ok_or_else(|| value(word, "coordinate", "a finite number"))?;
+            *number = cp::number(word)?;
         }
     }
-    typed(given("type").unwrap_or("0"), (&TYPES, RIGHT), numbers, xml::place(document, object))
+    typed(given("type").unwrap_or("0"), (&TYPES, RIGHT), numbers, object.range().start)
 }

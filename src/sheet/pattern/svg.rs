@@ -1,16 +1,19 @@
 //! SVG drawings with the colours of Origami Simulator.
 //!
-//! Shapes with a stroke are lines of the pattern: `line`, `polyline`, `polygon`, `rect` and `path`, in groups and
-//! clones (`use`), with their transforms. Lengths are those of the drawing's own coordinates: the size of the page does
-//! not count. What has no stroke, or is not displayed, is ignored, and so are texts and images.
+//! Shapes with a stroke are lines of the pattern: `line`, `polyline`, `polygon`, `rect`, `circle`, `ellipse` and
+//! `path`, in groups and clones (`use`), with their transforms; curves become polylines. Lengths are those of the
+//! drawing's own coordinates: the size of the page does not count. What has no stroke, or is not displayed, is ignored,
+//! and so are texts and images.
 
+use kurbo::Affine;
 use roxmltree::{Document, Node};
 use svgtypes::{Color, Transform};
 
 use super::colour;
 use super::cp::value;
-use super::line::{Line, Lines, Misread, flip};
-use super::svg_shape::{length, segments};
+use super::line::{Drawn, Line, Lines, Misread, flip};
+use super::outline::{self, Outline};
+use super::svg_shape::{length, outline};
 use super::svg_style::{Properties, Rules, Style};
 use super::xml;
 use crate::math::Vec2;
@@ -32,12 +35,16 @@ pub(super) fn lines(text: &str) -> Lines {
         return Err((xml::place(&document, root), fault.into()));
     }
     let title = root.children().find(|node| node.tag_name().name() == "title").and_then(|node| node.text());
-    let mut drawing = Drawing { document: &document, rules: Rules::new(&document), elements: 0, lines: vec![] };
+    let mut drawing =
+        Drawing { document: &document, rules: Rules::new(&document), elements: 0, grey: 0, outlines: vec![] };
     drawing.read(root, &Around::default(), 0)?;
-    if drawing.lines.is_empty() {
+    let mut drawn = Drawn { title: title.unwrap_or_default().trim().to_owned(), ..Drawn::default() };
+    drawn.redrawing.grey = drawing.grey;
+    outline::draw(&drawing.outlines, &mut drawn);
+    if drawn.lines.is_empty() {
         return Err(([1, 1], PatternFault::Empty { right: "draw shapes with a coloured stroke" }.into()));
     }
-    Ok((drawing.lines, title.unwrap_or_default().trim().to_owned()))
+    Ok(drawn)
 }
 
 /// Properties that an element inherits from the elements around it.
@@ -51,14 +58,16 @@ struct Drawing<'d, 'input> {
     document: &'d Document<'input>,
     rules: Rules<'d>,
     elements: usize,
-    lines: Vec<Line>,
+    /// Number of grey shapes.
+    grey: usize,
+    outlines: Vec<Outline>,
 }
 
 impl<'d, 'input> Drawing<'d, 'input> {
     /// Reads an element and those in it.
     fn read(&mut self, node: Node<'d, 'input>, around: &Around, depth: usize) -> Result<(), Misread> {
-        let place = xml::place(self.document, node);
-        let located = |fault: PatternFault| (place, Box::from(fault));
+        let document = self.document;
+        let located = |fault: PatternFault| (xml::place(document, node), Box::from(fault));
         self.elements += 1;
         if depth > DEEPEST || self.elements > MOST_ELEMENTS {
             let right = "there should be at most 1,000,000 of them, clones included, and at most 200 in each other";
@@ -85,7 +94,7 @@ impl<'d, 'input> Drawing<'d, 'input> {
                 let original = self.original(node).map_err(located)?;
                 self.read(original, &here, depth + 1)
             }
-            _ => self.shape(node, &here, place).map_err(located),
+            _ => self.shape(node, &here).map_err(located),
         }
     }
 
@@ -97,21 +106,22 @@ impl<'d, 'input> Drawing<'d, 'input> {
         found.ok_or_else(|| value(named.unwrap_or_default(), "element of this file", "`#` and the `id` of an element"))
     }
 
-    fn shape(&mut self, node: Node, here: &Around, place: [usize; 2]) -> Result<(), PatternFault> {
+    fn shape(&mut self, node: Node, here: &Around) -> Result<(), PatternFault> {
         let Some(colour) = here.style.stroke.filter(|colour| here.style.visible && colour.alpha > 0) else {
             return Ok(());
         };
-        let Some(segments) = segments(node)? else { return Ok(()) };
-        let [red, green, blue] = [colour.red, colour.green, colour.blue];
+        let Some(outline) = outline(node)? else { return Ok(()) };
+        let rgb = [colour.red, colour.green, colour.blue];
+        let [red, green, blue] = rgb;
         let name = || format!("#{red:02x}{green:02x}{blue:02x}");
         let wrong = || value(&name(), "colour of a line", colour::RIGHT);
-        let letter = colour::letter([red, green, blue]).ok_or_else(wrong)?;
+        let auxiliary = colour::is_grey(rgb);
+        self.grey += usize::from(auxiliary);
+        let letter = colour::letter(rgb).or(auxiliary.then_some(Assignment::Flat)).ok_or_else(wrong)?;
         let angle = angle(letter, here.style.opacity * here.style.stroke_opacity, colour);
-        let line = |ends: [Vec2; 2]| {
-            let ends = ends.map(|end| here.placed(end));
-            Line { ends, letter, angle, auxiliary: false, place, flipped: true }
-        };
-        self.lines.extend(segments.into_iter().map(line));
+        let ends = [Vec2::zeros(); 2];
+        let line = Line { ends, letter, angle, auxiliary, contour: false, at: node.range().start, flipped: true };
+        self.outlines.push((here.placed() * outline, line));
         Ok(())
     }
 }
@@ -147,10 +157,10 @@ impl Around {
         Ok(())
     }
 
-    /// Returns a point of an element as a point of the sheet, whose y points upwards.
-    fn placed(&self, x: Vec2) -> Vec2 {
+    /// Returns the transform from an element to the sheet, whose y points upwards.
+    fn placed(&self) -> Affine {
         let Transform { a, b, c, d, e, f } = self.transform;
-        Vec2::new(a * x.x + c * x.y + e, flip(b * x.x + d * x.y + f))
+        Affine::new([a, flip(b), c, flip(d), e, flip(f)])
     }
 }
 

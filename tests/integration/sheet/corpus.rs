@@ -10,11 +10,12 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 /// A crease pattern: lines from point to point with their letters, y upwards.
-struct Creases {
-    name: String,
+#[derive(Clone)]
+pub(super) struct Creases {
+    pub name: String,
     /// Numbers of vertices and edges that it has once its lines are split.
-    counts: [usize; 2],
-    lines: Vec<([[f64; 2]; 2], char)>,
+    pub counts: [usize; 2],
+    pub lines: Vec<([[f64; 2]; 2], char)>,
 }
 
 impl Creases {
@@ -30,7 +31,7 @@ impl Creases {
     }
 
     /// Returns the pattern scaled and moved so that a square drawing fills `[low, low + size]` in both directions.
-    fn placed(&self, low: f64, size: f64) -> Vec<([[f64; 2]; 2], char)> {
+    pub fn placed(&self, low: f64, size: f64) -> Vec<([[f64; 2]; 2], char)> {
         let ends = || self.lines.iter().flat_map(|(ends, _)| *ends);
         let least = |k: usize| ends().map(|end| end[k]).fold(f64::INFINITY, f64::min);
         let most = |k: usize| ends().map(|end| end[k]).fold(f64::NEG_INFINITY, f64::max);
@@ -107,7 +108,7 @@ fn of_file(name: &str, text: &str, counts: [usize; 2]) -> Creases {
 const EAR: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// All patterns, with the numbers of their vertices and edges, counted by hand or by formula.
-fn patterns() -> Vec<Creases> {
+pub(super) fn patterns() -> Vec<Creases> {
     let cross = [(0., 0., 1., 1., 'V'), (0., 1., 1., 0., 'V'), (0., 0.5, 1., 0.5, 'M')];
     let preliminary = [(0., 0.5, 1., 0.5, 'V'), (0.5, 0., 0.5, 1., 'V'), (0., 0., 1., 1., 'M')];
     let (near, far) = (EAR, 1.0 - EAR);
@@ -158,19 +159,19 @@ impl File {
 }
 
 /// ORIPA's `.cp`: types and coordinates from -200 to 200, y downwards, lines ended as on Windows.
-fn cp(creases: &Creases) -> String {
+pub(super) fn cp(creases: &Creases) -> String {
     let line = |([[x1, y1], [x2, y2]], letter): ([[f64; 2]; 2], char)| {
         format!("{} {x1} {} {x2} {}\r\n", number(letter), -y1, -y2)
     };
     creases.placed(-200.0, 400.0).into_iter().map(line).collect()
 }
 
-fn number(letter: char) -> usize {
+pub(super) fn number(letter: char) -> usize {
     " BMV".find(letter).unwrap_or(0)
 }
 
 /// ORIPA's `.opx`: the same as Java beans; properties that are 0 are left out.
-fn opx(creases: &Creases) -> String {
+pub(super) fn opx(creases: &Creases) -> String {
     let property = |name: &str, value: f64| match value {
         0.0 => String::new(),
         _ => format!("     <void property=\"{name}\">\n      <double>{value:?}</double>\n     </void>\n"),
@@ -196,7 +197,7 @@ fn opx(creases: &Creases) -> String {
 }
 
 /// Illustrator: classes of a style sheet, its own red and blue, an entity, two decimals.
-fn illustrator(creases: &Creases) -> String {
+pub(super) fn illustrator(creases: &Creases) -> String {
     let line = |([[x1, y1], [x2, y2]], letter): ([[f64; 2]; 2], char)| {
         let class = " BMV".find(letter).unwrap() - 1;
         let [y1, y2] = [y1, y2].map(|y| 200.0 - y);
@@ -214,7 +215,7 @@ fn illustrator(creases: &Creases) -> String {
 }
 
 /// Inkscape: relative paths with `style`, layers with transforms, and elements of its own.
-fn inkscape(creases: &Creases) -> String {
+pub(super) fn inkscape(creases: &Creases) -> String {
     let line = |([[x1, y1], [x2, y2]], letter): ([[f64; 2]; 2], char)| {
         let colour = ["#000000", "#ff0000", "#0000ff"][" BMV".find(letter).unwrap() - 1];
         format!(
@@ -235,7 +236,7 @@ fn inkscape(creases: &Creases) -> String {
 }
 
 /// Origami Simulator's example patterns: plain lines with named colours, folds of 90 degrees by opacity.
-fn simulator_svg(creases: &Creases) -> String {
+pub(super) fn simulator_svg(creases: &Creases) -> String {
     let line = |([[x1, y1], [x2, y2]], letter): ([[f64; 2]; 2], char)| {
         let stroke = ["black", "rgb(255, 0, 0)\" opacity=\"0.5", "#00F\" stroke-opacity=\"50%"];
         let stroke = stroke[" BMV".find(letter).unwrap() - 1];
@@ -346,7 +347,7 @@ fn every_dialect_is_read() {
 }
 
 /// Relaxes a pattern to a fifth of its targets, with faces that do not bend and stiff bars.
-fn folded(sheet: Sheet) -> Result<Relaxed, Box<RelaxError>> {
+pub(super) fn folded(sheet: Sheet) -> Result<Relaxed, Box<RelaxError>> {
     relax(&Assembly::patch(sheet, [1, 1]).bars(1e4).creases(1.0).rest(Rest::Target(0.2)).build().unwrap())
 }
 
@@ -391,7 +392,7 @@ fn other_drawings_are_refused_by_name() {
         (Svg, "{}".into(), ":1:1: not an SVG file: "),
         (Svg, "<html/>".into(), ":1:1: `html` is no outermost element of an SVG file"),
         (Svg, svg(""), ":1:1: there is no line to fold along; draw shapes with a coloured stroke"),
-        (Svg, svg("<line x2=\"5\" stroke=\"#777\"/>"), ":2:1: `#777777` is no colour of a line; it should be black"),
+        (Svg, svg("<line x2=\"5\" stroke=\"#07b\"/>"), ":2:1: `#0077bb` is no colour of a line; it should be black"),
         (Svg, svg("<line x2=\"5\" stroke=\"rouge\"/>"), ":2:1: `rouge` is no colour of a stroke"),
         (Svg, svg("<line x2=\"5\" stroke=\"red\" opacity=\"half\"/>"), ":2:1: `half` is no opacity"),
         (Svg, svg("<line x2=\"5%\" stroke=\"red\"/>"), ":2:1: `5%` is no length"),
@@ -403,8 +404,16 @@ fn other_drawings_are_refused_by_name() {
         (Svg, svg("<line x2=\"5\" stroke=\"red\" transform=\"turn(3)\"/>"), ":2:1: `turn(3)` is no transform"),
         (Svg, svg("<polygon points=\"0,0 1,0 1\" stroke=\"red\"/>"), ":2:1: `0,0 1,0 1` is no list of points"),
         (Svg, svg("<path d=\"M 0 0 L x\" stroke=\"red\"/>"), ":2:1: `M 0 0 L x` is no path"),
-        (Svg, svg("<path d=\"M 0 0 C 1 1 2 2 3 0\" stroke=\"red\"/>"), ":2:1: a curve (`path`) in a crease pattern"),
-        (Svg, svg("<circle r=\"3\" stroke=\"blue\"/>"), ":2:1: a curve (`circle`)"),
+        (
+            Svg,
+            svg("<path d=\"M 0 0 L 9 0\" stroke=\"red\"/>"),
+            ":2:1: the line from (0, 0) to (9, 0) bounds no face, and",
+        ),
+        (
+            Svg,
+            svg("<rect width=\"9\" height=\"9\" rx=\"1\" ry=\"2\" stroke=\"blue\"/>"),
+            ":2:1: a rect with elliptic corners",
+        ),
         (Svg, svg("<use href=\"#there\"/>"), ":2:1: `#there` is no element of this file"),
         (Svg, deep, "too many elements in a crease pattern"),
         (Svg, many, "too many elements in a crease pattern"),
@@ -418,7 +427,7 @@ fn other_drawings_are_refused_by_name() {
         (
             Svg,
             on_square("<rect x=\"3\" y=\"3\" width=\"2\" height=\"2\" stroke=\"red\"/>"),
-            "the lines fall into 2 pieces",
+            "belongs to an outline inside a face that does not touch the other lines",
         ),
         (
             Svg,
@@ -442,7 +451,7 @@ fn other_files_are_refused_by_name() {
             ":4:2: `7` is no type of a line; it should be 1 (boundary), 2 (mountain)",
         ),
         (Cp, format!("{triangle}2 0 0 1"), ":4:1: `2 0 0 1` is no line of a crease pattern"),
-        (Cp, format!("{triangle}2 0 0 1 nan"), ":4:1: `nan` is no coordinate"),
+        (Cp, format!("{triangle}2 0 0 1 one"), ":4:1: `one` is no coordinate"),
         (Opx, "<java/>".into(), ":1:1: there is no line to fold along"),
         (
             Opx,
@@ -492,7 +501,8 @@ fn fold_files_are_merged_and_split() {
     refused(text, 0.0, true, "the distance should be above 0");
     refused(text, f64::NAN, true, "the distance should be above 0");
     refused(text, 1.0, true, "below a tenth of the extent, 2");
-    refused(&text.replace("[1,6]", "[1,2]"), 1e-3, true, "edge 6 of the list is edge 1 again");
+    let doubled = clean(&text.replace("[1,6]", "[1,2]"), Some(1e-3), true).unwrap();
+    assert_eq!(doubled.polygons.len(), 4);
     refused(
         &text.replace("[5,3]", "[0,2]"),
         1e-3,
@@ -596,7 +606,9 @@ fn all_colours_are_written_as_they_are_read() {
         assert_eq!(drawn.matches(&format!("\"{colour}\"")).count(), 1, "{colour}");
     }
     assert_eq!(pattern::parse(&drawn, "a", Format::Svg).unwrap(), sheet);
-    assert_eq!(pattern::write_cp(&sheet).unwrap().1, 3);
+    assert_eq!(pattern::write_cp(&sheet).unwrap().1, 2);
+    let dxf = pattern::write_dxf(&sheet).unwrap();
+    assert_eq!(pattern::parse(&dxf, "a", Format::Dxf).unwrap().edges, sheet.edges);
     for name in ["miura", "miura-patch"] {
         let folded = generate(&Pattern::named(name).unwrap()).unwrap();
         assert!(pattern::write_svg(&folded).is_err() && pattern::write_cp(&folded).is_err());
@@ -620,9 +632,9 @@ fn the_program_reads_patterns() {
     for (words, part) in [
         ("convert b.fold d.fold", "cross or touch"),
         ("info a.svg --frame 1", "this file has no frames"),
-        ("convert a.stl d.fold", "expected one of .fold, .obj, .vtu, .svg, .cp or .opx"),
+        ("convert a.gif d.fold", "expected one of .fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori or .dxf"),
         ("convert a.fold d.vtu --split --frame 3", "there is no frame 3"),
-        ("convert a.stl d.fold --split", "expected one of .fold, .svg, .cp or .opx"),
+        ("convert a.stl d.fold --split", "expected one of .fold, .svg, .cp, .opx, .ori or .dxf"),
     ] {
         folder.foldwell(words).refused(part);
     }

@@ -2,7 +2,7 @@
 //! and the names of files that are written.
 
 use crate::common::{Folder, Numbers, Scene, mesh_folder};
-use foldwell::sheet::pattern::{self, Format};
+use foldwell::sheet::pattern::{self, Cleanup, Format};
 use foldwell::sheet::{Assignment, Info, Sheet};
 use std::fmt::Write;
 use std::fs;
@@ -56,7 +56,7 @@ fn careless_drawings_are_read_or_refused() {
         for seed in 0..20 {
             match read(&careless(error * MERGED, seed)) {
                 Ok(sheet) if sheet.vertices.len() == 25 => right += 1,
-                Ok(sheet) => assert!(sheet.record.gap.is_some(), "{error}, {seed}: {}", sheet.vertices.len()),
+                Ok(sheet) => assert!(sheet.record.redrawing.gap.is_some(), "{error}, {seed}: {}", sheet.vertices.len()),
                 Err(said) => {
                     let named = ["there is a gap of", "a chain of points", "has the same face", "do not touch"];
                     assert!(named.iter().any(|part| said.contains(part)), "{error}, {seed}: {said}");
@@ -79,19 +79,29 @@ fn lines_that_nearly_meet() {
     let sheet = read(&format!("{square}{three}")).unwrap();
     assert_eq!((sheet.vertices.len(), sheet.polygons.len()), (11, 6));
     let corner = read(&format!("{square}2 0.046 0 400 400\n")).unwrap();
-    assert_eq!((corner.vertices.len(), corner.polygons.len(), corner.record.gap), (4, 2, None));
-    let close = read(&format!("{square}2 0.1 0 400 400\n")).unwrap();
+    assert_eq!((corner.vertices.len(), corner.polygons.len(), corner.record.redrawing.gap), (4, 2, None));
+    let within = |text: String| {
+        let cleanup = Cleanup { merge: Some(0.04), split: true };
+        pattern::parse_cleaned(&text, "a", Format::Cp, &cleanup).map_err(|error| error.to_string())
+    };
+    let close = within(format!("{square}2 0.1 0 400 400\n")).unwrap();
     assert_eq!(close.vertices.len(), 5);
-    let [distance, merged] = close.record.gap.unwrap();
-    assert!((distance - 0.1).abs() < 1e-12 && (merged - 0.04).abs() < 1e-15, "{distance} {merged}");
-    assert!(
-        Info::new(&close).to_string().contains("two vertices are 1.000e-1 apart, and points are merged up to 4.000e-2")
-    );
-    let apart = read(&format!("{square}2 0 0 200 200.03\n3 199.97 199.97 400 400\n")).unwrap_err();
-    let gap = "there is a gap of 6.708e-2 from (200, 200.03) to (199.97, 199.97), and points are merged up to 4.000e-2";
+    let gap = close.record.redrawing.gap.unwrap();
+    assert!((gap.distance - 0.1).abs() < 1e-12 && gap.merged == 0.04, "{gap:?}");
+    let said = "two vertices are 1.000e-1 apart, from (0, 0) to (0.1, 0), and points are merged up to 4.000e-2";
+    assert!(Info::new(&close).to_string().contains(said), "{}", Info::new(&close));
+    let cured = read(&format!("{square}2 0.1 0 400 400\n")).unwrap();
+    assert_eq!((cured.vertices.len(), cured.record.redrawing.gap), (4, None));
+    let [merged, first] = cured.record.redrawing.enlarged.unwrap();
+    assert!((merged - 0.135).abs() < 1e-12 && (first - 0.04).abs() < 1e-15, "{merged} {first}");
+    let apart = format!("{square}2 0 0 200 200.03\n3 199.97 199.97 400 400\n");
+    assert_eq!(read(&apart).unwrap().vertices.len(), 5);
+    let apart = within(apart).unwrap_err();
+    let gap = "there is a gap of 6.708e-2 from (200, 200.03) to (199.97, 199.97), and points are merged up to 4.000e-2; draw \
+               one point, or merge within 9.00e-2";
     assert!(apart.contains(gap), "{apart}");
     let steps = (0..20).map(|k| format!("2 {:?} 100 {:?} 100\n", 0.03 * k as f64, 0.03 * (k + 1) as f64));
-    let chain = read(&format!("{square}{}", steps.collect::<String>())).unwrap_err();
+    let chain = within(format!("{square}{}", steps.collect::<String>())).unwrap_err();
     assert!(chain.contains("meets a chain of points of which each is within 4.000e-2 of the next"), "{chain}");
 }
 
@@ -140,6 +150,73 @@ fn vtu(pieces: usize) -> String {
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\
          <UnstructuredGrid>{pieces}</UnstructuredGrid></VTKFile>"
     )
+}
+
+/// Returns a VTU file of a quadrangle, a pentagon above it and a line, with its arrays as raw bytes behind it, each after
+/// its length, as ParaView saves them.
+fn raw_vtu(length: impl Fn(usize) -> Vec<u8>, header: &str) -> Vec<u8> {
+    let (mut data, mut offsets) = (Vec::new(), Vec::new());
+    let mut push = |bytes: Vec<u8>| {
+        offsets.push(data.len());
+        data.extend(length(bytes.len()));
+        data.extend(bytes);
+    };
+    let points = [[0, 0], [2, 0], [2, 1], [0, 1], [2, 2], [1, 3], [0, 2]];
+    push(points.iter().flat_map(|[x, y]| [*x, *y, 0]).flat_map(|x| (x as f32).to_le_bytes()).collect());
+    push([0, 1, 2, 3, 3, 2, 4, 5, 6, 2, 3].iter().flat_map(|v: &i64| v.to_le_bytes()).collect());
+    push([4, 9, 11].iter().flat_map(|v: &i64| v.to_le_bytes()).collect());
+    push(vec![9, 7, 3]);
+    let array = |k: usize, kind: &str, name: &str, inner: &str| {
+        let end = if inner.is_empty() { "/>".into() } else { format!(">{inner}</DataArray>") };
+        format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=\"appended\" offset=\"{}\" {end}", offsets[k])
+    };
+    let inner = "<InformationKey name=\"a\" location=\"b\" length=\"1\"><Value index=\"0\">0</Value></InformationKey>";
+    let points = array(0, "Float32", "Points", inner).replace(" format", " NumberOfComponents=\"3\" format");
+    let mut file = format!(
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"{header}><UnstructuredGrid>\
+         <Piece NumberOfPoints=\"7\" NumberOfCells=\"3\"><Points>{points}</Points><Cells>{}{}{}</Cells></Piece>\
+         </UnstructuredGrid><AppendedData encoding=\"raw\">\n_",
+        array(1, "Int64", "connectivity", ""),
+        array(2, "Int64", "offsets", ""),
+        array(3, "UInt8", "types", ""),
+    )
+    .into_bytes();
+    file.extend(data);
+    file.extend(b"</AppendedData></VTKFile>");
+    file
+}
+
+/// Claim: quadrangles and polygons are faces that are split by facets, and arrays of raw bytes are read whether their
+/// lengths have four bytes or eight; a file that is cut off is refused. Source: counted by hand.
+#[test]
+fn vtu_files_of_raw_arrays_and_polygons() {
+    let long = raw_vtu(|n| (n as u64).to_le_bytes().to_vec(), " header_type=\"UInt64\"");
+    let short = raw_vtu(|n| (n as u32).to_le_bytes().to_vec(), "");
+    let here = &Folder::new().with("cut.vtu", &long[..long.len() - 60]);
+    for file in [long, short] {
+        here.write("a.vtu", file);
+        let info = here.foldwell("info a.vtu --json").well().json();
+        let counts = ["vertices", "polygons", "creases", "facets"].map(|key| info[key].as_u64().unwrap());
+        assert_eq!(counts, [7, 2, 1, 3]);
+    }
+    here.foldwell("info cut.vtu").refused("an array is beyond its end");
+}
+
+/// Claim: a sheet goes to PLY and GLB, and to STL and back with its vertices and triangles, whatever its title says.
+/// Source: counts.
+#[test]
+fn faces_go_to_programs_that_show_and_print_them() {
+    let fold = r#"{"file_title": "endsolid vertex 2", "vertices_coords": [[0,0],[2,0],[2,1],[0,1],[1,0],[1,1]],
+        "faces_vertices": [[0,4,5,3],[4,1,2,5]]}"#;
+    let here = &Folder::new().with("a.fold", fold);
+    for to in ["a.ply", "a.glb", "a.stl", "a.dxf"] {
+        here.foldwell(&format!("convert a.fold {to}")).well();
+    }
+    assert!(here.bytes("a.glb").starts_with(b"glTF") && here.text("a.ply").contains("element face 2\n"));
+    assert!(!here.text("a.stl").contains("vertex 2\n"));
+    let info = here.foldwell("info a.stl --json").well().json();
+    assert_eq!([&info["vertices"], &info["faces"]], [6, 4]);
+    assert_eq!(here.foldwell("info a.dxf --json").well().json()["polygons"], 2);
 }
 
 /// Claim: all pieces of a VTU file are read, as in VTK; a pipe is refused and not waited for, also as a start. Source:

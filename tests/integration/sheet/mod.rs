@@ -2,6 +2,7 @@
 
 mod assignments;
 mod bad_meshes;
+mod careless_drawings;
 mod corpus;
 mod flattening;
 mod frames;

@@ -1,0 +1,276 @@
+//! DXF drawings of CAD programs and laser cutters: lines, polylines, arcs and circles as text.
+//!
+//! A layer whose name says what its lines are gives their letters, as the layers `MountainLine`, `ValleyLine`,
+//! `CutLine` and `AuxiliaryLine` of ORIPA and Oriedita do; other layers have the letters of their colours, which are
+//! those of SVG drawings. A contour is a boundary where one face is, and a cut between two faces. y points upwards.
+//!
+//! The file is pairs of lines, a number that says what follows and a value (Autodesk, "DXF Reference", 2012).
+
+use std::collections::HashMap;
+
+use kurbo::{Arc, BezPath, Circle, Point, Shape, Vec2};
+
+use super::colour;
+use super::cp::{number, value};
+use super::line::{Drawn, Line, Lines, Misread, offset, place};
+use super::outline::{self, Outline};
+use crate::sheet::assignment::Assignment;
+use crate::sheet::pattern_fault::PatternFault;
+
+/// Parts of names of layers in small letters, and what the lines of such a layer are; `None` for auxiliary lines. The
+/// first part that is found counts.
+const LAYERS: [(&str, Option<Assignment>); 14] = [
+    ("mountain", Some(Assignment::Mountain)),
+    ("valley", Some(Assignment::Valley)),
+    ("auxiliary", None),
+    ("construction", None),
+    ("facet", Some(Assignment::Flat)),
+    ("flat", Some(Assignment::Flat)),
+    ("hinge", Some(Assignment::Unassigned)),
+    ("unassigned", Some(Assignment::Unassigned)),
+    ("joint", Some(Assignment::Join)),
+    ("cut", Some(Assignment::Boundary)),
+    ("border", Some(Assignment::Boundary)),
+    ("boundary", Some(Assignment::Boundary)),
+    ("contour", Some(Assignment::Boundary)),
+    ("outline", Some(Assignment::Boundary)),
+];
+
+/// Entities that draw nothing to fold along.
+const IGNORED: [&str; 9] = ["ATTDEF", "ATTRIB", "DIMENSION", "HATCH", "LEADER", "MTEXT", "POINT", "TEXT", "VIEWPORT"];
+
+/// Numbers of the parts of an entity, as the DXF reference gives them.
+const LAYER: i32 = 8;
+const COLOUR: i32 = 62;
+const TRUE_COLOUR: i32 = 420;
+const FLAGS: i32 = 70;
+const BULGE: i32 = 42;
+const RADIUS: i32 = 40;
+const ANGLES: [i32; 2] = [50, 51];
+const FIRST: [i32; 2] = [10, 20];
+const SECOND: [i32; 2] = [11, 21];
+
+/// Largest distance of the cubic curves of an arc from it, relative to its radius.
+const ROUND: f64 = 1e-6;
+
+/// An entity or another thing that begins with the number 0: its name, the place of the name, and its parts.
+struct Entity<'t> {
+    name: &'t str,
+    at: usize,
+    parts: Vec<(i32, &'t str)>,
+}
+
+/// Reads the lines of a text.
+pub(super) fn lines(text: &str) -> Lines {
+    let entities = entities(text)?;
+    let mut colours: HashMap<String, &str> = HashMap::new();
+    let mut outlines: Vec<Outline> = Vec::new();
+    let mut grey = 0;
+    let (mut section, mut open) = ("", None);
+    for entity in &entities {
+        let located = |fault: PatternFault| (place(text, entity.at), fault.into());
+        match (entity.name, section) {
+            ("SECTION", _) => section = entity.first(2).unwrap_or_default(),
+            ("ENDSEC", _) => section = "",
+            ("LAYER", "TABLES") => {
+                let name = entity.first(2).unwrap_or_default().to_lowercase();
+                colours.extend(entity.first(COLOUR).map(|colour| (name, colour)));
+            }
+            ("VERTEX", "ENTITIES") => {
+                let corner = entity.corners().map_err(located)?;
+                open.iter_mut().for_each(|polyline: &mut Polyline| polyline.corners.extend(corner.iter()));
+            }
+            ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(|p: Polyline| (p.path(), p.line))),
+            (name, "ENTITIES") if !IGNORED.contains(&name) => {
+                let (line, is_grey) = entity.meaning(&colours).map_err(located)?;
+                grey += usize::from(is_grey);
+                if name == "POLYLINE" {
+                    open = Some(Polyline { corners: vec![], closed: entity.is_closed(), line });
+                } else {
+                    outlines.push((entity.outline().map_err(located)?, line));
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut drawn = Drawn::default();
+    drawn.redrawing.grey = grey;
+    outline::draw(&outlines, &mut drawn);
+    Ok(drawn)
+}
+
+/// A polyline whose corners follow as entities of their own.
+struct Polyline {
+    corners: Vec<(Point, f64)>,
+    closed: bool,
+    line: Line,
+}
+
+impl Polyline {
+    fn path(&self) -> BezPath {
+        polyline(&self.corners, self.closed)
+    }
+}
+
+/// Returns the entities of a text.
+fn entities(text: &str) -> Result<Vec<Entity<'_>>, Misread> {
+    let syntax = |line: usize, message: &str| {
+        ([line, 1], PatternFault::Syntax { format: "a DXF file of text", message: message.into() }.into())
+    };
+    if text.starts_with("AutoCAD Binary DXF") {
+        return Err(syntax(1, "it is a binary one; save it as text (ASCII)"));
+    }
+    let mut entities: Vec<Entity> = Vec::new();
+    let mut rows = text.lines().enumerate();
+    while let Some((row, code)) = rows.next() {
+        if code.trim().is_empty() && rows.clone().all(|(_, rest)| rest.trim().is_empty()) {
+            break;
+        }
+        let Ok(code) = code.trim().parse() else {
+            return Err(syntax(row + 1, "every second line should be a whole number, from the first on"));
+        };
+        let Some((_, part)) = rows.next() else { return Err(syntax(row + 1, "its last value is missing")) };
+        let part = part.trim();
+        match (code, entities.last_mut()) {
+            (0, _) => entities.push(Entity { name: part, at: offset(text, part), parts: vec![] }),
+            (_, Some(entity)) => entity.parts.push((code, part)),
+            (_, None) => {}
+        }
+    }
+    Ok(entities)
+}
+
+impl<'t> Entity<'t> {
+    /// Returns the first part of this number.
+    fn first(&self, code: i32) -> Option<&'t str> {
+        self.parts.iter().find(|(known, _)| *known == code).map(|(_, part)| *part)
+    }
+
+    fn number(&self, code: i32) -> Result<f64, PatternFault> {
+        self.first(code).map_or(Ok(0.0), number)
+    }
+
+    fn point(&self, [x, y]: [i32; 2]) -> Result<Point, PatternFault> {
+        Ok(Point::new(self.number(x)?, self.number(y)?))
+    }
+
+    fn is_closed(&self) -> bool {
+        self.first(FLAGS).and_then(|flags| flags.parse::<u32>().ok()).is_some_and(|flags| flags & 1 == 1)
+    }
+
+    /// Returns the corners of a polyline, each with the bulge of the side that begins there: the tangent of a quarter
+    /// of the angle of its arc, 0 for a straight side.
+    fn corners(&self) -> Result<Vec<(Point, f64)>, PatternFault> {
+        let mut corners: Vec<(Point, f64)> = Vec::new();
+        for (code, part) in &self.parts {
+            match (*code, corners.last_mut()) {
+                (10, _) => corners.push((Point::new(number(part)?, 0.0), 0.0)),
+                (20, Some(corner)) => corner.0.y = number(part)?,
+                (BULGE, Some(corner)) => corner.1 = number(part)?,
+                _ => {}
+            }
+        }
+        Ok(corners)
+    }
+
+    fn outline(&self) -> Result<BezPath, PatternFault> {
+        match self.name {
+            "LINE" => Ok(polyline(&[(self.point(FIRST)?, 0.0), (self.point(SECOND)?, 0.0)], false)),
+            "LWPOLYLINE" => Ok(polyline(&self.corners()?, self.is_closed())),
+            "CIRCLE" => {
+                let radius = self.number(RADIUS)?;
+                Ok(Circle::new(self.point(FIRST)?, radius).to_path(ROUND * radius.abs()))
+            }
+            "ARC" => {
+                let (radius, [from, to]) = (self.number(RADIUS)?, [self.number(ANGLES[0])?, self.number(ANGLES[1])?]);
+                let sweep = (to - from).rem_euclid(360.0).to_radians();
+                let arc = Arc::new(self.point(FIRST)?, (radius, radius), from.to_radians(), sweep, 0.0);
+                Ok(arc.to_path(ROUND * radius.abs()))
+            }
+            name => {
+                let right = "LINE, LWPOLYLINE, POLYLINE, ARC and CIRCLE are read; explode blocks and splines to these";
+                Err(PatternFault::Element { element: format!("an entity `{name}`"), right })
+            }
+        }
+    }
+
+    /// Returns the line that this entity draws, without its ends, and whether it is grey; `colours` are those of the
+    /// layers.
+    fn meaning(&self, colours: &HashMap<String, &str>) -> Result<(Line, bool), PatternFault> {
+        let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
+        let known = LAYERS.iter().find(|(part, _)| layer.contains(part)).map(|(_, letter)| *letter);
+        let (letter, grey) = match known {
+            Some(letter) => (letter, false),
+            None => {
+                let rgb = self.colour(colours.get(&layer).copied())?;
+                let name = || format!("{} of layer {layer}", self.first(COLOUR).unwrap_or("256"));
+                match colour::letter(rgb) {
+                    None if !colour::is_grey(rgb) => return Err(value(&name(), "colour of a line", colour::RIGHT)),
+                    letter => (letter, letter.is_none()),
+                }
+            }
+        };
+        let auxiliary = letter.is_none();
+        let letter = letter.unwrap_or(Assignment::Flat);
+        let angle = letter.flat_folded_angle().map(f64::to_degrees).or((letter == Assignment::Flat).then_some(0.0));
+        let (contour, ends) = (letter == Assignment::Boundary, Default::default());
+        Ok((Line { ends, letter, angle, auxiliary, contour, at: self.at, flipped: false }, grey))
+    }
+
+    /// Returns the colour of the entity; without one of its own it has that of its layer.
+    fn colour(&self, of_layer: Option<&str>) -> Result<[u8; 3], PatternFault> {
+        if let Some(text) = self.first(TRUE_COLOUR) {
+            let [_, red, green, blue] = (number(text)? as u32).to_be_bytes();
+            return Ok([red, green, blue]);
+        }
+        let own = self.first(COLOUR).filter(|own| *own != "256").or(of_layer).unwrap_or("7");
+        let index = number(own)?.abs();
+        Ok(rgb(if index < 256.0 { index as u8 } else { 7 }))
+    }
+}
+
+/// Returns the colour of a number of AutoCAD's index of colours; white, which is drawn on black, is black.
+fn rgb(index: u8) -> [u8; 3] {
+    match index {
+        0 | 7 | 255 => [0; 3],
+        1 => [255, 0, 0],
+        2 => [255, 255, 0],
+        3 => [0, 255, 0],
+        4 => [0, 255, 255],
+        5 => [0, 0, 255],
+        6 => [255, 0, 255],
+        8 => [128; 3],
+        9 => [192; 3],
+        250..=254 => [51 + 40 * (index - 250); 3],
+        10..=249 => {
+            // ten shades of each of 24 hues
+            let hue = f64::from(index / 10 - 1) / 4.0;
+            let channel = |shift: f64| {
+                let k = (shift + hue).rem_euclid(6.0);
+                (255.0 * (1.0 - k.min(4.0 - k).clamp(0.0, 1.0))) as u8
+            };
+            [channel(5.0), channel(3.0), channel(1.0)]
+        }
+    }
+}
+
+/// Returns the path along corners with the bulges of the sides that begin there.
+fn polyline(corners: &[(Point, f64)], closed: bool) -> BezPath {
+    let mut path = BezPath::new();
+    let next = corners.iter().skip(1).chain(corners.first().filter(|_| closed));
+    for (k, (&(from, bulge), &(to, _))) in corners.iter().zip(next).enumerate() {
+        if k == 0 {
+            path.move_to(from);
+        }
+        if bulge == 0.0 || !bulge.is_finite() {
+            path.line_to(to);
+            continue;
+        }
+        let chord = to - from;
+        let centre = from.midpoint(to) + Vec2::new(-chord.y, chord.x) * ((1.0 - bulge * bulge) / (4.0 * bulge));
+        let (spoke, sweep) = (from - centre, 4.0 * bulge.atan());
+        let arc = Arc::new(centre, (spoke.hypot(), spoke.hypot()), spoke.atan2(), sweep, 0.0);
+        path.extend(arc.append_iter(ROUND * spoke.hypot()));
+    }
+    path
+}

@@ -1,0 +1,254 @@
+//! Conversion of the lines of a crease pattern to the mesh that they draw, with points merged within one distance.
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+
+use super::arrangement::{Arrangement, Disorder, Piece, arrange};
+use super::auxiliary::without_loose;
+use super::line::Line;
+use crate::math::{Vec2, Vec3};
+use crate::sheet::assignment::Assignment;
+use crate::sheet::boxes::{around, for_pairs_that_meet};
+use crate::sheet::build::{Drawing, build_identified, listed_order, rebuild_faces};
+use crate::sheet::cell::Sheet;
+use crate::sheet::error::{Defect, MeshPart, Problem};
+use crate::sheet::pattern_fault::PatternFault;
+use crate::sheet::redrawing::Gap;
+
+/// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little
+/// above that distance are this far apart.
+const CLOSE: f64 = 3.0;
+
+/// Largest difference of two fold angles in degrees that lines on each other may have.
+const SAME_ANGLE_DEG: f64 = 1e-3;
+
+/// A problem together with the number of the line that has it; `None` for the pattern as a whole.
+pub(crate) type Misdrawn = (Option<usize>, Box<Problem>);
+
+/// The sheet that lines draw.
+pub(super) struct Meshed {
+    pub sheet: Sheet,
+    /// Length of the longest line that is shorter than the distance of merging and has become a point.
+    pub vanished: f64,
+    /// Length of the shortest edge.
+    pub shortest: f64,
+}
+
+/// Returns the sheet whose creases and rim are `lines`, split where they meet if `split` says so, with points merged
+/// within `tolerance`; adds the number of pairs of lines that were compared to `compared`.
+pub(super) fn mesh(
+    lines: &[Line],
+    tolerance: f64,
+    split: bool,
+    head: &Drawing,
+    compared: &mut usize,
+) -> Result<Meshed, Misdrawn> {
+    let ends: Vec<[Vec2; 2]> = lines.iter().map(|line| line.ends).collect();
+    let arranged = arrange(&ends, tolerance, split, compared).map_err(|disorder| untidy(lines, disorder, tolerance))?;
+    let Arrangement { mut points, pieces } = arranged;
+    let vanished = vanished(lines, &pieces);
+    let doubled = |(piece, fault): (Piece, Box<PatternFault>)| {
+        let fault = gap(&points, &pieces, Some(piece), tolerance).map_or(*fault, |ends| apart(lines, ends, tolerance));
+        (Some(piece.segment), fault.into())
+    };
+    let single = without_doubles(lines, &pieces).map_err(doubled)?;
+    let (kept, dropped) = without_loose(lines, points.len(), single);
+    let (arranged, slits) = with_open_slits(lines, &mut points, kept);
+    let (coords, pieces) = renumbered(&points, &arranged);
+    let located = |defect: Defect| {
+        let number = piece_of(&pieces, &defect);
+        match gap(&points, &arranged, number.map(|k| arranged[k]), tolerance) {
+            Some(ends) => (number.map(|k| arranged[k].segment), apart(lines, ends, tolerance).into()),
+            None => located(lines, number.map(|k| arranged[k].segment), defect),
+        }
+    };
+    let mut sheet = built(lines, coords, &pieces, head).map_err(located)?;
+    sheet.record.redrawing.dropped = dropped;
+    sheet.record.redrawing.slits = slits;
+    let close = gap(&points, &arranged, None, tolerance);
+    sheet.record.redrawing.gap = close.map(|ends| Gap {
+        ends: named(lines, ends).name(),
+        distance: (ends[1] - ends[0]).norm(),
+        merged: tolerance,
+    });
+    let lengths = arranged.iter().map(|piece| (points[piece.ends[1]] - points[piece.ends[0]]).norm());
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
+    Ok(Meshed { sheet, vanished, shortest })
+}
+
+fn untidy(lines: &[Line], disorder: Disorder, tolerance: f64) -> Misdrawn {
+    match disorder {
+        Disorder::Tangled(k) => {
+            (Some(k), PatternFault::Tangled { line: lines[k].name(), tolerance, cure: None }.into())
+        }
+        Disorder::TooMany(points) => (None, PatternFault::TooMany { points }.into()),
+    }
+}
+
+/// Builds the sheet of pieces between these points.
+fn built(lines: &[Line], coords: Vec<Vec3>, pieces: &[Piece], head: &Drawing) -> Result<Sheet, Defect> {
+    let mut drawn = Drawing { coords, planar: true, ..head.clone() };
+    let of = |piece: &Piece| &lines[piece.segment];
+    let edges: Vec<[usize; 2]> = pieces.iter().map(|piece| piece.ends).collect();
+    drawn.assignments = pieces.iter().map(|piece| (piece.ends, of(piece).letter)).collect();
+    if pieces.iter().any(|piece| of(piece).angle.is_some()) {
+        let angle = |piece: &Piece| (piece.ends, of(piece).angle.map(f64::to_radians));
+        drawn.fold_angles = pieces.iter().map(angle).collect();
+    }
+    rebuild_faces(&mut drawn, &edges)?;
+    cut_inner_contours(lines, pieces, &mut drawn);
+    let (mut sheet, identified) = build_identified(&drawn)?;
+    let order = listed_order(&drawn, &edges);
+    sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
+    Ok(sheet)
+}
+
+/// Gives contours between two faces the letter of a cut.
+fn cut_inner_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) {
+    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for face in &drawn.faces {
+        for (k, &a) in face.iter().enumerate() {
+            let b = face[(k + 1) % face.len()];
+            *faces.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+    }
+    for (piece, (ends, letter)) in pieces.iter().zip(&mut drawn.assignments) {
+        let [a, b] = *ends;
+        if lines[piece.segment].contour && faces.get(&[a.min(b), a.max(b)]) == Some(&2) {
+            *letter = Assignment::Cut;
+        }
+    }
+}
+
+/// Returns the length of the longest line that has no piece and is not auxiliary.
+fn vanished(lines: &[Line], pieces: &[Piece]) -> f64 {
+    let mut is_drawn = vec![false; lines.len()];
+    pieces.iter().for_each(|piece| is_drawn[piece.segment] = true);
+    let lost = lines.iter().zip(is_drawn).filter(|(line, is_drawn)| !is_drawn && !line.auxiliary);
+    lost.map(|(line, _)| (line.ends[1] - line.ends[0]).norm()).fold(0.0, f64::max)
+}
+
+/// Returns the nearest two of the points of `pieces`, one of them an end of the piece `at` if one is given, if they are
+/// so close that they may be meant as one.
+fn gap(points: &[Vec2], pieces: &[Piece], at: Option<Piece>, tolerance: f64) -> Option<[Vec2; 2]> {
+    let used: BTreeSet<usize> = pieces.iter().flat_map(|piece| piece.ends).collect();
+    let used: Vec<usize> = used.into_iter().collect();
+    let (close, mut nearest) = (CLOSE * tolerance, None);
+    let mut least = close;
+    let boxes: Vec<[Vec2; 2]> = used.iter().map(|&v| around([points[v]; 2], close / 2.0)).collect();
+    let _: ControlFlow<()> = for_pairs_that_meet(&boxes, |p, q| {
+        let [p, q] = [used[p.min(q)], used[p.max(q)]];
+        let distance = (points[q] - points[p]).norm();
+        if distance < least && at.is_none_or(|piece| piece.ends.iter().any(|end| [p, q].contains(end))) {
+            (least, nearest) = (distance, Some([points[p], points[q]]));
+        }
+        ControlFlow::Continue(())
+    });
+    nearest
+}
+
+/// Returns a line between two points, with the directions of the file.
+fn named(lines: &[Line], ends: [Vec2; 2]) -> Line {
+    Line { ends, ..lines[0] }
+}
+
+/// Returns the fault of two ends that are a little too far apart to be one point.
+fn apart(lines: &[Line], ends: [Vec2; 2], tolerance: f64) -> PatternFault {
+    let distance = (ends[1] - ends[0]).norm();
+    PatternFault::Apart { gap: named(lines, ends).name(), distance, tolerance, cure: None }
+}
+
+/// Returns the pieces without those that lie on earlier ones, which have to mean the same.
+fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piece, Box<PatternFault>)> {
+    let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    let mut kept: Vec<Piece> = Vec::new();
+    for piece in pieces {
+        let [a, b] = piece.ends;
+        match known.entry([a.min(b), a.max(b)]) {
+            Entry::Vacant(free) => {
+                free.insert(kept.len());
+                kept.push(*piece);
+            }
+            Entry::Occupied(taken) => {
+                let before = &mut kept[*taken.get()];
+                let [first, second] = [before.segment, piece.segment].map(|k| &lines[k]);
+                if first.auxiliary && !second.auxiliary {
+                    before.segment = piece.segment;
+                } else if !second.auxiliary && !agree(first, second) {
+                    let meanings = [first, second].map(|line| (line.letter, line.angle));
+                    let fault = PatternFault::Overlap { a: first.name(), b: second.name(), meanings };
+                    return Err((*piece, fault.into()));
+                }
+            }
+        }
+    }
+    Ok(kept)
+}
+
+fn agree(a: &Line, b: &Line) -> bool {
+    let same_angle = match (a.angle, b.angle) {
+        (Some(a), Some(b)) => (a - b).abs() <= SAME_ANGLE_DEG,
+        (a, b) => a == b,
+    };
+    a.letter == b.letter && same_angle
+}
+
+/// Returns the pieces with cuts of one edge, whose ends no other cut and no rim reaches, split in their middle: there
+/// they can open. Also returns their number.
+fn with_open_slits(lines: &[Line], points: &mut Vec<Vec2>, pieces: Vec<Piece>) -> (Vec<Piece>, usize) {
+    let opens = |piece: &Piece| matches!(lines[piece.segment].letter, Assignment::Cut | Assignment::Boundary);
+    let mut degree = vec![0; points.len()];
+    pieces.iter().filter(|piece| opens(piece)).flat_map(|piece| piece.ends).for_each(|v| degree[v] += 1);
+    let (mut split, mut slits) = (Vec::with_capacity(pieces.len()), 0);
+    for piece in pieces {
+        let line = &lines[piece.segment];
+        let is_cut = line.letter == Assignment::Cut || line.contour;
+        if is_cut && piece.ends.iter().all(|&v| degree[v] == 1) {
+            let [a, b] = piece.ends;
+            points.push((points[a] + points[b]) / 2.0);
+            let middle = points.len() - 1;
+            split.extend([[a, middle], [middle, b]].map(|ends| Piece { ends, ..piece }));
+            slits += 1;
+        } else {
+            split.push(piece);
+        }
+    }
+    (split, slits)
+}
+
+/// Returns the points that pieces have, in the order of the pieces, and the pieces with their numbers.
+fn renumbered(points: &[Vec2], pieces: &[Piece]) -> (Vec<Vec3>, Vec<Piece>) {
+    let mut numbers: Vec<Option<usize>> = vec![None; points.len()];
+    let mut coords = Vec::new();
+    let mut number = |v: usize| {
+        *numbers[v].get_or_insert_with(|| {
+            coords.push(points[v].push(0.0));
+            coords.len() - 1
+        })
+    };
+    let pieces = pieces.iter().map(|piece| Piece { ends: piece.ends.map(&mut number), ..*piece }).collect();
+    (coords, pieces)
+}
+
+/// Returns the number of a piece at a defect of the mesh.
+fn piece_of(pieces: &[Piece], defect: &Defect) -> Option<usize> {
+    match defect.place {
+        MeshPart::Edge(e) | MeshPart::FoldAngle(e) => Some(e).filter(|&e| e < pieces.len()),
+        MeshPart::Vertex(v) => pieces.iter().position(|piece| piece.ends.contains(&v)),
+        _ => None,
+    }
+}
+
+/// Says a defect of the mesh in terms of the lines, of which one has it.
+fn located(lines: &[Line], number: Option<usize>, defect: Defect) -> Misdrawn {
+    let is_rim = |line: &Line| matches!(line.letter, Assignment::Boundary | Assignment::Cut);
+    let problem = match (*defect.problem, number.map(|k| lines[k].name())) {
+        (Problem::LooseEdge { .. }, Some(line)) if !lines.iter().any(is_rim) => PatternFault::NoRim { line }.into(),
+        (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
+        (Problem::Nested { .. }, Some(line)) => PatternFault::Nested { line }.into(),
+        (problem, Some(line)) => PatternFault::Line { line, problem: problem.to_string() }.into(),
+        (problem, None) => Box::new(problem),
+    };
+    (number, problem)
+}
