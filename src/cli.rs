@@ -102,7 +102,8 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },
-    /// Convert a mesh: from FOLD, OBJ, STL, VTU, SVG, CP, OPX, ORI or DXF to FOLD, OBJ, STL, PLY, GLB, VTU, SVG, CP or DXF
+    /// Convert a mesh: from FOLD, OBJ, STL, VTU, SVG, CP, OPX, ORI or DXF to FOLD, OBJ, STL, PLY, GLB, VTU, SVG, CP or
+    /// DXF
     Convert {
         /// The file that is there
         from: PathBuf,

@@ -78,8 +78,8 @@ pub struct SheetSpec {
     /// A FOLD file with one cell of the sheet, an .obj or .stl file, or a crease pattern: .svg with the colours
     /// of Origami Simulator, .cp, .opx, .ori or .dxf.
     pub mesh: Option<Located<PathBuf>>,
-    /// Distance, in units of the file, up to which line ends of a drawing are one point. Left out: 1e-4 of the extent, or
-    /// more where lines end beside each other otherwise. A FOLD file with it is read as a drawing of its edges.
+    /// Distance, in units of the file, up to which line ends of a drawing are one point; left out: 1e-4 of the extent,
+    /// or more where lines end beside each other otherwise. A FOLD file with it is read as a drawing of its edges.
     pub merge: Option<Located<f64>>,
     /// The frame of the FOLD file: 0 is its top, those of `file_frames` are 1, 2, ...; left out: the first with a mesh.
     pub frame: Option<Located<usize>>,

@@ -1,7 +1,7 @@
 //! PLY files: the vertices and faces of a sheet as text, for programs that show and measure meshes.
 //!
-//! Polygons stay whole. PLY has no letters, angles or lattice vectors, and is only written (G. Turk, "The PLY polygon file
-//! format", 1994).
+//! Polygons stay whole. PLY has no letters, angles or lattice vectors, and is only written (G. Turk, "The PLY polygon
+//! file format", 1994).
 
 use std::fmt::Write;
 

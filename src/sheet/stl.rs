@@ -1,7 +1,7 @@
 //! STL files: the triangles of a sheet, for programs that show, slice and print them.
 //!
-//! STL has no shared vertices, letters or lattice vectors: corners of triangles that stand in one place are one vertex of
-//! the sheet that is read, and all its edges are creases. Files are read as text or bytes, and written as text.
+//! STL has no shared vertices, letters or lattice vectors: corners of triangles that stand in one place are one vertex
+//! of the sheet that is read, and all its edges are creases. Files are read as text or bytes, and written as text.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -106,8 +106,8 @@ fn ascii(bytes: &[u8]) -> Result<Vec<LineCorner>, (usize, Problem)> {
     }
 }
 
-/// Returns the triangles of the cell as an STL text, with unit normals on the side of the face normals. The title is not
-/// in it: some readers take the words of a name for those of the format.
+/// Returns the triangles of the cell as an STL text, with unit normals on the side of the face normals. The title is
+/// not in it: some readers take the words of a name for those of the format.
 pub fn write(sheet: &Sheet) -> String {
     let mut text = "solid foldwell\n".to_owned();
     for triangle in &sheet.triangles {

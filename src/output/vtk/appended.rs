@@ -1,8 +1,8 @@
 //! Arrays that follow a VTU file as raw bytes, as ParaView saves them, put into its elements as base64.
 //!
-//! Such a file is no XML: behind `<AppendedData encoding="raw">_` come the bytes of the arrays one after the other, each
-//! after its length, or compressed after the number and lengths of its blocks. The offsets of `DataArray` elements count
-//! from the underscore ("VTK XML formats", Kitware).
+//! Such a file is no XML: behind `<AppendedData encoding="raw">_` come the bytes of the arrays one after the other,
+//! each after its length, or compressed after the number and lengths of its blocks. The offsets of `DataArray` elements
+//! count from the underscore ("VTK XML formats", Kitware).
 
 use std::borrow::Cow;
 

@@ -1,7 +1,7 @@
 //! Edges seen along z: finds crossings, and the faces that edges bound.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use super::{Defect, Drawing, MeshPart, Problem};
@@ -120,11 +120,11 @@ fn by_angle(a: Vec3, b: Vec3) -> Ordering {
     lower(a).cmp(&lower(b)).then_with(|| 0.0f64.total_cmp(&a.xy().perp(&b.xy())))
 }
 
-type Owner = BTreeMap<(usize, usize), usize>;
+type Owner = HashMap<(usize, usize), usize>;
 
 /// Returns all closed walks that turn as far left as possible, and the walk to which each directed edge belongs.
 fn walks(rounds: &[Vec<usize>], edges: &[[usize; 2]]) -> (Vec<Vec<usize>>, Owner) {
-    let mut place = BTreeMap::new();
+    let mut place = HashMap::new();
     for (v, round) in rounds.iter().enumerate() {
         place.extend(round.iter().enumerate().map(|(k, &from)| ((from, v), k)));
     }

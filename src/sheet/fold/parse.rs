@@ -64,8 +64,8 @@ pub fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup) -> Res
 /// found from the edges; keys about the file and its frame are kept, with the letters and target angles of the edges.
 ///
 /// # Errors
-/// As [`parse_frame`]; also if the pattern is folded or periodic, or edges that lie on each other have different letters
-/// or angles.
+/// As [`parse_frame`]; also if the pattern is folded or periodic, or edges that lie on each other have different
+/// letters or angles.
 pub fn parse_cleaned(text: &str, name: &str, frame: Option<usize>, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
     with_frame(text, name, frame, |source, frame, _, drawn| clean::sheet(source, frame, drawn, cleanup))
 }

@@ -105,7 +105,8 @@ struct Places {
     merged: Vec<usize>,
     /// Number of merges so far.
     merges: usize,
-    /// The last point in every cell of a grid, which is two tolerances wide, and for each point the one before it there.
+    /// The last point in every cell of a grid, which is two tolerances wide, and for each point the one before it
+    /// there.
     cells: HashMap<[i64; 2], usize>,
     before: Vec<Option<usize>>,
 }

@@ -152,8 +152,8 @@ fn vtu(pieces: usize) -> String {
     )
 }
 
-/// Returns a VTU file of a quadrangle, a pentagon above it and a line, with its arrays as raw bytes behind it, each after
-/// its length, as ParaView saves them.
+/// Returns a VTU file of a quadrangle, a pentagon above it and a line, with its arrays as raw bytes behind it, each
+/// after its length, as ParaView saves them.
 fn raw_vtu(length: impl Fn(usize) -> Vec<u8>, header: &str) -> Vec<u8> {
     let (mut data, mut offsets) = (Vec::new(), Vec::new());
     let mut push = |bytes: Vec<u8>| {
