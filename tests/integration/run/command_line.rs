@@ -38,10 +38,19 @@ fn files_of_the_wrong_kind() {
     folder.foldwell("new miura -o m.fold").well();
     for (words, parts) in [
         ("run m.fold", ["m.fold: this is a mesh, not a scene", "under [sheet], mesh = \"m.fold\""]),
-        ("info m", ["m: a file without an ending", "expected one of .fold, .obj, .vtu, .svg, .cp, .opx or .toml"]),
         (
-            "convert m.fold m.dxf",
-            ["m.dxf: files ending in `dxf` are not known here", "expected one of .fold, .obj, .vtu, .stl, .svg or .cp"],
+            "info m",
+            [
+                "m: a file without an ending",
+                "expected one of .fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori, .dxf or .toml",
+            ],
+        ),
+        (
+            "convert m.fold m.step",
+            [
+                "m.step: files ending in `step` are not known here",
+                "expected one of .fold, .obj, .vtu, .stl, .ply, .glb, .svg, .cp or .dxf",
+            ],
         ),
     ] {
         parts.into_iter().fold(folder.foldwell(words), |said, part| said.refused(part));

@@ -108,7 +108,7 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2"),
     fault(5, "cells = [4000000000, 4000000000]", "5:9", "4000000000 x 4000000000 cells are more than can be numbered", "expected at most 2147483647 in all"),
     fault(5, "cells = [99999999999999999999, 1]", "5:10", "invalid type: integer `99999999999999999999` as i128", "expected a whole number"),
-    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `frame`, `generate`, `domain`, `cells`, `lattice`, `seam`, `closing`, `inwards`"),
+    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `merge`, `frame`, `generate`, `domain`, `cells`, `lattice`, `seam`, `closing`, `inwards`"),
     fault(4, "domain = \"tube\"", "4:10", "a tube without a seam", "give seam = [n1, n2], the cell that lies on cell [0, 0] when the sheet is rolled up"),
     fault(4, "domain = \"tube\"\nseam = [0, 0]", "5:8", "there is no tube with the seam [0, 0]", "expected whole numbers of at most 1000, not both 0"),
     fault(4, "domain = \"tube\"\nseam = [0, 1001]", "5:8", "there is no tube with the seam [0, 1001]", "expected whole numbers of at most 1000, not both 0"),
@@ -273,8 +273,9 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
     misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"screw\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
     misfit("[sheet]\nmesh = \"finite.OBJ\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh, in OBJ as two comments `# foldwell:lattice x y z`"),
-    misfit("[sheet]\nmesh = \"finite.OBJ\"\nframe = 1", "3:9", "an OBJ file has no frames", "frames are those of FOLD files; leave out `frame`"),
-    misfit("[sheet]\nmesh = \"sheet.stl\"", "2:8", "a mesh of a scene is no .stl file", "an STL file has triangles without edges that fold; give a .fold or .obj file"),
+    misfit("[sheet]\nmesh = \"finite.OBJ\"\nframe = 1", "3:9", "a mesh of faces has no frames", "frames are those of FOLD files; leave out `frame`"),
+    misfit("[sheet]\nmesh = \"finite.OBJ\"\nmerge = 1.0", "3:9", "a mesh of faces has no lines to join", "points are merged in drawings of lines and in flat FOLD files; leave out `merge`"),
+    misfit("[sheet]\ngenerate = { pattern = \"miura\" }\nmerge = 1.0", "3:9", "`merge` is given for a pattern", "it belongs to mesh = \"file.fold\""),
     misfit("[sheet]\nmesh = \"sheet.vtu\"", "2:8", "a mesh of a scene is no .vtu file", "`foldwell convert` makes a .fold file of it"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", "see `foldwell new --help` for the patterns"),
@@ -310,7 +311,6 @@ fn folder_of_misfits() -> Folder {
         .with("star.fold", include_str!("../../../meshes/open-star.fold"))
         .with("finite.fold", FINITE)
         .with("finite.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        .with("sheet.stl", "")
         .with("sheet.vtu", "")
         .with("one.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n")
         .with("rates.csv", "i,j,n1,n2,rate\n0,1,0,0,0.1\n")
