@@ -151,7 +151,7 @@ def test_line_ends_that_miss_each_other_are_merged(tmp_path):
     path.write_text("1 0 0 400 0\n1 400 0 400 400\n1 400 400 0 400\n1 0 400 0 0\n2 0.2 0 399 399.5\n")
     assert fw.Sheet.read(path).vertices.shape == (4, 3)
     assert fw.Sheet.read(path, merge=1.5).vertices.shape == (4, 3)
-    with pytest.raises(fw.SheetError, match="merge within 1.35e0"):
+    with pytest.raises(fw.SheetError, match="merge within 9.00e-1"):
         fw.Sheet.read(path, merge=0.4)
     with path.open() as file, pytest.raises(ValueError, match="merge"):
         fw.Sheet.read(file, merge=0.4)

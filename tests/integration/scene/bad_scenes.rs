@@ -275,7 +275,6 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"finite.OBJ\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh, in OBJ as two comments `# foldwell:lattice x y z`"),
     misfit("[sheet]\nmesh = \"finite.OBJ\"\nframe = 1", "3:9", "a mesh of faces has no frames", "frames are those of FOLD files; leave out `frame`"),
     misfit("[sheet]\nmesh = \"finite.OBJ\"\nmerge = 1.0", "3:9", "a mesh of faces has no lines to join", "points are merged in drawings of lines and in flat FOLD files; leave out `merge`"),
-    misfit("[sheet]\ngenerate = { pattern = \"miura\" }\nmerge = 1.0", "3:9", "`merge` is given for a pattern", "it belongs to mesh = \"file.fold\""),
     misfit("[sheet]\nmesh = \"sheet.vtu\"", "2:8", "a mesh of a scene is no .vtu file", "`foldwell convert` makes a .fold file of it"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", "see `foldwell new --help` for the patterns"),

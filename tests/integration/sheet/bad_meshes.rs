@@ -225,7 +225,7 @@ fn wrong_edges() {
     let vertices = SQUARE[0];
     let listed = |edges: &str| square(&[&format!("\"edges_vertices\": {edges}")]);
     let angle = |a: &str| square(&["\"edges_vertices\": [[0, 2]]", &format!("\"edges_foldAngle\": [{a}]")]);
-    let island = ["[5, 0, 0]", "[6, 0, 0]", "[5, 1, 0]"];
+    let island = ["[0.6, 0.2, 0]", "[0.8, 0.2, 0]", "[0.8, 0.3, 0]"];
     let cases = vec![
         (listed("[[0, 1], [2, 2]]"), 12, "edge 1 of the list runs from vertex 2 to itself"),
         (listed("[[0, 1], [1, 0]]"), 12, "edge 1 of the list is edge 0 again, [1, 0]"),
@@ -247,8 +247,8 @@ fn wrong_edges() {
         ),
         (
             wires(&[vertices, &island].concat(), &["[0, 1]", "[1, 2]", "[2, 0]", "[4, 5]", "[5, 6]", "[6, 4]"]),
-            11,
-            "the edges fall into 2 separate pieces",
+            15,
+            "edge 3 of the list, [4, 5], belongs to edges inside a face",
         ),
         (
             wires(&["[0, 0, 0]", "[0, 0, 1]", "[1, 0, 0]"], &["[0, 1]", "[1, 2]", "[2, 0]"]),

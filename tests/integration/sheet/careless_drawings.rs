@@ -301,8 +301,8 @@ fn the_distance_of_merging_is_said() {
     let square = "1 0 0 400 0\n1 400 0 400 400\n1 400 400 0 400\n1 0 400 0 0\n";
     let folder = Folder::new().with("a.cp", format!("{square}2 0.2 0 399 399.5\n"));
     let said = folder.foldwell("convert a.cp a.fold").well().err;
-    assert!(said.contains("points up to 1.5") && said.contains("`merge` in [sheet]"), "{said}");
-    folder.foldwell("convert a.cp a.fold --merge 0.4").refused("merge within 1.35e0");
+    assert!(said.contains("points up to 1.025e0") && said.contains("`merge` in [sheet]"), "{said}");
+    folder.foldwell("convert a.cp a.fold --merge 0.4").refused("merge within 9.00e-1");
     folder.foldwell("convert a.cp a.fold --merge 1.5").well();
     let scene = |merge: &str| {
         format!(
@@ -313,7 +313,7 @@ fn the_distance_of_merging_is_said() {
     folder.write("s.toml", scene("merge = 1.5\n"));
     folder.foldwell("run s.toml --quiet").well();
     folder.write("s.toml", scene("merge = 0.4\n"));
-    folder.foldwell("run s.toml --quiet").refused("merge within 1.35e0");
+    folder.foldwell("run s.toml --quiet").refused("merge within 9.00e-1");
     folder.write("s.toml", scene("").replace("mesh = \"a.cp\"", "generate = { pattern = \"miura\" }\nmerge = 1.0"));
     folder.foldwell("run s.toml --quiet").refused("`merge` is given for a pattern");
 }
