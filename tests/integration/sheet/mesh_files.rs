@@ -98,7 +98,7 @@ fn lines_that_nearly_meet() {
     assert_eq!(read(&apart).unwrap().vertices.len(), 5);
     let apart = within(apart).unwrap_err();
     let gap = "there is a gap of 6.708e-2 from (200, 200.03) to (199.97, 199.97), and points are merged up to 4.000e-2; draw \
-               one point, or merge within 9.00e-2";
+               one point, or merge within 6.00e-2";
     assert!(apart.contains(gap), "{apart}");
     let steps = (0..20).map(|k| format!("2 {:?} 100 {:?} 100\n", 0.03 * k as f64, 0.03 * (k + 1) as f64));
     let chain = within(format!("{square}{}", steps.collect::<String>())).unwrap_err();
