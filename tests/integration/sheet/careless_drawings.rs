@@ -221,8 +221,8 @@ fn chords(random: &mut Numbers) -> String {
     text
 }
 
-/// Claim: random drawings, scribbles and chords of a square in turn, are read or refused within two seconds of processor
-/// time each, chords in most cases read; nothing panics or hangs. `RANDOM_DRAWINGS` in the environment sets their
+/// Claim: random drawings, scribbles and chords of a square in turn, are read or refused within two seconds of
+/// processor time each, chords in most cases read; nothing panics or hangs. `RANDOM_DRAWINGS` in the environment sets their
 /// number.
 #[test]
 fn random_drawings_come_to_an_end() {
@@ -320,8 +320,8 @@ fn the_distance_of_merging_is_said() {
 
 /// Claim: what other programs leave in a file is dealt with as the format says: a FOLD edge with F that ends in a face
 /// is left out, also where a face is listed round it; a cut of one edge opens; a pattern in the plane of x and z has
-/// its faces rebuilt; contours inside a sheet of ORIPA are cuts, also in a CP file that this program writes; ten more lines
-/// of NaN change nothing. Source: counted by hand.
+/// its faces rebuilt; contours inside a sheet of ORIPA are cuts, also in a CP file that this program writes; ten more
+/// lines of NaN change nothing. Source: counted by hand.
 #[test]
 fn remains_of_other_programs() {
     let spur = r#"{"vertices_coords": [[0, 0], [4, 0], [4, 4], [0, 4], [2, 0], [2, 4], [2, 2], [3, 2]],
