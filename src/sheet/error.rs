@@ -133,6 +133,9 @@ pub enum Problem {
         /// The word `vertices` or `faces`.
         what: &'static str,
     },
+    /// The mesh does not fit the memory: its number of vertices, the GB that they need, and those that there are.
+    #[error("the mesh has {0} vertices, which need at least {1:.1} GB; there is room for {2:.1} GB")]
+    TooLarge(usize, f64, f64),
     /// Some vertices have two coordinates and others three.
     #[error(
         "vertex {vertex} has {found} coordinates where the vertices before it have {right}; all should have 2, or all 3"
@@ -348,11 +351,8 @@ pub enum Problem {
         b: DrawnEdge,
     },
     /// An edge is parallel to z, and faces cannot be rebuilt from it.
-    #[error("edge {edge} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it")]
-    Upright {
-        /// The edge.
-        edge: DrawnEdge,
-    },
+    #[error("edge {0} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it")]
+    Upright(DrawnEdge),
     /// Edges inside a face that no edge joins to the others, so that faces cannot be rebuilt from them.
     #[error(
         "edge {edge} of the list, {ends}, belongs to edges inside a face that are not joined to the others; give \

@@ -28,6 +28,7 @@ pub(crate) mod frame_fault;
 pub mod generate;
 pub(crate) mod info;
 pub mod listed;
+pub(crate) mod memory;
 pub mod obj;
 pub mod pattern;
 pub(crate) mod pattern_fault;

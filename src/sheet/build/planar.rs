@@ -62,7 +62,7 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     let x = &drawn.coords;
     let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, MeshPart::Edge(e))).collect();
     if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
-        return Err(Defect::new(place, Problem::Upright { edge: drawn.edge_name([a, b]) }));
+        return Err(Defect::new(place, Problem::Upright(drawn.edge_name([a, b]))));
     }
     super::check_places(drawn)?;
     check_crossings(drawn, &placed)?;

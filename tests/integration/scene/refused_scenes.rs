@@ -71,6 +71,20 @@ fn sizes_beyond_the_limit_of_the_process() {
     Said::by(shell.args(["-c", &limited]).current_dir(folder.path()), &folder).refused("there is room for 2 GB");
 }
 
+/// Claim: a pattern that does not fit the limit of the process is refused before its sheet is made. Source: a vertex
+/// needs 2.3 kB.
+#[test]
+#[cfg(target_os = "linux")]
+fn patterns_beyond_the_limit_of_the_process() {
+    let folder = Folder::new();
+    let program = env!("CARGO_BIN_EXE_foldwell");
+    let limited = format!("ulimit -v 1000000; exec {program} new random --size 900,900 -o a.fold");
+    let mut shell = Command::new("sh");
+    let said = Said::by(shell.args(["-c", &limited]).current_dir(folder.path()), &folder);
+    said.refused("which need at least 1.6 GB; there is room for 1.0 GB");
+    assert!(folder.names().is_empty());
+}
+
 /// Claim: angles of more than a turn are taken for degrees, and are refused with their value in radians: 60 degrees are
 /// 1.047198.
 #[test]
