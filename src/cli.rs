@@ -15,12 +15,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output::json::to_json;
 use foldwell::run::{self, FilmOptions, Listed, RunOptions, Shard, Wanted};
 use foldwell::scene::Setting;
 use foldwell::sheet::pattern::Cleanup;
+use foldwell::sheet::similar::most_similar;
 
 use crate::parameters;
 use crate::scenes;
@@ -181,13 +183,27 @@ pub(crate) fn main() -> ExitCode {
         Err(help) if !help.use_stderr() => {
             help.print().and_then(|()| io::stdout().flush()).map_or_else(closed, |()| Ok(0))
         }
-        Err(wrong) => wrong.exit(),
+        Err(wrong) => with_suggestion(wrong).exit(),
     };
     let status = done.unwrap_or_else(|failure| {
         report(&failure);
         failure.exit_status()
     });
     ExitCode::from(status)
+}
+
+/// Adds the command that is meant to the error about an unknown one, if clap finds none: it overlooks exchanged letters.
+fn with_suggestion(mut error: clap::Error) -> clap::Error {
+    let (Some(ContextValue::String(word)), None) =
+        (error.get(ContextKind::InvalidSubcommand), error.get(ContextKind::SuggestedSubcommand))
+    else {
+        return error;
+    };
+    let commands = Cli::command();
+    if let Some(meant) = most_similar(word, commands.get_subcommands().map(clap::Command::get_name)) {
+        error.insert(ContextKind::SuggestedSubcommand, ContextValue::Strings(vec![meant.to_owned()]));
+    }
+    error
 }
 
 fn dispatch(command: Command) -> Result<u8, Failure> {

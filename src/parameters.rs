@@ -80,7 +80,9 @@ fn is_help(word: &str) -> bool {
 /// # Errors
 /// [`ParameterError::NoPattern`] if no pattern has this name.
 pub(crate) fn help(pattern: &str) -> Result<String, ParameterError> {
-    let page = |name: &str| Pattern::help(name).map_err(|error| ParameterError::NoPattern(error.to_string()));
+    let page = |name: &str| {
+        Pattern::help(name).map_err(|error| ParameterError::NoPattern(format!("{error}; {}", error.help())))
+    };
     if !is_help(pattern) {
         let usage = format!("Usage: foldwell new {pattern} [--key value]... -o <FILE.fold>");
         return Ok(format!(

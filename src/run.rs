@@ -41,7 +41,7 @@ pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 use meshes::{MeshKind, read_mesh};
 pub use report::{RunOptions, RunReport};
-pub use single::run;
+pub use single::{run, run_and_keep};
 pub use summary::{SheetSummary, Summary};
 pub use sweep::{
     PointStatus, Row, Shard, ShardError, SweepReport, SweepSummary, UnansweredPoint, assemble, assemble_at,
@@ -93,12 +93,7 @@ pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<Vec<String>, RunError
 /// # Errors
 /// [`RunError::Pattern`] if there is no such pattern or a parameter is wrong.
 pub fn new_sheet(table: &toml::Table) -> Result<Sheet, RunError> {
-    let name = table.get("pattern").and_then(toml::Value::as_str).unwrap_or_default();
-    Pattern::help(name).map_err(|error| RunError::Pattern { message: error.to_string(), pattern: String::new() })?;
-    let refused = |message: String| RunError::Pattern { message, pattern: format!("{name} ") };
-    let pattern: Pattern =
-        table.clone().try_into().map_err(|error: toml::de::Error| refused(error.message().to_owned()))?;
-    generate(&pattern).map_err(|error| refused(error.to_string()))
+    Ok(generate(&Pattern::of(table)?)?)
 }
 
 /// Options for reading a mesh or a scene.

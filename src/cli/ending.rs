@@ -17,6 +17,9 @@ pub(super) const BROKEN_PLACE: u8 = 3;
 /// The run was interrupted.
 pub(super) const INTERRUPTED: u8 = 130;
 
+/// Most characters of a line of a message, in which a name of a file may be long.
+const LONGEST_LINE: usize = 1000;
+
 /// The reasons for which a command failed.
 pub(super) enum Failure {
     Run(RunError),
@@ -72,8 +75,10 @@ pub(super) fn report(failure: &Failure) {
         Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
         Failure::Thread(error) => format!("Error: no thread can be had for the work: {error}\n"),
     };
+    let cut = |line: &str| line.char_indices().nth(LONGEST_LINE).map_or(line.len(), |(end, _)| end);
+    let text: Vec<&str> = text.lines().map(|line| &line[..cut(line)]).collect();
     // an error is ignored: there is no other place for the message if standard error is closed
-    let _ = io::stderr().write_all(text.as_bytes());
+    let _ = writeln!(io::stderr(), "{}", text.join("\n"));
 }
 
 /// Returns the description of an error with an excerpt of the scene at its place. Lines are not wrapped, so that

@@ -2,10 +2,9 @@
 
 use crate::output::OutputError;
 use crate::scene::SceneError;
-use crate::sheet::NotDevelopable;
-use crate::sheet::SheetError;
 use crate::sheet::error::Defect;
 use crate::sheet::pattern::NotFlat;
+use crate::sheet::{GenerateError, NotDevelopable, SheetError};
 use crate::study::StudyError;
 use miette::Diagnostic;
 use std::path::PathBuf;
@@ -40,15 +39,9 @@ pub enum RunError {
         defect: Defect,
     },
     /// A pattern does not exist for its parameters.
-    #[error("{message}")]
-    #[diagnostic(help("`foldwell new {pattern}--help` describes {}; angles are radians, or written as \"60 deg\"",
-        if pattern.is_empty() { "the patterns" } else { "its parameters" }))]
-    Pattern {
-        /// Description of the error.
-        message: String,
-        /// The name of the pattern and a blank; empty if there is none of that name.
-        pattern: String,
-    },
+    #[error(transparent)]
+    #[diagnostic(help("{}", .0.help()))]
+    Pattern(#[from] GenerateError),
     /// A folder is not that of a run.
     #[error("{}: not the folder of a run: {why}", path.display())]
     #[diagnostic(help("name the folder that `foldwell run` wrote, the one with `summary.json`"))]
@@ -69,7 +62,7 @@ pub enum RunError {
     },
     /// A frame is asked for of a file that has none.
     #[error("{}: frame {frame} is asked for, but this file has no frames", path.display())]
-    #[diagnostic(help("frames are those of FOLD files; leave out --frame"))]
+    #[diagnostic(help("frames are those of FOLD files; leave out the frame"))]
     NoFrames {
         /// The file.
         path: PathBuf,
@@ -78,7 +71,7 @@ pub enum RunError {
     },
     /// A sheet is to be written as a crease pattern and is not flat.
     #[error("{}: {reason}", path.display())]
-    #[diagnostic(help("write another format, .fold, .obj or .vtu, or unfold the sheet with --flatten"))]
+    #[diagnostic(help("write another format, .fold, .obj or .vtu, or unfold the sheet, as `convert --flatten` does"))]
     NotFlat {
         /// The file.
         path: PathBuf,

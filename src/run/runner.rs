@@ -14,7 +14,6 @@ use crate::scene::build::notes;
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
-use crate::study::StudySummary;
 use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -46,6 +45,8 @@ pub(crate) struct Runner<'a> {
     observer: Observer<'a>,
     interrupted: AtomicBool,
     ledger: Ledger,
+    /// The answers of the studies that were computed, where they are wanted.
+    answers: Option<Vec<Answer>>,
 }
 
 impl<'a> Runner<'a> {
@@ -77,12 +78,18 @@ impl<'a> Runner<'a> {
             observer,
             interrupted: AtomicBool::new(false),
             ledger: ledger.clone(),
+            answers: None,
         };
         for study in &file.scene.studies {
             study::check(&runner.context(study))?;
         }
         inputs::check(file, &runner.out)?;
         Ok(runner)
+    }
+
+    /// Keeps the answers of the studies that are computed, for [`finish`](Self::finish).
+    pub(crate) fn keeping_answers(self) -> Self {
+        Self { answers: Some(Vec::new()), ..self }
     }
 
     /// Claims the folder, unless it is claimed already, and prepares it; with `resume`, keeps the studies that an
@@ -125,25 +132,25 @@ impl<'a> Runner<'a> {
         }
         self.take_written();
         self.ledger.begin(study, self.order[study.name.0.as_str()]);
-        match self.compute(study).and_then(|found| self.finished(study, found)) {
+        match self.compute(study).and_then(|answer| self.finished(study, answer)) {
             Ok(()) => Ok(()),
             // the studies before this one remain recorded as finished
             Err(error) => self.ledger.write().and(Err(error)),
         }
     }
 
-    fn compute(&mut self, study: &StudySpec) -> Result<StudySummary, RunError> {
+    fn compute(&mut self, study: &StudySpec) -> Result<Answer, RunError> {
         let clock = Instant::now();
-        let Answer { mut summary, files, state, paths } = study::compute(&self.context(study))?;
-        summary.seconds = clock.elapsed().as_secs_f64();
-        for (name, artifact) in &files {
+        let mut answer = study::compute(&self.context(study))?;
+        answer.summary.seconds = clock.elapsed().as_secs_f64();
+        for (name, artifact) in &answer.files {
             artifact.write(&self.path(name))?;
         }
-        self.earlier.paths.insert(summary.name.clone(), paths);
-        if let Some(state) = state {
-            self.keep_state(study, state)?;
+        self.earlier.paths.insert(study.name.0.clone(), answer.paths.clone());
+        if let Some(state) = &answer.state {
+            self.keep_state(study, state.clone())?;
         }
-        Ok(summary)
+        Ok(answer)
     }
 
     fn context<'b>(&'b self, study: &'b StudySpec) -> Context<'b> {
@@ -153,14 +160,19 @@ impl<'a> Runner<'a> {
 
     /// Records the result of a study. A run that was stopped removes no files of earlier runs, since its own are
     /// incomplete.
-    fn finished(&self, study: &StudySpec, mut found: StudySummary) -> Result<(), RunError> {
+    fn finished(&mut self, study: &StudySpec, mut answer: Answer) -> Result<(), RunError> {
+        let found = &mut answer.summary;
         if !self.interrupted() {
             self.belongings.remove_others(&found.name, &self.take_written())?;
         } else if !found.converged {
             found.reason = Some(INTERRUPTED.to_owned()); // each method describes an interruption differently
         }
         found.files = Some(self.belongings.record(&found.name)?);
-        self.ledger.finished(found, self.order[study.name.0.as_str()])
+        self.ledger.finished(found.clone(), self.order[study.name.0.as_str()])?;
+        if let Some(answers) = &mut self.answers {
+            answers.push(answer);
+        }
+        Ok(())
     }
 
     fn take_written(&self) -> BTreeSet<PathBuf> {
@@ -189,9 +201,9 @@ impl<'a> Runner<'a> {
         path
     }
 
-    /// Ends the run and returns its report.
-    pub(crate) fn finish(self) -> Result<RunReport, RunError> {
-        self.ledger.end(self.interrupted())
+    /// Ends the run and returns its report, and the answers that were kept.
+    pub(crate) fn finish(self) -> Result<(RunReport, Vec<Answer>), RunError> {
+        Ok((self.ledger.end(self.interrupted())?, self.answers.unwrap_or_default()))
     }
 }
 

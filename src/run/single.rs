@@ -8,7 +8,7 @@ use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::claim::Claim;
 use crate::scene::SceneFile;
-use crate::study::{Observer, Progress};
+use crate::study::{Answer, Observer, Progress};
 use std::ops::ControlFlow;
 
 /// Computes the studies of a scene and writes their files. The run is recorded in `ledger`, so that another thread can
@@ -34,16 +34,45 @@ pub(super) fn run_with(
 ) -> Result<RunReport, RunError> {
     Threads::new(options.threads).install(|| {
         let assembly = assembly(file)?;
-        let mut runner = Runner::new(file, &assembly, options, observer, ledger)?;
-        runner.begin(options.resume, claim)?;
-        for study in &file.scene.studies {
-            runner.study(study)?;
-            if runner.interrupted() {
-                break;
-            }
-        }
-        runner.finish()
+        let runner = Runner::new(file, &assembly, options, observer, ledger)?;
+        over_studies(runner, file, options, claim).map(|(report, _)| report)
     })
+}
+
+/// Does the same as [`run`] on the assembly of the scene
+/// ([`scene::build::assembly`](crate::scene::build::assembly)), and returns the answers too, of those studies that an
+/// earlier run has not finished.
+///
+/// # Errors
+/// [`RunError`], as [`run_scene`](super::run_scene).
+pub fn run_and_keep(
+    file: &SceneFile,
+    assembly: &Assembly,
+    options: &RunOptions,
+    observer: Observer,
+    ledger: &Ledger,
+) -> Result<(RunReport, Vec<Answer>), RunError> {
+    has_something_to_compute(file)?;
+    Threads::new(options.threads).install(|| {
+        let runner = Runner::new(file, assembly, options, observer, ledger)?;
+        over_studies(runner.keeping_answers(), file, options, None)
+    })
+}
+
+fn over_studies(
+    mut runner: Runner<'_>,
+    file: &SceneFile,
+    options: &RunOptions,
+    claim: Option<Claim>,
+) -> Result<(RunReport, Vec<Answer>), RunError> {
+    runner.begin(options.resume, claim)?;
+    for study in &file.scene.studies {
+        runner.study(study)?;
+        if runner.interrupted() {
+            break;
+        }
+    }
+    runner.finish()
 }
 
 /// Does the checks that [`run`] does before it computes anything; writes nothing.
@@ -54,17 +83,21 @@ pub(super) fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunErr
 
 /// Builds the model of a scene that has something to compute.
 pub(super) fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
-    has_studies(file)?;
-    crate::scene::mass::is_read(file)?;
+    has_something_to_compute(file)?;
     Ok(crate::scene::build::assembly(file)?)
 }
 
-/// Checks that a scene has something to compute.
+/// Checks that a scene has a study, and one that reads its mass, if it has a mass.
+fn has_something_to_compute(file: &SceneFile) -> Result<(), RunError> {
+    has_studies(file)?;
+    Ok(crate::scene::mass::is_read(file)?)
+}
+
+/// Checks that a scene has a study.
 pub(super) fn has_studies(file: &SceneFile) -> Result<(), RunError> {
     if file.scene.studies.is_empty() {
-        let help =
-            "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
-        return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
+        let help = "add a [[study]], as in name = \"relaxed\", kind = \"relax\"";
+        return Err(file.error_at(0..0, "there is nothing to compute: the scene has no study", help).into());
     }
     Ok(())
 }

@@ -82,10 +82,8 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let Some(table) = &spec.generate else {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));
     };
-    let wrong = |message: String| file.error_at(table.span(), message, "see `foldwell new --help` for the patterns");
-    let pattern: generate::Pattern =
-        (**table).clone().try_into().map_err(|e: toml::de::Error| wrong(e.message().into()))?;
-    generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
+    let found = generate::Pattern::of(table).and_then(|pattern| generate::generate(&pattern));
+    found.map_err(|error| file.error_at(table.span(), error.to_string(), error.help()))
 }
 
 /// Returns another sheet that a study names, from its mesh.
@@ -120,7 +118,7 @@ fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
         (None, "stl") => Ok(stl::read(path)?),
         (None, "vtu") => {
             let span = file.scene.sheet.mesh.as_ref().map_or(0..0, Located::span);
-            let help = "`foldwell convert` makes a .fold file of it; a state to start from is `start` of a study";
+            let help = "convert it to a .fold file; a state to start from is `start` of a study";
             Err(file.error_at(span, "a mesh of a scene is no .vtu file", help))
         }
         (None, _) if spec.merge.is_some() => Ok(fold::read_cleaned(path, frame.map(|frame| **frame), &cleanup)?),
@@ -340,7 +338,7 @@ impl<'a> Reader<'a> {
         self.values.edge(key, |kind| kind == EdgeKind::Crease).ok_or_else(|| {
             let known: Vec<String> =
                 self.sheet.edges.iter().filter(|e| e.kind == EdgeKind::Crease).take(4).map(|e| name(e.key)).collect();
-            let help = format!("the creases are {}, ...; `foldwell info` counts them", known.join(", "));
+            let help = format!("the creases are {}, ...", known.join(", "));
             self.file.error_at(crease.span(), format!("the sheet has no crease {}", name(key)), help)
         })
     }

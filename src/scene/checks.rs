@@ -9,6 +9,7 @@ use super::outputs::outputs;
 use super::spec::{DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
+use crate::sheet::similar::{did_you_mean, there_are};
 
 /// Largest length of the name of a study: names of files, which add to it, stay under 255 bytes.
 const LONGEST_NAME: usize = 200;
@@ -254,10 +255,12 @@ fn earlier_study(file: &SceneFile, start: &Located<StartSpec>, earlier: &[StudyS
     if with_states.iter().any(|study| study.name.0 == *name) {
         return Ok(());
     }
+    let question = did_you_mean(name, with_states.iter().map(|study| study.name.0.as_str()));
     let names: Vec<_> = with_states.iter().map(|study| format!("\"{}\"", study.name.0)).collect();
     let known = if names.is_empty() { "there are none".into() } else { format!("here {}", names.join(", ")) };
-    let help =
-        format!("\"drawn\", the name of an earlier study with states ({known}), {{ random, seed }} or a .vtu file");
+    let help = format!(
+        "{question}\"drawn\", the name of an earlier study with states ({known}), {{ random, seed }} or a .vtu file"
+    );
     let message = match earlier.iter().find(|study| study.name.0 == *name) {
         Some(study) => format!("`{name}` is a study of kind {}, which ends in no state", study.kind.name()),
         None => format!("no earlier study is called `{name}`"),
@@ -273,16 +276,18 @@ fn has_states(kind: &StudyKind) -> bool {
 /// Checks that a path has a drive, and that its sheet has the quantities at which it stops.
 fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
     let drives = &file.scene.drives;
-    let known: Vec<_> = drives.iter().map(|drive| format!("\"{}\"", drive.name.0)).collect();
-    let known = if known.is_empty() { "the scene has no [[drive]]; add one".into() } else { known.join(", ") };
+    let names = drives.iter().map(|drive| drive.name.0.as_str());
     match &path.drive {
-        Some(name) if drives.iter().all(|drive| drive.name.0 != **name) => {
-            let message = format!("no drive is called `{}`", **name);
-            return Err(file.error_at(name.span(), message, format!("the drives: {known}")));
+        _ if drives.is_empty() => {
+            let help = "add a [[drive]]: what is driven, and the value `to` which";
+            return Err(file.error_at(study.kind.span(), "a path follows a drive, and there is none", help));
         }
-        None if drives.len() != 1 => {
-            let message = format!("the scene has {} drives, and this path names none", drives.len());
-            return Err(file.error_at(study.kind.span(), message, format!("give drive = \"..\"; the drives: {known}")));
+        Some(name) if names.clone().all(|known| known != **name) => {
+            return Err(file.error_at(name.span(), format!("no drive is called `{}`", **name), there_are(name, names)));
+        }
+        None if drives.len() > 1 => {
+            let message = format!("there are {} drives, and this path names none", drives.len());
+            return Err(file.error_at(study.kind.span(), message, format!("give `drive`; {}", there_are("", names))));
         }
         _ => {}
     }

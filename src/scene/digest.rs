@@ -11,7 +11,8 @@ use super::{Located, SceneError, SceneFile};
 use crate::sheet::text::read_bytes;
 
 /// Returns sixteen hexadecimal digits that change with the version of this program, the text of the scene and the bytes
-/// of every file that the scene names: the mesh, tables of angles and rates, states to start from.
+/// of every file that the scene names: the mesh, tables of angles and rates, states to start from; and with arrays in
+/// their place.
 ///
 /// The digest detects edited input, by the 64-bit hash FNV-1a; it does not protect against forgery.
 ///
@@ -23,6 +24,10 @@ pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     hash.add(file.text().as_bytes());
     for path in named_files(file) {
         hash.add(&read_bytes(&path).map_err(|source| SceneError::Read { path, source })?);
+    }
+    for (name, array) in file.arrays().iter() {
+        hash.add(name.as_os_str().as_encoded_bytes());
+        hash.add(&array.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<_>>());
     }
     Ok(hash.to_string())
 }
@@ -87,7 +92,7 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     found.extend(
         axes.filter_map(|axis| if let SweepValues::File(path) = &*axis.values { Some(path.clone()) } else { None }),
     );
-    found.into_iter().map(|path| file.resolve(&path)).collect()
+    found.into_iter().filter(|path| file.array(path).is_none()).map(|path| file.resolve(&path)).collect()
 }
 
 fn stiffness_table(spec: &Option<Located<StiffnessSpec>>) -> Option<PathBuf> {

@@ -9,6 +9,7 @@ use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
 use crate::model::{Assembly, Drive, Driven, TermKind};
 use crate::sheet::angle::Angle;
+use crate::sheet::similar::there_are;
 
 /// Part of a direction along which a vertex is held, up to which it counts as free to move along the direction.
 const FREE: f64 = 1e-12;
@@ -183,10 +184,9 @@ fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(
 fn part(file: &SceneFile, name: &Located<String>, axis: &Located<AxisSpec>) -> Result<Driven, SceneError> {
     let parts = &file.scene.parts;
     let found = parts.iter().position(|part| part.name.0 == **name).ok_or_else(|| {
-        let known: Vec<_> = parts.iter().map(|part| format!("\"{}\"", part.name.0)).collect();
-        let help = match known.is_empty() {
+        let help = match parts.is_empty() {
             true => "the scene has no [[part]]; add one, or give vertices = .. instead".to_owned(),
-            false => format!("the parts are {}", known.join(", ")),
+            false => there_are(name, parts.iter().map(|part| part.name.0.as_str())),
         };
         file.error_at(name.span(), format!("no part is called `{}`", **name), help)
     })?;

@@ -28,6 +28,8 @@ pub enum SceneError {
         line: usize,
         /// Column in characters, counted from 1.
         column: usize,
+        /// Path of the key at the place, as in `energy.bars.stiffness` or `study.0.name`; empty if there is none.
+        key: String,
         /// Description of the error.
         message: String,
         /// Proposed correction.

@@ -14,6 +14,7 @@ use super::error::SceneError;
 use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::setting::{Setting, apply};
 use super::spec::Scene;
+use crate::sheet::similar::did_you_mean_of;
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.
@@ -50,13 +51,18 @@ impl SceneFile {
     pub(super) fn with(&self, text: &str, settings: &[Setting]) -> Result<Self, SceneError> {
         let mut file = Self::unchecked(text, &self.path, settings)?;
         file.settings.splice(0..0, self.settings.iter().cloned());
-        Ok(file)
+        Ok(file.with_arrays(self.arrays.clone()))
     }
 
     /// Returns the same scene, in which a table of edges that has the name of an array is this array and no file.
     #[must_use]
     pub fn with_arrays(self, arrays: Arrays) -> Self {
         Self { arrays, ..self }
+    }
+
+    /// Returns the arrays that it has in the place of tables.
+    pub fn arrays(&self) -> &Arrays {
+        &self.arrays
     }
 
     /// Returns the array of this name.
@@ -104,9 +110,36 @@ impl SceneFile {
 
 fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String, help: Option<String>) -> SceneError {
     let (line, column) = line_and_column(text.inner(), span.start);
+    let key = if span.is_empty() { String::new() } else { key_at(text.inner(), span.start) };
     let (text, span) = excerpt(text, span);
     let (message, help) = (cut(&message), help.as_deref().map(cut));
-    SceneError::At { file: text.name().into(), line, column, message, help, text, span: span.into() }
+    SceneError::At { file: text.name().into(), line, column, key, message, help, text, span: span.into() }
+}
+
+/// Returns the path of the key whose name or value is at a byte offset; empty if there is none.
+fn key_at(text: &str, offset: usize) -> String {
+    let found = DeTable::parse(text).ok().and_then(|root| key_in_table(root.get_ref(), offset));
+    found.unwrap_or_default().join(".")
+}
+
+fn key_in_table(table: &DeTable<'_>, offset: usize) -> Option<Vec<String>> {
+    table.iter().find_map(|(key, value)| {
+        let below = if key.span().contains(&offset) { Some(Vec::new()) } else { key_in_value(value, offset) };
+        below.map(|below| [vec![key.get_ref().to_string()], below].concat())
+    })
+}
+
+/// Returns the path below a value; empty if the offset is at the value itself, `None` if it is elsewhere.
+fn key_in_value(value: &Spanned<DeValue<'_>>, offset: usize) -> Option<Vec<String>> {
+    let below = match value.get_ref() {
+        DeValue::Table(table) => key_in_table(table, offset),
+        DeValue::Array(items) => items
+            .iter()
+            .enumerate()
+            .find_map(|(k, item)| key_in_value(item, offset).map(|below| [vec![k.to_string()], below].concat())),
+        _ => None,
+    };
+    below.or_else(|| value.span().contains(&offset).then(Vec::new))
 }
 
 /// Largest number of characters of a line or message that are printed.
@@ -202,13 +235,13 @@ fn not_a_kind(text: &Arc<NamedSource<String>>, span: Range<usize>) -> SceneError
 
 /// Converts an error of the TOML reader or of serde to one in the terms of this program.
 fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneError {
-    let span = fault.span().unwrap_or(0..0);
+    let (span, question) = (fault.span().unwrap_or(0..0), did_you_mean_of(fault.message()));
     let (wrong, right) = match fault.message().split_once(", expected ") {
         Some((wrong, right)) => (wrong, Some(plain_words(right))),
         None => (fault.message(), None),
     };
     if let Some(key) = quoted_after(wrong, "unknown field ") {
-        let help = unknown_key_help(&key, right);
+        let help = question + &unknown_key_help(&key, right);
         return error_at(text, span, format!("unknown key `{key}`"), Some(help));
     }
     if let Some(key) = quoted_after(wrong, "missing field ") {
@@ -219,7 +252,7 @@ fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneE
         return error_at(text, span, "this is no number".into(), Some(help.into()));
     }
     let message = wrong.replace("unknown variant", "unknown word");
-    error_at(text, span, message, right.map(|right| format!("expected {right}")))
+    error_at(text, span, message, right.map(|right| format!("{question}expected {right}")))
 }
 
 fn quoted_after(text: &str, start: &str) -> Option<String> {
@@ -255,6 +288,23 @@ fn plain_words(expected: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Claim: every place is at its key: in headers, lists of tables, inline tables and lists, whatever comes before it.
+    #[test]
+    fn places_have_their_keys() {
+        let text =
+            "title = \"a\"\n[energy]\nbars = { stiffness = 3 }\n[[study]]\nname = \"a\"\n[[study]]\nq1 = [1, 2]\n";
+        for (place, key) in [
+            ("= 3", ""),
+            ("3 }", "energy.bars.stiffness"),
+            ("stiff", "energy.bars.stiffness"),
+            ("energy", "energy"),
+            ("2]", "study.1.q1.1"),
+            ("\"a\"\n[e", "title"),
+        ] {
+            assert_eq!(key_at(text, text.find(place).unwrap()), key, "{place}");
+        }
+    }
 
     /// Claim: columns count characters, so that an accent before the place does not shift it. Source: counted by hand.
     #[test]

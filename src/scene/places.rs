@@ -10,6 +10,7 @@ use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
 use crate::model::{Assembly, Length, OwnTerm, Part, Site, Spring};
+use crate::sheet::similar::there_are;
 use crate::sheet::{Sheet, Tiling};
 
 /// Distance, relative to the mean edge, up to which a drawn coordinate has a given value.
@@ -83,13 +84,12 @@ impl<'a> Places<'a> {
     /// Returns the vertices that the mesh lists under a name.
     fn named(&self, name: &str, span: Range<usize>) -> Result<Vec<usize>, SceneError> {
         let Some(corners) = self.sheet.names.get(name) else {
-            let known: Vec<_> = self.sheet.names.keys().map(|known| format!("\"{known}\"")).collect();
-            let help = if known.is_empty() {
+            let help = if self.sheet.names.is_empty() {
                 "the mesh has no names: give a list of vertices, { where = { z = \"max\" } } or a box, or add the key \
                  `foldwell:names` to the mesh"
                     .to_owned()
             } else {
-                format!("the mesh names {}", known.join(", "))
+                there_are(name, self.sheet.names.keys().map(String::as_str))
             };
             return Err(self.file.error_at(span, format!("the mesh names no vertices `{name}`"), help));
         };

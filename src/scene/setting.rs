@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::sheet::similar::there_are;
 use thiserror::Error;
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Key, TableLike, Value};
 
@@ -41,7 +42,7 @@ pub enum SettingError {
         part: String,
     },
     /// No element of a list has this name or number.
-    #[error("`{setting}`: `{list}` has no element `{element}`; {}", there_are(names))]
+    #[error("`{setting}`: `{list}` has no element `{element}`; {}", elements(element, names))]
     NoElement {
         /// The setting.
         setting: String,
@@ -54,8 +55,8 @@ pub enum SettingError {
     },
 }
 
-fn there_are(names: &[String]) -> String {
-    if names.is_empty() { "it is empty".into() } else { format!("there are {}", names.join(", ")) }
+fn elements(element: &str, names: &[String]) -> String {
+    if names.is_empty() { "it is empty".into() } else { there_are(element, names.iter().map(String::as_str)) }
 }
 
 impl Setting {
@@ -276,8 +277,11 @@ mod tests {
         assert!(fault("=3").contains("KEY=VALUE"));
         assert!(fault("energy..bars=3").contains("KEY=VALUE"));
         assert_eq!(fault("title.length=3"), "`title.length=3`: `title` is a value, which has no keys");
-        assert_eq!(fault("study.pull.kind=3"), "`study.pull.kind=3`: `study` has no element `pull`; there are relaxed");
-        assert_eq!(fault("lock.1.angle=3"), "`lock.1.angle=3`: `lock` has no element `1`; there are 0");
+        assert_eq!(
+            fault("study.pull.kind=3"),
+            "`study.pull.kind=3`: `study` has no element `pull`; there are `relaxed`"
+        );
+        assert_eq!(fault("lock.1.angle=3"), "`lock.1.angle=3`: `lock` has no element `1`; there are `0`");
         assert_eq!(fault("sheet.cells.0.x=3"), "`sheet.cells.0.x=3`: `0` is a value, which has no keys");
     }
 

@@ -163,7 +163,7 @@ impl Sweep {
             }
             place => {
                 let span = place.map_or(0..0, |place| if let Place::Span(span) = place { span } else { 0..0 });
-                let help = help.unwrap_or_else(|| "paths of keys are those of `foldwell run --set`".into());
+                let help = help.unwrap_or_else(|| "the path of a key has dots, as in energy.bars.stiffness".into());
                 self.file.error_at(span, message, help)
             }
         }

@@ -12,11 +12,15 @@ use thiserror::Error;
 
 use crate::sheet::{Corner, EdgeKey, Seam};
 
+fn counted(count: &usize) -> String {
+    if *count == 1 { "1 value".into() } else { format!("{count} values") }
+}
+
 /// The reasons for which a value of a scene is refused.
 #[derive(Debug, Error)]
 pub enum ValueError {
     /// A list is too short or too long.
-    #[error("the list has {0} values, expected {1}")]
+    #[error("the list has {count}, expected {1} values", count = counted(.0))]
     Length(usize, usize),
     /// A stiffness is zero, negative or NaN.
     #[error("the stiffness is {0}, expected a positive number or `inf` (exactly rigid)")]

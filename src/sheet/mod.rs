@@ -38,6 +38,7 @@ pub(crate) mod record;
 pub(crate) mod redrawing;
 mod screws;
 mod seam;
+pub mod similar;
 pub mod stl;
 pub mod symmetry;
 pub(crate) mod text;

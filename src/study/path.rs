@@ -195,7 +195,11 @@ fn reason(branch: &PathBranch) -> Option<String> {
             Some("the path came back to where it began without reaching the end of the drive".to_owned())
         }
         PathEnd::Retraced => Some(format!("the path goes back over its own states from drive {} on", rounded(at, 6))),
-        PathEnd::Failed => Some(format!("no step leads on from the state with drive {}", rounded(at, 6))),
+        PathEnd::Failed => Some(format!(
+            "no step leads on from the state with drive {}, however short: the sheet is blocked there, or a stiffness is \
+             too far from the others",
+            rounded(at, 6)
+        )),
         PathEnd::TooManySteps => {
             let count = branch.points.len();
             Some(format!(

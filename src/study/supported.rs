@@ -6,23 +6,18 @@ use super::error::StudyError;
 /// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
 
-/// Checks that there are no rigid parts, no pins along a direction and no springs between vertices, which relaxations,
-/// paths and wells alone know.
+/// Checks that there are no rigid parts, no pins along a direction and no terms of one's own, as springs between
+/// vertices are, which relaxations, paths and wells alone know.
 pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
-    let given = [
-        ("rigid parts", !terms.parts.is_empty()),
-        ("pins along a direction", !terms.guides.is_empty()),
-        ("springs between vertices", !terms.own.is_empty()),
-    ];
-    match given.into_iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((what, _)) => {
-            let help =
-                "leave out [[part]], [[spring]] and the key `normal` of [[pin]], or ask for relax, path or wells";
-            Err(context.refuse(format!("studies of kind {kind} do not know {what}"), help).into())
-        }
-    }
+    let what = match terms.own_names().first() {
+        _ if !terms.parts.is_empty() => "rigid parts, which [[part]] gives".to_owned(),
+        _ if !terms.guides.is_empty() => "pins along a direction, the key `normal` of [[pin]]".to_owned(),
+        Some(name) => format!("the term `{name}`"),
+        None => return Ok(()),
+    };
+    let message = format!("studies of kind {kind} do not know {what}");
+    Err(context.refuse(message, "leave them out, or ask for relax, path or wells").into())
 }
 
 /// Checks that each term has one stiffness.
@@ -40,7 +35,7 @@ pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<()
 pub(super) fn linear_springs(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
     let Some(term) = context.assembly.terms().first_not_linear() else { return Ok(()) };
     let message = format!("{what} need linear bars and hinges and no other terms, and here is another: {term}");
-    Err(context.refuse(message, "leave out `law` of bars, creases and facets, and [[spring]]").into())
+    Err(context.refuse(message, "leave out `law` of bars, creases and facets, and terms of your own").into())
 }
 
 /// Checks that the bars are at rest as drawn.

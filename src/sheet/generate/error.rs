@@ -5,13 +5,13 @@ use crate::sheet::error::Defect;
 /// The reason why a pattern has no sheet for its parameters.
 #[derive(Debug, thiserror::Error)]
 pub enum GenerateError {
-    /// No pattern has this name.
-    #[error("there is no pattern `{name}`; there are {known}")]
+    /// A pattern or a parameter is unknown, or the value of a parameter has another type.
+    #[error("{message}")]
     Unknown {
-        /// The name.
-        name: String,
-        /// The names of all patterns.
-        known: String,
+        /// Description of the error.
+        message: String,
+        /// What would be right.
+        help: String,
     },
     /// A number is outside its range.
     #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
@@ -79,6 +79,16 @@ pub enum GenerateError {
     /// The parameters are in their ranges, but together they give a degenerate mesh.
     #[error("these parameters together give no sheet: {0}")]
     Mesh(#[from] Defect),
+}
+
+impl GenerateError {
+    /// Returns what would be right.
+    pub fn help(&self) -> String {
+        match self {
+            Self::Unknown { help, .. } => help.clone(),
+            _ => "angles are radians, or written as \"60 deg\"".to_owned(),
+        }
+    }
 }
 
 /// Returns a number with up to six decimals.

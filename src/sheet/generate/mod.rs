@@ -30,10 +30,11 @@ mod yoshimura;
 #[cfg(test)]
 mod tests;
 
-use serde::de::IntoDeserializer;
 use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
 
 use super::cell::Sheet;
+use super::similar::{did_you_mean_of, there_are};
 pub use eggbox::Eggbox;
 pub use error::GenerateError;
 pub use four_parallelogram::FourParallelogram;
@@ -113,7 +114,7 @@ impl Pattern {
     /// [`GenerateError::Unknown`] if no pattern has this name.
     pub fn help(name: &str) -> Result<&'static str, GenerateError> {
         let found = HELP.iter().find(|(known, _)| *known == name);
-        found.map(|(_, text)| *text).ok_or_else(|| unknown(name))
+        found.map(|(_, text)| *text).ok_or_else(|| unknown(format!("there is no pattern `{name}`"), name))
     }
 
     /// Returns the pattern of this name with the default of every parameter.
@@ -121,16 +122,31 @@ impl Pattern {
     /// # Errors
     /// [`GenerateError::Unknown`] if no pattern has this name.
     pub fn named(name: &str) -> Result<Self, GenerateError> {
-        let pair = [("pattern", name)].into_iter();
-        Self::deserialize(IntoDeserializer::<serde::de::value::Error>::into_deserializer(
-            pair.collect::<std::collections::BTreeMap<_, _>>(),
-        ))
-        .map_err(|_| unknown(name))
+        Self::of(&Table::from_iter([("pattern".to_owned(), name.into())]))
+    }
+
+    /// Reads a pattern from its table, `{ pattern = "miura", .. }`; parameters that it does not have get their
+    /// defaults.
+    ///
+    /// # Errors
+    /// [`GenerateError::Unknown`] if there is no such pattern or parameter, or a value has another type.
+    pub fn of(table: &Table) -> Result<Self, GenerateError> {
+        let name = table.get("pattern").and_then(Value::as_str);
+        let name = name.ok_or_else(|| unknown("the table names no pattern: `pattern` is missing".to_owned(), ""))?;
+        Self::help(name)?;
+        table.clone().try_into().map_err(|error: toml::de::Error| match error.message().split_once(", expected ") {
+            Some((wrong, right)) => GenerateError::Unknown {
+                message: wrong.replace("unknown field", &format!("`{name}` has no parameter")),
+                help: format!("{}expected {right}", did_you_mean_of(error.message())),
+            },
+            None => GenerateError::Unknown { message: error.message().to_owned(), help: String::new() },
+        })
     }
 }
 
-fn unknown(name: &str) -> GenerateError {
-    GenerateError::Unknown { name: name.to_owned(), known: Pattern::names().collect::<Vec<_>>().join(", ") }
+/// Returns the error about a pattern that is none of those that there are.
+fn unknown(message: String, name: &str) -> GenerateError {
+    GenerateError::Unknown { message, help: there_are(name, Pattern::names()) }
 }
 
 /// Makes the sheet of a pattern.

@@ -254,8 +254,10 @@ fn names() {
         let json = serde_json::to_value(Pattern::named(name).unwrap()).unwrap();
         assert_eq!(json["pattern"], *name);
     }
-    let unknown = Pattern::named("no-such-pattern").unwrap_err().to_string();
-    assert!(unknown.starts_with("there is no pattern `no-such-pattern`; there are miura, "), "{unknown}");
+    let unknown = Pattern::named("no-such-pattern").unwrap_err();
+    assert_eq!(unknown.to_string(), "there is no pattern `no-such-pattern`");
+    assert!(unknown.help().starts_with("there are `miura`, "), "{}", unknown.help());
+    assert!(Pattern::named("muira").unwrap_err().help().starts_with("did you mean `miura`? there are "));
     assert!(serde_json::from_str::<Pattern>(r#"{"pattern": "miura", "angle": 1}"#).is_err());
 }
 

@@ -31,6 +31,63 @@ fn wrong_words_are_wrong_input() {
     }
 }
 
+/// Claim: a slip in a command, a pattern, a parameter, a key, a word of a scene or a name is answered by the word that is
+/// meant. Source: slips that users made.
+#[test]
+fn slips_are_answered_by_what_is_meant() {
+    let study = "name = \"a\"\nkind = \"relax\"\n";
+    let scene = |change: (&str, &str)| {
+        let text = format!(
+            "[sheet]\ngenerate = {{ pattern = \"miura\" }}\ndomain = \"patch\"\n[energy]\nbars = {{ stiffness = 1 }}\n\
+             [[part]]\nname = \"lid\"\nvertices = [0, 1, 2]\n[[drive]]\nname = \"press\"\npart = \"lid\"\naxis = \"z\"\n\
+             to = 1\n[[study]]\n{study}[[study]]\nname = \"b\"\nkind = \"path\"\ndrive = \"press\"\nstart = \"a\"\n"
+        );
+        assert!(text.contains(change.0));
+        text.replacen(change.0, change.1, 1)
+    };
+    let folder = Folder::new()
+        .with("key.toml", scene(("stiffness", "stifness")))
+        .with("pattern.toml", scene(("\"miura\"", "\"muira\"")))
+        .with("parameter.toml", scene(("\"miura\" }", "\"kresling\", sids = 5 }")))
+        .with("word.toml", scene(("\"patch\"", "\"path\"")))
+        .with("kind.toml", scene(("\"relax\"", "\"relaxx\"")))
+        .with("part.toml", scene(("part = \"lid\"", "part = \"lit\"")))
+        .with("drive.toml", scene(("drive = \"press\"", "drive = \"pres\"")))
+        .with(
+            "start.toml",
+            scene((study, &study.replace("\"a\"", "\"warm-up\""))).replace("start = \"a\"", "start = \"warm-op\""),
+        );
+    for (words, meant) in [
+        ("rnu a.toml", "'run'"),
+        ("convret a b", "'convert'"),
+        ("new muira --help", "`miura`"),
+        ("new kresling --sids 5 -o a.fold", "`sides`"),
+        ("run key.toml", "`stiffness`"),
+        ("run pattern.toml", "`miura`"),
+        ("run parameter.toml", "`sides`"),
+        ("run word.toml", "`patch`"),
+        ("run kind.toml", "`relax`"),
+        ("run part.toml", "`lid`"),
+        ("run drive.toml", "`press`"),
+        ("run start.toml", "`warm-up`"),
+        ("run drive.toml --set study.c.drive=press", "there are `a`, `b`"),
+    ] {
+        let said = folder.foldwell(words).refused(meant);
+        assert!(
+            said.err.contains("did you mean") || said.err.contains("similar") || meant.contains("there"),
+            "{}",
+            said.err
+        );
+    }
+}
+
+/// Claim: a name of 50,000 characters is not printed in full.
+#[test]
+fn long_names_are_cut() {
+    let said = Folder::new().program(&["info", &format!("{}.fold", "x".repeat(50_000))]);
+    assert!(said.status == Some(3) && said.err.len() < 2000, "{:?}: {}", said.status, said.err.len());
+}
+
 /// A mesh instead of a scene, and a file that is neither, are refused with a remedy.
 #[test]
 fn files_of_the_wrong_kind() {

@@ -131,7 +131,7 @@ fn with_drive(more: &str) -> String {
 #[rustfmt::skip]
 fn faults_of_sets() {
     assert_refused(&[
-        ("[[pin]]\nvertices = \"rmi\"".to_owned(), 2, "the mesh names no vertices `rmi`", "the mesh names \"rim\", \"top\""),
+        ("[[pin]]\nvertices = \"rmi\"".to_owned(), 2, "the mesh names no vertices `rmi`", "did you mean `rim`? there are `rim`, `top`"),
         ("[[pin]]\nvertices = [7]".into(), 2, "there is no vertex 7", "the vertices of a cell are 0 to 4"),
         ("[[pin]]\nvertices = [[1, 1, 0]]".into(), 2, "there is no cell [1, 0]", "[0, 0]"),
         ("[[pin]]\nvertices = [1, 2, 1]".into(), 2, "vertex 1 is listed twice", "once"),
@@ -170,7 +170,7 @@ fn faults_of_parts() {
         ("[[part]]\nvertices = [0, 1, 2]".into(), 1, "missing key `name`", ""),
         ("[[part]]\nname = 3\nvertices = [0, 1, 2]".into(), 2, "integer `3`", ""),
         ("[[part]]\nname = \"b\"".into(), 1, "missing key `vertices`", ""),
-        ("[[part]]\nname = \"b\"\nvertices = \"rmi\"".into(), 3, "the mesh names no vertices `rmi`", "\"rim\""),
+        ("[[part]]\nname = \"b\"\nvertices = \"rmi\"".into(), 3, "the mesh names no vertices `rmi`", "`rim`"),
         ("[[part]]\nname = \"b\"\nvertices = [9]".into(), 3, "there is no vertex 9", "0 to 4"),
         ("[[part]]\nname = \"b\"\nvertices = [0, 1, 2]\nfree = \"z\"".into(), 4, "string \"z\"", ""),
         ("[[part]]\nname = \"b\"\nvertices = [0, 1, 2]\nfree = [1]".into(), 4, "integer `1`", ""),
@@ -188,7 +188,7 @@ fn faults_of_drives() {
         (with_drive("load = false\nto = 1"), 3, "false drives nothing", "true"),
         (with_drive("load = true\nto = 1"), 3, "the scene has no loads to drive", "[[load]]"),
         (with_drive("part = \"lit\"\naxis = \"z\"\nto = 1"), 3, "no part is called `lit`", "no [[part]]"),
-        (with_part(&with_drive("part = \"lit\"\naxis = \"z\"\nto = 1")), 7, "no part is called `lit`", "the parts are \"lid\""),
+        (with_part(&with_drive("part = \"lit\"\naxis = \"z\"\nto = 1")), 7, "no part is called `lit`", "did you mean `lid`? there are `lid`"),
         (with_part(&with_drive("part = \"lid\"\naxis = \"x\"\nto = 1")), 8, "part `lid` is held in \"x\"", "add \"x\""),
         (with_part(&with_drive("part = \"lid\"\naxis = [0, 0, 1]\nto = 1")), 8, "a direction as the axis of a part", "\"rz\""),
         (with_part(&with_drive("part = \"lid\"\nto = 1")), 6, "the drive has no axis", "axis = \"z\""),
@@ -255,14 +255,15 @@ fn studies() {
     let two = "[[drive]]\nname = \"a\"\nrest = true\nto = 1\n[[drive]]\nname = \"b\"\nstiffness = \"bars\"\nto = 2\n";
     let study = |more: &str| format!("{two}[[study]]\nname = \"s\"\nkind = \"path\"\n{more}\n");
     let cases = [
-        (study(""), 11, "the scene has 2 drives, and this path names none", "\"a\", \"b\""),
-        (study("drive = \"c\""), 12, "no drive is called `c`", "\"a\", \"b\""),
+        (study(""), 11, "there are 2 drives, and this path names none", "give `drive`; there are `a`, `b`"),
+        (study("drive = \"c\""), 12, "no drive is called `c`", "there are `a`, `b`"),
         (
             study("drive = \"a\"\nstop = { curvature = 1 }"),
             13,
             "a path of this sheet does not stop at a curvature",
             "arc length",
         ),
+        (study("drive = \"b\"").replace(two, ""), 3, "a path follows a drive, and there is none", "add a [[drive]]"),
         (study("drive = \"a\"\nstop = {}"), 13, "no condition to stop at", "arc_length"),
         (study("drive = \"a\"\nstart = \"t\""), 13, "no earlier study is called `t`", "earlier study"),
         (
