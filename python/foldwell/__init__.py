@@ -62,5 +62,10 @@ __all__ = [
     "wells",
 ]
 
+
+def __dir__() -> list[str]:
+    return __all__
+
+
 # work of threads that are still going on ends before the interpreter does
 atexit.register(_foldwell.stop_all)

@@ -42,16 +42,35 @@ def matrix(values: ArrayLike, name: str, columns: tuple[int, ...], rows: int | N
     return found
 
 
-def numbers(values: ArrayLike, name: str, dimensions: int | None = None) -> NDArray[np.float64]:
+def numbers(values: ArrayLike, name: str) -> NDArray[np.float64]:
     """Returns `values` as a contiguous array of doubles.
 
     Raises:
         TypeError: they are no real numbers.
-        ValueError: the array has another number of dimensions.
     """
     given = np.asarray(values)
     if given.dtype.kind not in "fiub":
         raise TypeError(f"{name} has numbers of type {given.dtype}, expected real numbers")
-    if dimensions not in (None, given.ndim):
-        raise ValueError(f"{name} has shape {given.shape}, expected an array of {dimensions} dimension")
     return np.ascontiguousarray(given, dtype=np.float64)
+
+
+def of_edges(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Returns `values` of edges as a contiguous vector; how many there are, and which are not finite, is seen elsewhere.
+
+    Raises:
+        TypeError: they are no real numbers.
+        ValueError: they are no vector.
+    """
+    found = numbers(values, name)
+    if found.ndim != 1:
+        raise ValueError(f"{name} has shape {found.shape}, expected an array of 1 dimension")
+    return found
+
+
+def forces(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Returns forces, shape (n, 3), as a contiguous vector.
+
+    Raises:
+        TypeError, ValueError: as `matrix`.
+    """
+    return matrix(values, name, (3,)).ravel()

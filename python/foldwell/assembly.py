@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-import inspect
-import json
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import matrix, numbers, vector
+from .arrays import vector
 from .sheet import Sheet
 from .state import State
 from .terms import Called, Energy
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array, csr_array
-    from typing_extensions import Unpack
 
 __all__ = ["RIGID", "Assembly"]
 
@@ -30,45 +27,16 @@ __all__ = ["RIGID", "Assembly"]
 RIGID = math.inf
 
 Table = Mapping[str, Any]
-Stiffness = float | str | Table | NDArray[Any]
-Rest = float | str | Table | NDArray[Any]
+Tables = Iterable[Table]
+#: A number, a word, a dict as in a scene, or an array with a number for each edge.
+Stiffness = float | str | Table | ArrayLike
+Rest = float | str | Table | ArrayLike
+Laws = Mapping[str, Table]
 EdgeName = Sequence[int]
-F = TypeVar("F", bound=Callable[..., Any])
+Locks = Mapping[EdgeName, float | str | None] | Iterable[EdgeName]
 
-#: Arguments that may be arrays with a number for each edge.
-PER_EDGE = ("bars", "rest_lengths", "creases", "rest", "facets", "facet_rest")
-
-
-class Terms(TypedDict, total=False):
-    """The terms of an assembly, which `Assembly.patch` describes."""
-
-    bars: Stiffness | None
-    rest_lengths: Rest | None
-    creases: Stiffness | None
-    rest: Rest | None
-    fraction: float | None
-    facets: Stiffness | None
-    facet_rest: Rest | None
-    locks: Mapping[EdgeName, float | str | None] | Iterable[EdgeName] | None
-    pins: Iterable[Table] | None
-    loads: Iterable[Table] | NDArray[Any] | None
-    parts: Iterable[Table] | None
-    springs: Iterable[Table] | None
-    drives: Iterable[Table] | None
-    laws: Mapping[str, Table] | None
-    mass: Table | None
-    material: Table | None
-    units: Table | None
-
-
-def with_terms(make: F) -> F:
-    """Gives a function of `**terms` the signature in which they are spelled out, for `help` and for notebooks."""
-    signature = inspect.signature(make)
-    others = [parameter for parameter in signature.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
-    kinds = {name: getattr(kind, "__forward_arg__", kind) for name, kind in Terms.__annotations__.items()}
-    terms = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=kind) for name, kind in kinds.items()]
-    setattr(make, "__signature__", signature.replace(parameters=others + terms))  # noqa: B010
-    return make
+#: Keys of a scene that say how a sheet becomes a model.
+PLACE = ("cells", "lattice", "seam", "closing", "inwards")
 
 
 class Assembly:
@@ -94,8 +62,17 @@ class Assembly:
         return (type(self), (self._inner,))
 
     @classmethod
-    @with_terms
-    def patch(cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), **terms: Unpack[Terms]) -> Assembly:
+    def patch(
+        cls,
+        sheet: Sheet,
+        cells: tuple[int, int] = (1, 1),
+        *,
+        bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
+        fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
+        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
+        material: Table | None = None, units: Table | None = None,
+        pins: Tables | None = None, loads: Tables | ArrayLike | None = None, parts: Tables | None = None, springs: Tables | None = None,
+    ) -> Assembly:
         """Makes a patch: `cells[0]` times `cells[1]` cells with free edges, or a finite sheet.
 
         Args:
@@ -136,33 +113,48 @@ class Assembly:
             >>> fw.relax(held).converged
             True
         """
-        return cls._build(sheet, {"domain": "patch", "cells": cells}, terms)
+        return _built("patch", **locals())
 
     @classmethod
-    @with_terms
     def torus(
-        cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), *, lattice: str = "free", **terms: Unpack[Terms]
+        cls,
+        sheet: Sheet,
+        cells: tuple[int, int] = (1, 1),
+        *,
+        lattice: str = "free",
+        bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
+        fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
+        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
+        material: Table | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
-        Terms as in `patch`, without pins, loads and parts.
+        Terms as in `patch`, without pins, loads, parts and springs.
 
         Example:
             >>> import foldwell as fw
             >>> fw.Assembly.torus(fw.generate("miura"), bars=1e3, creases=1.0, lattice="fixed").cells
             (1, 1)
         """
-        return cls._build(sheet, {"domain": "torus", "cells": cells, "lattice": lattice}, terms)
+        return _built("torus", **locals())
 
     @classmethod
-    @with_terms
-    def screw(cls, sheet: Sheet, cells: tuple[int, int] = (6, 6), **terms: Unpack[Terms]) -> Assembly:
+    def screw(
+        cls,
+        sheet: Sheet,
+        cells: tuple[int, int] = (6, 6),
+        *,
+        bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
+        fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
+        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
+        material: Table | None = None, units: Table | None = None,
+    ) -> Assembly:
         """Makes a screw: one cell repeated by two commuting screw motions, so that the sheet can be a cylinder.
 
         Args:
             sheet: The sheet.
             cells: Cells of pictures; they have no influence on numbers.
-            terms: As in `patch`, without pins, loads and parts.
+            bars, ...: Terms as in `patch`, without pins, loads, parts and springs.
 
         Example:
             >>> import foldwell as fw
@@ -171,10 +163,9 @@ class Assembly:
             >>> rolled.cells
             (1, 1)
         """
-        return cls._build(sheet, {"domain": "screw", "cells": cells}, terms)
+        return _built("screw", **locals())
 
     @classmethod
-    @with_terms
     def tube(
         cls,
         sheet: Sheet,
@@ -183,7 +174,10 @@ class Assembly:
         *,
         closing: str = "both",
         inwards: bool | None = None,
-        **terms: Unpack[Terms],
+        bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
+        fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
+        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
+        material: Table | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a tube: the sheet rolled up, or drawn as a tube, and closed so that the cell `seam` lies on cell (0, 0).
 
@@ -194,7 +188,7 @@ class Assembly:
             closing: The closing conditions that hold: "both", "turn" (the seam slips) or "rise" (the tube opens or overlaps).
             inwards: Whether the sheet is rolled up towards its face normals, which it is if this is left out. Not for a sheet that is
                 drawn as a tube.
-            terms: As in `patch`, without pins, loads and parts.
+            bars, ...: Terms as in `patch`, without pins, loads, parts and springs.
 
         Raises:
             SceneError: the sheet cannot be rolled up until it closes, or is drawn as a tube that does not close there.
@@ -205,9 +199,7 @@ class Assembly:
             >>> fw.Assembly.tube(cell, (6, 0), bars=1e3, creases=1.0).cells
             (1, 1)
         """
-        optional = {"cells": cells, "inwards": inwards}
-        place = {"domain": "tube", "seam": seam, "closing": closing, **{k: v for k, v in optional.items() if v is not None}}
-        return cls._build(sheet, place, terms)
+        return _built("tube", **locals())
 
     @classmethod
     def from_scene(
@@ -230,15 +222,7 @@ class Assembly:
             (2, 2)
         """
         given = dict(scene) if isinstance(scene, Mapping) else Path(scene)
-        return cls(_foldwell.Assembly(given, Path(base), settings(set), None, {}))
-
-    @classmethod
-    def _build(cls, sheet: Sheet, place: Table, terms: Terms) -> Assembly:
-        if not isinstance(sheet, Sheet):
-            raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
-        scene, arrays = _terms(dict(terms))
-        scene["sheet"] = {"mesh": sheet.title or "sheet", **place}
-        return cls(_foldwell.Assembly(scene, Path(), [], sheet._inner, arrays))
+        return cls(_foldwell.Assembly(given, Path(base), dict(set or {})))
 
     def with_term(self, name: str, vertices: ArrayLike, energy: Energy) -> Assembly:
         """Returns the same patch with a term of your own, whose energy is listed as `energy_NAME`; see the book.
@@ -478,55 +462,29 @@ class Assembly:
         return f"<foldwell.Assembly of {self.sheet.title!r}: {self.cells[0]} x {self.cells[1]} cells>"
 
 
-def _terms(terms: dict[str, Any]) -> tuple[dict[str, Any], dict[str, NDArray[np.float64]]]:
-    """Returns the tables of a scene for the keyword arguments of `Assembly.patch`, and the arrays that they name as files."""
-    if unknown := terms.keys() - Terms.__annotations__.keys():
-        raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(Terms.__annotations__))}")
-    given = {name: value for name, value in terms.items() if value is not None}
-    arrays = {name: numbers(given[name], name, 1) for name in PER_EDGE if isinstance(given.get(name), np.ndarray) and given[name].ndim}
-    given |= {name: {"file": name} for name in arrays}
-    if isinstance(given.get("loads"), np.ndarray):
-        arrays["loads"] = matrix(given.pop("loads"), "loads", (3,)).ravel()
-    energy: dict[str, dict[str, Any]] = {k: {"stiffness": given[k]} for k in ("bars", "creases", "facets") if k in given}
-    for term, name in [("bars", "rest_lengths"), ("creases", "rest"), ("facets", "facet_rest")]:
-        if name in given:
-            if term not in energy and "material" not in given:
-                raise TypeError(f"{name} is given without {term}")
-            energy.setdefault(term, {})["rest"] = given[name]
-    for term, law in given.get("laws", {}).items():
-        if term not in energy:
-            raise TypeError(f"a law of {term} is given without their stiffness")
-        energy[term]["law"] = law
-    if "fraction" in given:
-        energy.setdefault("creases", {})["fraction"] = given["fraction"]
-    scene: dict[str, Any] = {"energy": energy, "lock": _locks(given.get("locks", ()))}
+def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Assembly:
+    """Builds the assembly of these arguments of `Assembly.patch`, `torus`, `screw` or `tube`."""
+    if not isinstance(sheet, Sheet):
+        raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
+    given = {name: value for name, value in given.items() if value is not None}
+    energy: dict[str, dict[str, Any]] = {term: {"stiffness": given[term]} for term in ("bars", "creases", "facets") if term in given}
+    own = {"bars": ("rest", "rest_lengths"), "creases": ("rest", "rest"), "facets": ("rest", "facet_rest")}
+    keys = [(term, key, given.get(name), name) for term, (key, name) in own.items()]
+    keys += [("creases", "fraction", given.get("fraction"), "fraction")]
+    keys += [(term, "law", law, f"laws[{term!r}]") for term, law in given.get("laws", {}).items()]
+    for term, key, value, name in keys:
+        if value is not None and term not in energy and "material" not in given:
+            raise TypeError(f"{name} is given without {term}")
+        if value is not None:
+            energy.setdefault(term, {})[key] = value
+    title = sheet.title or "sheet"
+    place = {"mesh": title, "domain": domain, **{key: given[key] for key in PLACE if key in given}}
+    scene = {"title": title, "sheet": place, "energy": energy, "lock": _locks(given.get("locks", ()))}
     scene |= {name: given.get(name) for name in ("mass", "material", "units")}
-    scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "spring", "drive")}
-    return {name: value for name, value in scene.items() if value}, arrays
+    scene |= {name: given.get(f"{name}s") for name in ("pin", "load", "part", "spring", "drive")}
+    return cls(_foldwell.Assembly.of_arguments(scene, sheet._inner))
 
 
 def _locks(locks: Mapping[Any, Any] | Iterable[EdgeName]) -> list[dict[str, Any]]:
     pairs = locks.items() if isinstance(locks, Mapping) else ((crease, None) for crease in locks)
     return [{"crease": list(crease), "angle": angle} for crease, angle in pairs]
-
-
-def settings(given: Table | None) -> list[str]:
-    """Returns keys that are to be set as the texts `key=value` that the program reads."""
-    return [f"{path}={_written(value)}" for path, value in (given or {}).items()]
-
-
-def _written(value: Any) -> str:
-    """Returns a value as it is written in TOML."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, (int, float)):
-        return repr(value)
-    if isinstance(value, (str, os.PathLike)):
-        return json.dumps(os.fspath(value), ensure_ascii=False)
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f'"{key}" = {_written(inner)}' for key, inner in value.items()) + " }"
-    if isinstance(value, Iterable):
-        return "[" + ", ".join(map(_written, value)) + "]"
-    raise TypeError(f"a {type(value).__name__} is no value of a scene")

@@ -22,8 +22,10 @@ def listener(progress: Progress) -> Iterator[Callback | None]:
 
         with tqdm(unit=" steps") as bar:
             yield lambda study, step, of, residual: _move(bar, study, step, of, residual)
-    else:
+    elif callable(progress):
         yield progress
+    else:
+        raise TypeError(f"progress is {progress!r}, expected True, False or a function progress(study, step, of, residual)")
 
 
 def _move(bar: Any, study: str, step: int, of: int | None, residual: float | None) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _foldwell
+from .names import PLACES, described
 from .state import State
 
 if TYPE_CHECKING:
@@ -122,10 +123,11 @@ class Result:
         return pandas.DataFrame(self.table)
 
     def to_xarray(self) -> Any:
-        """Returns `table` as an `xarray.Dataset` with dimension `row`. Needs xarray.
+        """Returns `table` as an `xarray.Dataset` with dimension `row`, or `mode` and `amplitude` of a landscape. Needs xarray.
 
-        Fold angles of edges are one variable, `fold_angle` (`row`, `edge`) in radians; the coordinate `edge` is the name of an edge of
-        the cell as a text, "i,j,n1,n2". Variables have the attribute `units` where the assembly or scene names them.
+        Numbers of branches, steps and so on are coordinates of the rows. Fold angles of edges are one variable, `fold_angle` (`row`,
+        `edge`); the coordinate `edge` is the name of an edge of the cell as a text, "i,j,n1,n2". Variables have the attribute
+        `long_name`, and `units` where the assembly or scene names them; angles are in radians.
 
         Example:
             >>> import foldwell as fw
@@ -135,15 +137,17 @@ class Result:
         import xarray
 
         folds = {name: ",".join(name.split("_")[1:]) for name in self.table if FOLD.fullmatch(name)}
-        data = {name: ("row", values) for name, values in self.table.items() if name not in folds}
-        found = xarray.Dataset(data, attrs={"name": self.name, "kind": self.kind})
+        data: dict[str, Any] = {name: ("row", values, described(name)) for name, values in self.table.items() if name not in folds}
         if folds:
             angles = np.stack([self.table[name] for name in folds], axis=1)
-            found = found.assign(fold_angle=(("row", "edge"), angles)).assign_coords(edge=list(folds.values()))
-        for name, variable in found.data_vars.items():
-            if unit := self._unit(str(name)):
-                variable.attrs["units"] = unit
-        return found
+            data["fold_angle"] = (("row", "edge"), angles, described("fold_angle"))
+        for name, (_, _, attributes) in data.items():
+            if unit := self._unit(name):
+                attributes["units"] = unit
+        places = {name: data.pop(name) for name in PLACES if name in data}
+        edges = {"edge": list(folds.values())} if folds else {}
+        found = xarray.Dataset(data, {**places, **edges}, {"name": self.name, "kind": self.kind})
+        return found.set_index(row=["mode", "amplitude"]).unstack("row") if self.kind == "landscape" else found
 
     def _unit(self, column: str) -> str | None:
         """The unit of a column; None if it has none, or none that is named."""
@@ -151,8 +155,6 @@ class Result:
         energy = f"{force} {length}" if force and length else None
         if column.startswith(("energy", "work")):
             return energy
-        if column.startswith(("fold_angle", "theta")):
-            return "rad"
         if column == "curvature":
             return f"1/{length}" if length else None
         driven = {"displacement": (length, force), "rotation": ("rad", energy), "lock": ("rad", energy)}
@@ -234,7 +236,12 @@ class Run(Mapping[str, Result]):
         return not self.interrupted and all(study["converged"] for study in self.summary["studies"])
 
     def __getitem__(self, name: str) -> Result:
-        return self._results[name]
+        if name in self._results:
+            return self._results[name]
+        known = [study["name"] for study in self.summary["studies"]]
+        if name in known:
+            raise KeyError(f"{name}: it is kept from an earlier run, in the folder of this one; resume=False computes it again")
+        raise KeyError(f"{name}: there is no such study; there are {', '.join(known)}")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._results)

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from . import _foldwell
-from .assembly import settings
 from .progress import Progress, listener
 from .results import Result, Run
 
@@ -33,9 +32,8 @@ def run(
         scene: Path of a scene file, or its content as a dict.
         set: Keys that are set first, by their path: `{"energy.bars.stiffness": 1e4}`.
         base: Folder to which paths in a dict are relative; left out: the current one.
-        out: Folder into which the files of `foldwell run` are written; the results then are in these files, and the run has only its
-            summary. Left out: nothing is written, and the run has the results of all studies.
-        resume: With `out`, whether studies that an interrupted run finished are kept.
+        out: Folder into which the files of `foldwell run` are written too. Left out: nothing is written.
+        resume: With `out`, whether studies that an interrupted run finished are kept; their results are in the files only.
         threads, progress: As for every study, see `foldwell.compute`. If `progress` returns False, `interrupted` is true.
 
     Returns:
@@ -53,7 +51,7 @@ def run(
     given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
     folder = None if out is None else Path(out)
     with listener(progress) as callback:
-        place, options = (Path(base), settings(set)), (folder, threads, resume)
+        place, options = (Path(base), dict(set or {})), (folder, threads, resume)
         text, answers, interrupted = _foldwell.run_scene(given, place, options, callback)
     summary = json.loads(text)
     return Run(summary, [Result(answer, {}, summary.get("units")) for answer in answers], interrupted)

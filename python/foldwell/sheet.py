@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Sheet", "generate", "pattern_help", "patterns"]
 
+Angle = float | str
+Pair = Sequence[int] | NDArray[np.integer[Any]]
+
 
 class Sheet:
     """A sheet: vertices, polygons and the edges between them; one cell and two lattice vectors if it is periodic.
@@ -226,22 +229,31 @@ class Sheet:
         return f"<foldwell.Sheet {self.title!r}: {kind}, {len(self.vertices)} vertices, {len(self.edges)} edges>"
 
 
-def generate(pattern: str, **parameters: Any) -> Sheet:
+def generate(
+    pattern: str,
+    *,
+    a: float | None = None, b: float | None = None, c: float | None = None, d: float | None = None,
+    width: float | None = None, height: float | None = None, radius: float | None = None, half_span: float | None = None,
+    fold: Angle | None = None, sector: Angle | None = None, twist: Angle | None = None,
+    ac: Angle | None = None, ad: Angle | None = None, bc: Angle | None = None, bd: Angle | None = None,
+    cells: Pair | None = None, size: Pair | None = None, sides: int | None = None, levels: int | None = None, pleats: int | None = None,
+    skew: float | None = None, jitter: float | None = None, seed: int | None = None, symmetry: str | None = None, closed: bool | None = None,
+) -> Sheet:
     """Makes the sheet of a pattern.
 
     Args:
         pattern: One of `patterns()`.
-        **parameters: As `pattern_help(pattern)` lists them, with `_` for `-`. Angles are radians, or texts such as "60 deg".
+        a, ...: The parameters that `pattern_help(pattern)` lists, with `_` for `-`. Angles are radians, or texts such as "60 deg".
 
     Raises:
-        SceneError: there is no such pattern, or a parameter is unknown or outside its range.
+        SceneError: there is no such pattern, or it has no such parameter, or one is outside its range.
 
     Example:
         >>> import foldwell as fw
         >>> fw.generate("miura", fold="15 deg").lattice.shape
         (2, 3)
     """
-    return Sheet(_foldwell.Sheet.generate({"pattern": pattern, **parameters}))
+    return Sheet(_foldwell.Sheet.generate(locals()))
 
 
 def patterns() -> list[str]:

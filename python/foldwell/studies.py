@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from . import _foldwell
-from .arrays import numbers
 from .assembly import Assembly
 from .errors import DidNotConverge
 from .progress import Progress, listener
 from .results import Result
+from .sheet import Sheet
 
 __all__ = ["bloch", "branches", "compute", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
@@ -48,11 +47,7 @@ def relax(
         >>> fw.relax(held).summary["negative_eigenvalues"]
         0
     """
-    keys = {"tolerance": tolerance, "method": method, "keep_every": keep_every}
-    return compute(
-        assembly, "relax", keys, start=start,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("relax", **locals())
 
 
 def modes(
@@ -77,10 +72,7 @@ def modes(
         >>> summary["rigid_motions"], summary["folding_modes"]
         (6, 1)
     """
-    return compute(
-        assembly, "modes", {"eigenvalues": eigenvalues}, start=start,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("modes", **locals())
 
 
 def branches(
@@ -101,10 +93,7 @@ def branches(
         >>> fw.branches(fw.Assembly.screw(star)).summary["expected"] > 0
         True
     """
-    return compute(
-        assembly, "branches", {},
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("branches", **locals())
 
 
 def trace(
@@ -140,11 +129,7 @@ def trace(
         >>> {branch["end"] for branch in fw.trace(driven, stop={"arc_length": 0.5}).summary["branches"]}
         {'stop'}
     """
-    keys = {"engine": engine, "branch": branch, "max_step": max_step, "tolerance": tolerance, "stop": stop}
-    return compute(
-        assembly, "trace", {**keys, "response": response},
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("trace", **locals())
 
 
 def response(
@@ -169,10 +154,7 @@ def response(
         >>> fw.response(miura).summary["poisson"]["in_plane"] < 0
         True
     """
-    return compute(
-        assembly, "response", {"directions": directions}, start=start,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("response", **locals())
 
 
 def surface(
@@ -197,10 +179,7 @@ def surface(
         >>> fw.surface(fw.Assembly.screw(star), resolution=8, max_curvature=0.2).kind
         'surface'
     """
-    return compute(
-        assembly, "surface", {"resolution": resolution, "max_curvature": max_curvature},
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("surface", **locals())
 
 
 def landscape(
@@ -230,14 +209,7 @@ def landscape(
         >>> round(measured.summary["modes"][0]["exponent"])
         4
     """
-    given = {f"modes[{k}]": mode for k, mode in enumerate(modes)}
-    rates = {name: numbers(mode, name, 1) for name, mode in given.items() if not isinstance(mode, Mapping) and len(mode) != 3}
-    named = [{"rates": name} if name in rates else mode for name, mode in given.items()]
-    keys = {"modes": named, "amplitudes": np.asarray(amplitudes, dtype=float), "map": map}
-    return compute(
-        assembly, "landscape", keys, arrays=rates,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("landscape", **locals())
 
 
 def bloch(
@@ -276,11 +248,7 @@ def bloch(
         >>> fw.bloch(fw.Assembly.torus(star), grid=(16, 16), q1=[0.5]).summary["pairing_error"] < 1e-6
         True
     """
-    keys = {"grid": grid, "q1": q1, "modes": modes, "path": path, "density": density, "strip": strip}
-    return compute(
-        assembly, "bloch", {**keys, "zero_modes_at": zero_modes_at}, start=start,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("bloch", **locals())
 
 
 def wells(
@@ -317,12 +285,7 @@ def wells(
         >>> len(fw.wells(held, starts=4, spread=0.3).summary["wells"])
         1
     """
-    keys = {"starts": starts, "seed": seed, "spread": spread, "barriers": barriers, "rigid": rigid}
-    keys |= {"resolution": resolution, "max_curvature": max_curvature}
-    return compute(
-        assembly, "wells", keys, start=start,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("wells", **locals())
 
 
 def path(
@@ -361,9 +324,20 @@ def path(
         >>> pressed.summary["branches"][0]["end"], float(pressed.table["drive"][-1])
         ('arrived', -0.1)
     """
-    keys = {"drive": drive, "tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
+    return _study("path", **locals())
+
+
+def _study(
+    kind: str,
+    assembly: Assembly,
+    name: str | None, draw: Sequence[str], check: Sequence[str],
+    threads: int | None, progress: Progress, must_converge: bool,
+    start: Start = None,
+    **keys: Any,
+) -> Result:
+    """Computes a study with the arguments of its function."""
     return compute(
-        assembly, "path", {**keys, "response": response}, start=start,
+        assembly, kind, keys, start=start,
         name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
     )
 
@@ -373,7 +347,6 @@ def compute(
     kind: str,
     keys: Mapping[str, Any],
     *,
-    arrays: Mapping[str, NDArray[np.float64]] | None = None,
     start: Start = None,
     name: str | None = None,
     draw: Sequence[str] = ("vtk",),
@@ -388,7 +361,6 @@ def compute(
         assembly: The sheet with its boundary conditions and terms.
         kind: Kind of the study.
         keys: Its keys; those with the value None are left out.
-        arrays: Arrays with a number for each edge, by the names that keys have for them where a scene names files.
         start: The state where it starts, for kinds that have one.
         name: Name of the study; left out: its kind.
         draw: What is kept to be drawn: "vtk" for states and maps, "svg" for a drawing, "html" for a page.
@@ -412,6 +384,9 @@ def compute(
         >>> fw.compute(held, "relax", {"tolerance": 1e-8}).converged
         True
     """
+    if not isinstance(assembly, Assembly):
+        hint = ", made of the sheet: Assembly.patch(sheet, bars=..., creases=...)" if isinstance(assembly, Sheet) else ""
+        raise TypeError(f"assembly is a {type(assembly).__name__}, expected a foldwell.Assembly{hint}")
     study = {"name": name or kind, "kind": kind, "draw": list(draw), "check": list(check), **keys}
     earlier: list[tuple[Mapping[str, Any], _foldwell.Answer]] = []
     if isinstance(start, Result):
@@ -423,8 +398,8 @@ def compute(
         study["start"] = start
     names = [(str(before["name"]), answer) for before, answer in earlier]
     with listener(progress) as callback:
-        tables = [dict(before) for before, _ in earlier] + [study]
-        _, answers, _ = assembly._inner.compute(tables, dict(arrays or {}), names, threads, callback)
+        studies = {"study": [before for before, _ in earlier] + [study]}
+        _, answers, _ = assembly._inner.compute(studies, names, threads, callback)
     result = Result(answers[0], study, assembly._inner.units)
     if must_converge and not result.converged:
         raise DidNotConverge(f"{result.name}: {result.summary.get('reason', 'no answer')}", result)

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _foldwell
-from .assembly import settings
 from .errors import FoldwellError
 from .progress import Callback, Progress, listener
 
@@ -64,7 +63,8 @@ def sweep(
 
     Returns:
         A data set. Its dimensions are the keys of the axes, or `point` if they run together. Its variables are `status` ("converged",
-        "not-converged", "failed"), `reason` and every number of the summaries of the studies, as `NAME.KEY`; NaN where there is none.
+        "not-converged", "failed"), `reason` and every number of the summaries of the studies, NaN where there is none. Points in keys
+        and in columns `NAME.KEY` become `_`, unless that makes two names one: `data.relaxed_energy_total`.
 
     Raises:
         SceneError: the scene, an axis or the scene of a point is wrong; nothing was computed.
@@ -77,10 +77,8 @@ def sweep(
         ['converged', 'converged']
     """
     given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
-    wanted = {f"sweep.{json.dumps(key)}": _values(values) for key, values in (axes or {}).items()}
-    if zip:
-        wanted["sweep.zip"] = True
-    points = _foldwell.Sweep(given, Path(base).absolute(), settings(set) + settings(wanted))
+    wanted = {f"sweep.{json.dumps(key)}": values for key, values in (axes or {}).items()}
+    points = _foldwell.Sweep(given, Path(base).absolute(), {**(set or {}), **wanted, **({"sweep.zip": True} if zip else {})})
     folder = None if out is None else Path(out).absolute()
     with listener(progress) as callback:
         if executor is not None:
@@ -114,13 +112,6 @@ def open_sweep(folder: str | os.PathLike[str]) -> Dataset:
         2
     """
     return _of_folder(Path(folder), [])
-
-
-def _values(values: Any) -> Any:
-    """Returns the values of an axis as a list, if they are no form of `[sweep]`."""
-    if isinstance(values, (Mapping, str)):
-        return values
-    return values.tolist() if isinstance(values, np.ndarray) else list(values)
 
 
 def _submit(
@@ -182,8 +173,10 @@ def _dataset(table: Iterable[str], shape: list[int], summary: dict[str, Any]) ->
     import xarray
 
     header, *rows = csv.reader(table)
-    columns = {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(header) if name != "point"}
-    keys: list[str] = summary["keys"]
+    names = {column: column.replace(".", "_") for column in header}
+    names = names if len(set(names.values())) == len(header) else dict(zip(header, header, strict=True))
+    columns = {names[column]: _column(column, [row[k] for row in rows]) for k, column in enumerate(header) if column != "point"}
+    keys = [names[key] for key in summary["keys"]]
     about = {key: summary[key] for key in ("title", "scene", "version", "digest")}
     grid = tuple(shape) if shape and int(np.prod(shape)) == len(rows) else ()
     if grid:
@@ -192,9 +185,14 @@ def _dataset(table: Iterable[str], shape: list[int], summary: dict[str, Any]) ->
             for k, key in enumerate(keys)
         }
         data = {name: (tuple(keys), values.reshape(grid)) for name, values in columns.items()}
-        return xarray.Dataset(data, coords=along, attrs=about)
-    coordinates = {key: ("point", _whole(columns.pop(key))) for key in keys}
-    return xarray.Dataset({name: ("point", values) for name, values in columns.items()}, coordinates, about)
+        found = xarray.Dataset(data, coords=along, attrs=about)
+    else:
+        coordinates = {key: ("point", _whole(columns.pop(key))) for key in keys}
+        found = xarray.Dataset({name: ("point", values) for name, values in columns.items()}, coordinates, about)
+    for column, name in names.items():
+        if name in found:
+            found[name].attrs |= {"key": column, "long_name": column.replace("_", " ").replace(".", " ")}
+    return found
 
 
 def _column(name: str, texts: list[str]) -> NDArray[Any]:

@@ -3,7 +3,7 @@
 use foldwell::math::Vec3;
 use foldwell::scene::Arrays;
 use numpy::ndarray::{ArrayView1, ArrayView2};
-use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -14,13 +14,18 @@ pub(crate) type Array1<'py, T> = Bound<'py, PyArray1<T>>;
 /// Array of two dimensions.
 pub(crate) type Array2<'py, T> = Bound<'py, PyArray2<T>>;
 
-/// Array of one dimension that a caller gives.
-pub(crate) type Given1<'py> = PyReadonlyArray1<'py, f64>;
+/// Arrays of a scene as a pickle keeps them.
+pub(crate) type KeptArrays<'py> = BTreeMap<PathBuf, Array1<'py, f64>>;
 
-/// Returns given arrays as those of a scene.
-pub(crate) fn shared(arrays: BTreeMap<PathBuf, Given1<'_>>) -> PyResult<Arrays> {
-    let copied = |(name, array): (PathBuf, Given1<'_>)| Ok((name, array.as_slice()?.to_vec()));
-    arrays.into_iter().map(copied).collect::<PyResult<BTreeMap<_, _>>>().map(Into::into)
+/// Returns the arrays of a scene for a pickle.
+pub(crate) fn kept<'py>(py: Python<'py>, arrays: &Arrays) -> KeptArrays<'py> {
+    arrays.iter().map(|(name, array)| (name.clone(), vector(py, array.clone()))).collect()
+}
+
+/// Returns the arrays that a pickle has kept.
+pub(crate) fn unkept(arrays: KeptArrays<'_>) -> PyResult<Arrays> {
+    let found: PyResult<BTreeMap<_, _>> = arrays.into_iter().map(|(name, array)| Ok((name, array.to_vec()?))).collect();
+    Ok(found?.into())
 }
 
 /// Returns numbers that `owner` contains as an array that cannot be written, without copying them. The array keeps the

@@ -1,13 +1,13 @@
 //! Assemblies: sheets with boundary conditions and terms, and the studies of them.
 
 use crate::answer::{Answer, answers};
-use crate::arrays::{Array1, Array2, Given1, rows, shared, vector};
-use crate::errors::{raise, refused};
+use crate::arrays::{Array2, KeptArrays, kept, rows, unkept};
+use crate::errors::{ARGUMENTS, argument, raise, refused};
 use crate::forms::Forms;
 use crate::run::Given;
 use crate::sheet::Sheet;
 use crate::term::CalledTerm;
-use crate::values::{table, text};
+use crate::values::{scene_of, text};
 use crate::watch::watched;
 use foldwell::model::Boundary;
 use foldwell::run::{self, RunError};
@@ -15,9 +15,8 @@ use foldwell::scene::{Arrays, SceneFile, build, parse};
 use foldwell::study::PreviousAnswers;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use toml::{Table, Value};
+use toml::Table;
 
 /// A sheet with its boundary conditions and terms; see `foldwell.Assembly`.
 #[pyclass(frozen, module = "foldwell._foldwell", subclass)]
@@ -27,29 +26,26 @@ pub(crate) struct Assembly {
     scene: Table,
     /// The path of the scene, to which paths in it are relative.
     path: PathBuf,
-    /// The arrays that the scene names.
+    /// The arrays in the scene.
     arrays: Arrays,
     /// The terms whose energy is a function in Python.
     called: Vec<CalledTerm>,
 }
 
 /// Content of a pickled assembly: text of the scene, its path, the sheet, arrays by name, and terms.
-type Kept<'py> = (String, PathBuf, Sheet, BTreeMap<PathBuf, Array1<'py, f64>>, Vec<KeptTerm>);
+type Kept<'py> = (String, PathBuf, Sheet, KeptArrays<'py>, Vec<KeptTerm>);
 /// Content of a pickled term: name, vertices of each element, function.
 type KeptTerm = (String, Vec<Vec<usize>>, Py<PyAny>);
 
 impl Assembly {
     /// Builds the assembly of a scene, of which `sheet`, if there is one, replaces the mesh.
-    pub(crate) fn of(
-        py: Python<'_>,
-        file: SceneFile,
-        arrays: Arrays,
-        sheet: Option<&Bound<'_, Sheet>>,
-    ) -> PyResult<Self> {
+    pub(crate) fn of(py: Python<'_>, file: SceneFile, sheet: Option<&Bound<'_, Sheet>>) -> PyResult<Self> {
         let sheet = sheet.map(|sheet| sheet.get().sheet.clone());
         let mut scene: Table = file.text().parse().unwrap_or_default(); // it was read before
         scene.retain(|key, _| key != "study" && key != "sweep");
-        let (path, file) = (file.path().to_owned(), file.with_arrays(arrays.clone()));
+        let stem = file.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        scene.entry("title").or_insert_with(|| stem.into());
+        let (path, arrays) = (file.path().to_owned(), file.arrays().clone());
         let built = watched(py, None, move |_| match sheet {
             Some(sheet) => build::assembly_of(&file, sheet),
             None => build::assembly(&file),
@@ -86,36 +82,36 @@ fn has_same_coordinates(one: &foldwell::Assembly, other: &foldwell::Assembly) ->
 
 #[pymethods]
 impl Assembly {
-    /// Builds the assembly of a scene with some arrays in the place of tables; `sheet` replaces its mesh.
+    /// Builds the assembly of a scene.
     #[new]
-    fn new(
-        py: Python<'_>,
-        scene: Given<'_>,
-        base: PathBuf,
-        settings: Vec<String>,
-        sheet: Option<&Bound<'_, Sheet>>,
-        arrays: BTreeMap<PathBuf, Given1<'_>>,
-    ) -> PyResult<Self> {
-        Self::of(py, scene.read(py, &base, &settings)?, shared(arrays)?, sheet)
+    fn new(py: Python<'_>, scene: Given<'_>, base: PathBuf, settings: &Bound<'_, PyDict>) -> PyResult<Self> {
+        Self::of(py, scene.read(py, &base, settings)?, None)
     }
 
-    /// Computes studies, given as the tables of a scene, with arrays in the place of files that they name. `earlier`
-    /// are answers from which they start, by the names of their studies, which are among `studies` too. Returns the
-    /// summary as JSON, the answers, and whether the run was interrupted.
+    /// Builds the assembly of a sheet with the terms and boundary conditions of a scene that is made of arguments.
+    #[staticmethod]
+    fn of_arguments(py: Python<'_>, scene: &Bound<'_, PyDict>, sheet: &Bound<'_, Sheet>) -> PyResult<Self> {
+        let (table, arrays) = scene_of(scene, argument)?;
+        let file = parse(&text(&table)?, ARGUMENTS).map_err(|error| raise(py, &error.into()))?;
+        Self::of(py, file.with_arrays(arrays), Some(sheet))
+    }
+
+    /// Computes studies, given as the list `study` of a scene. `earlier` are answers from which they start, by the
+    /// names of their studies, which are among them too. Returns the summary as JSON, the answers, and whether the run
+    /// was interrupted.
     fn compute(
         slf: &Bound<'_, Self>,
-        studies: Vec<Bound<'_, PyDict>>,
-        arrays: BTreeMap<PathBuf, Given1<'_>>,
+        studies: &Bound<'_, PyDict>,
         earlier: Vec<(String, Py<Answer>)>,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, Vec<Answer>, bool)> {
         let (py, this) = (slf.py(), slf.get());
-        let studies = studies.iter().map(|study| Ok(Value::Table(table(study)?))).collect::<PyResult<_>>()?;
+        let (studies, arrays) = scene_of(studies, argument)?;
         let mut scene = this.scene.clone();
-        scene.insert("study".to_owned(), Value::Array(studies));
-        let file = parse(&text(&scene)?, &this.path).map_err(|error| raise(py, &error.into()))?;
-        let file = file.with_arrays(shared(arrays)?);
+        scene.extend(studies);
+        let file = parse(&text(&scene)?, this.path.with_file_name(ARGUMENTS));
+        let file = file.map_err(|error| raise(py, &error.into()))?.with_arrays(arrays);
         if earlier
             .iter()
             .any(|(_, answer)| !has_same_coordinates(&answer.get().assembly.get().assembly, &this.assembly))
@@ -134,11 +130,11 @@ impl Assembly {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Kept<'py>)> {
         let (py, Self { assembly, scene, path, arrays, called }) = (slf.py(), slf.get());
-        let arrays = arrays.iter().map(|(name, array)| (name.clone(), vector(py, array.clone()))).collect();
         let sheet = Sheet { sheet: assembly.sheet().clone() };
-        let kept = |term: &CalledTerm| (term.name.clone(), term.elements.clone(), term.function.clone_ref(py));
-        let called = called.iter().map(kept).collect();
-        Ok((slf.get_type().getattr("restore")?, (text(scene)?, std::path::absolute(path)?, sheet, arrays, called)))
+        let of_term = |term: &CalledTerm| (term.name.clone(), term.elements.clone(), term.function.clone_ref(py));
+        let called = called.iter().map(of_term).collect();
+        let state = (text(scene)?, std::path::absolute(path)?, sheet, kept(py, arrays), called);
+        Ok((slf.get_type().getattr("restore")?, state))
     }
 
     /// Makes the assembly of what a pickle has kept.
@@ -148,11 +144,11 @@ impl Assembly {
         scene: &str,
         path: PathBuf,
         sheet: &Bound<'_, Sheet>,
-        arrays: BTreeMap<PathBuf, Given1<'_>>,
+        arrays: KeptArrays<'_>,
         called: Vec<KeptTerm>,
     ) -> PyResult<Self> {
         let file = parse(scene, &path).map_err(|error| raise(py, &error.into()))?;
-        let bare = Self::of(py, file, shared(arrays)?, Some(sheet))?;
+        let bare = Self::of(py, file.with_arrays(unkept(arrays)?), Some(sheet))?;
         let mut terms = called.into_iter().map(|(name, elements, function)| CalledTerm::new(name, elements, function));
         terms.try_fold(bare, |assembly, term| assembly.with_called(py, term))
     }

@@ -5,6 +5,12 @@ use foldwell::scene::SceneError;
 use foldwell::sheet::SheetError;
 use miette::Diagnostic;
 use pyo3::prelude::*;
+use std::path::Path;
+
+/// Name in the place of a file of a scene that is a dict.
+pub(crate) const DICT: &str = "scene";
+/// Name in the place of a file of a scene that is made of arguments.
+pub(crate) const ARGUMENTS: &str = "arguments";
 
 /// Returns the exception of a class of `foldwell.errors` with these arguments.
 fn exception(py: Python<'_>, class: &str, arguments: (String, Option<String>, Option<String>, Option<usize>)) -> PyErr {
@@ -13,7 +19,8 @@ fn exception(py: Python<'_>, class: &str, arguments: (String, Option<String>, Op
 }
 
 /// Returns the exception for an error of the library: `SceneError` if something that was given is wrong, `SheetError`
-/// if that is a mesh, `OutputError` if a file cannot be read or written.
+/// if that is a mesh, `OutputError` if a file cannot be read or written. What is wrong in a scene that is no file is
+/// named by its key, or by the argument that stands for the key.
 pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
     let class = match error {
         RunError::Mesh(_) | RunError::NoSheet { .. } | RunError::Scene(SceneError::Mesh(_)) => "SheetError",
@@ -21,11 +28,40 @@ pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
         _ => "SceneError",
     };
     let help = error.help().map(|help| help.to_string());
-    let (file, line) = match error {
-        RunError::Scene(SceneError::At { file, line, .. }) => (Some(file.clone()), Some(*line)),
-        _ => (None, None),
+    let RunError::Scene(SceneError::At { file, line, key, message, .. }) = error else {
+        return exception(py, class, (error.to_string(), help, None, None));
     };
-    exception(py, class, (error.to_string(), help, file, line))
+    let key = match Path::new(file.trim_end_matches(" (keys set)")).file_name() {
+        Some(name) if name == DICT => key.clone(),
+        Some(name) if name == ARGUMENTS => argument(key),
+        _ => return exception(py, class, (error.to_string(), help, Some(file.clone()), Some(*line))),
+    };
+    let message = if key.is_empty() { message.clone() } else { format!("{key}: {message}") };
+    let [message, help] = [Some(message), help].map(|text| text.map(|text| in_python(&text)));
+    exception(py, class, (message.unwrap_or_default(), help, None, None))
+}
+
+/// Returns the argument of a function of the package that stands for a key of a scene.
+pub(crate) fn argument(key: &str) -> String {
+    let parts: Vec<&str> = key.split('.').collect();
+    match parts[..] {
+        ["energy", "bars", "rest", ..] => "rest_lengths".to_owned(),
+        ["energy", "creases", "rest", ..] => "rest".to_owned(),
+        ["energy", "facets", "rest", ..] => "facet_rest".to_owned(),
+        ["study", _, "kind"] => String::new(), // it is in the name of the function
+        ["energy", term, "law", ..] => format!("laws.{term}"),
+        ["energy", term, "stiffness", ..] => term.to_owned(),
+        ["energy", _, ref rest @ ..] | ["sheet", ref rest @ ..] | ["study", _, ref rest @ ..] => rest.join("."),
+        [list @ ("lock" | "pin" | "load" | "part" | "spring" | "drive"), ref rest @ ..] => {
+            [&[format!("{list}s").as_str()], rest].concat().join(".")
+        }
+        _ => key.to_owned(),
+    }
+}
+
+/// Returns a message about a scene in the words of Python: a list of tables by its name, `inf` by that of the package.
+fn in_python(text: &str) -> String {
+    text.replace("[[", "`").replace("]]", "`").replace("`inf`", "`foldwell.RIGID`")
 }
 
 /// Returns the `SceneError` about something that was given, with a hint.

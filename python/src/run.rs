@@ -2,16 +2,17 @@
 
 use crate::answer::{Answer, answers};
 use crate::assembly::Assembly;
-use crate::errors::raise;
-use crate::values::{table, text};
+use crate::errors::{DICT, raise};
+use crate::values::{scene_of, settings_of, text};
 use crate::watch::watched;
 use foldwell::Pattern;
-use foldwell::run::{self, Ledger, Progress, RunError, RunOptions};
-use foldwell::scene::{Arrays, SceneFile, Setting, parse_set};
+use foldwell::run::{self, Computed, Ledger, Progress, RunError, RunOptions};
+use foldwell::scene::{SceneFile, Setting, parse_set};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A scene as a dict, or the path of its file.
 #[derive(FromPyObject)]
@@ -22,31 +23,37 @@ pub(crate) enum Given<'py> {
 
 impl Given<'_> {
     /// Reads the scene with some keys set; paths in a dict are relative to `base`.
-    pub(crate) fn read(&self, py: Python<'_>, base: &Path, settings: &[String]) -> PyResult<SceneFile> {
+    pub(crate) fn read(&self, py: Python<'_>, base: &Path, settings: &Bound<'_, PyDict>) -> PyResult<SceneFile> {
+        let (settings, mut arrays) = settings_of(settings)?;
         let settings: Vec<Setting> = settings
             .iter()
             .map(|setting| setting.parse().map_err(|error| PyValueError::new_err(format!("{error}"))))
             .collect::<PyResult<_>>()?;
         let found = match self {
-            Self::Dict(dict) => parse_set(&text(&table(dict)?)?, scene_in(base), &settings).map_err(RunError::from),
+            Self::Dict(dict) => {
+                let (table, in_scene) = scene_of(dict, ToOwned::to_owned)?;
+                let set = Arc::make_mut(&mut arrays);
+                in_scene.iter().for_each(|(name, array)| _ = set.entry(name.clone()).or_insert_with(|| array.clone()));
+                parse_set(&text(&table)?, scene_in(base), &settings).map_err(RunError::from)
+            }
             Self::File(path) => run::read_scene(path, &settings),
         };
-        found.map_err(|error| raise(py, &error))
+        found.map(|file| file.with_arrays(arrays)).map_err(|error| raise(py, &error))
     }
 }
 
 /// Returns the path that stands for a scene in a folder.
 fn scene_in(base: &Path) -> PathBuf {
-    if base == Path::new(".") { "scene".into() } else { base.join("scene") }
+    if base == Path::new(".") { DICT.into() } else { base.join(DICT) }
 }
 
-/// Computes the studies of a scene: in memory, or, with `out`, into a folder. Returns the summary as JSON, the answers
-/// (none for a folder) and whether the run was interrupted.
+/// Computes the studies of a scene, and with `out` writes their files into a folder. Returns the summary as JSON, the
+/// answers and whether the run was interrupted.
 #[pyfunction]
 pub(crate) fn run_scene(
     py: Python<'_>,
     scene: Given<'_>,
-    place: (PathBuf, Vec<String>),
+    place: (PathBuf, Bound<'_, PyDict>),
     options: (Option<PathBuf>, Option<usize>, bool),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, Vec<Answer>, bool)> {
@@ -56,22 +63,23 @@ pub(crate) fn run_scene(
         let help = "foldwell.sweep computes its points";
         return Err(raise(py, &file.error_at(0..0, "the scene has a [sweep]", help).into()));
     }
-    if let Some(out) = out {
-        let options = RunOptions { out: Some(out), threads, resume };
-        let ledger = Ledger::default();
-        let record = ledger.clone();
-        let work = move |observer: run::Observer<'_>| run::run(&file, &options, observer, &record);
-        let ended = watched(py, progress, work);
-        if ended.is_err() {
-            ledger.close(false).map_err(|error| raise(py, &error))?; // at Ctrl-C: what is finished is recorded
-        }
-        let report = ended?.map_err(|error| raise(py, &error))?;
-        return Ok((serde_json::to_string(&report.summary).unwrap_or_default(), vec![], report.interrupted));
-    }
-    let assembly = Py::new(py, Assembly::of(py, file.clone(), Arrays::default(), None)?)?;
+    let assembly = Py::new(py, Assembly::of(py, file.clone(), None)?)?;
     let built = assembly.get().assembly.clone();
-    let work = move |observer: run::Observer<'_>| run::compute(&file, &built, Default::default(), threads, observer);
-    answers(py, &assembly, watched(py, progress, work)?)
+    let ledger = Ledger::default();
+    let record = ledger.clone();
+    let work = move |observer: run::Observer<'_>| match out {
+        None => run::compute(&file, &built, Default::default(), threads, observer),
+        Some(out) => {
+            let options = RunOptions { out: Some(out), threads, resume };
+            let (report, answers) = run::run_and_keep(&file, &built, &options, observer, &record)?;
+            Ok(Computed { summary: report.summary, answers, interrupted: report.interrupted })
+        }
+    };
+    let ended = watched(py, progress, work);
+    if ended.is_err() {
+        ledger.close(false).map_err(|error| raise(py, &error))?; // at Ctrl-C: what is finished is recorded
+    }
+    answers(py, &assembly, ended?)
 }
 
 /// Converts a mesh; returns what the new file does not keep. After Ctrl-C no file is begun.

@@ -1,10 +1,12 @@
 //! Sweeps: the points of a scene, each computed here or in another process, and the table of their results.
 
+use crate::arrays::{KeptArrays, kept, unkept};
 use crate::errors::raise;
 use crate::run::Given;
 use crate::watch::watched;
 use foldwell::run::{self, Observer, Row, RunError, RunOptions};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,12 +16,15 @@ pub(crate) struct Sweep {
     sweep: Arc<foldwell::scene::Sweep>,
 }
 
+/// Content of a pickled sweep: text of the scene, its path, and the arrays in it.
+type Kept<'py> = (String, PathBuf, KeptArrays<'py>);
+
 #[pymethods]
 impl Sweep {
     /// Reads the points of a scene with some keys set.
     #[new]
-    fn new(py: Python<'_>, scene: Given<'_>, base: PathBuf, settings: Vec<String>) -> PyResult<Self> {
-        let file = scene.read(py, &base, &settings)?;
+    fn new(py: Python<'_>, scene: Given<'_>, base: PathBuf, settings: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let file = scene.read(py, &base, settings)?;
         run::points(&file).map(|sweep| Self { sweep: sweep.into() }).map_err(|error| raise(py, &error))
     }
 
@@ -27,16 +32,18 @@ impl Sweep {
         self.sweep.len()
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Kept<'py>)> {
         let file = slf.get().sweep.file();
-        Ok((slf.get_type().getattr("parse")?, (file.text().to_owned(), file.path().to_owned())))
+        let state = (file.text().to_owned(), file.path().to_owned(), kept(slf.py(), file.arrays()));
+        Ok((slf.get_type().getattr("parse")?, state))
     }
 
     /// Reads the points from the text of a scene.
     #[staticmethod]
-    fn parse(py: Python<'_>, text: &str, path: PathBuf) -> PyResult<Self> {
-        let found =
-            foldwell::scene::parse(text, &path).map_err(run::RunError::from).and_then(|file| run::points(&file));
+    fn parse(py: Python<'_>, text: &str, path: PathBuf, arrays: KeptArrays<'_>) -> PyResult<Self> {
+        let arrays = unkept(arrays)?;
+        let file = foldwell::scene::parse(text, &path).map_err(RunError::from);
+        let found = file.and_then(|file| run::points(&file.with_arrays(arrays)));
         found.map(|sweep| Self { sweep: sweep.into() }).map_err(|error| raise(py, &error))
     }
 

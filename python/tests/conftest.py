@@ -12,6 +12,11 @@ matplotlib.use("agg")
 ROOT = Path(__file__).parents[2]
 
 
+def without_times(summary):
+    """Returns a study's part of the summary without what belongs to the files of a run."""
+    return {key: value for key, value in summary.items() if key not in ("seconds", "files")}
+
+
 @pytest.fixture(scope="session")
 def program() -> str:
     """The command-line program, which these tests compare with: `$FOLDWELL`, that of a build, or one on the path."""

@@ -76,7 +76,7 @@ def test_python_of_the_pages_runs(page, scheduler, tmp_path, monkeypatch):
     names = run(str(page), source_of(page), tmp_path, monkeypatch)
     if page.name == "python.md":
         assert (tmp_path / "miura.png").stat().st_size > 10_000
-        assert names["data"].sizes == {"sheet.generate.fold": 8}
+        assert names["data"].sizes == {"sheet_generate_fold": 8}
         if importlib.util.find_spec("dask_jobqueue"):
             assert len(scheduler.read_text().split()) == 2  # jobs were submitted, and the sweep ran on them
     if page.name == "sweep.md":

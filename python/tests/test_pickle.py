@@ -4,8 +4,12 @@ import copy
 import pickle
 import subprocess
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
+import dask
 import foldwell as fw
+import joblib
 import numpy as np
 import pytest
 from conftest import ROOT
@@ -92,3 +96,26 @@ def test_a_result_goes_to_another_process(soft, tmp_path):
     code += "print(fw.relax(soft, start=relaxed).summary['iterations'], relaxed.state.energies.sum())"
     told = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, capture_output=True, text=True).stdout
     assert told.split() == ["0", str(relaxed.state.energies.sum())]
+
+
+def with_processes(function, assemblies):
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        return list(pool.map(function, assemblies))
+
+
+def with_joblib(function, assemblies):
+    return joblib.Parallel(2)(joblib.delayed(function)(assembly) for assembly in assemblies)
+
+
+def with_dask(function, assemblies):
+    return dask.compute(*(dask.delayed(function)(assembly) for assembly in assemblies), scheduler="processes", num_workers=2)
+
+
+@pytest.mark.parametrize("pool", [with_processes, with_joblib, with_dask])
+def test_assemblies_go_to_the_workers_of_pools(pool, miura):
+    """Relaxations of assemblies with arrays on other processes have the results of those here."""
+    creases = np.linspace(1.0, 2.0, len(miura.edges))
+    assemblies = [fw.Assembly.patch(miura, (2, 2), bars=1e2, creases=creases, facets=3.0, rest=angle) for angle in (0.3, 0.5, 0.7)]
+    for found, expected in zip(pool(fw.relax, assemblies), map(fw.relax, assemblies), strict=True):
+        assert np.array_equal(found.state.positions, expected.state.positions)
+        assert found.summary["energy"] == expected.summary["energy"]

@@ -1,7 +1,9 @@
 """Sheets from files, arrays and patterns."""
 
+import inspect
 import io
 import json
+import re
 import warnings
 
 import foldwell as fw
@@ -17,6 +19,12 @@ def test_every_pattern_is_generated_and_described():
         sheet = fw.generate(pattern)
         assert len(sheet.edges) == len(sheet.kinds) == len(sheet.letters) == len(sheet.fold_angles)
         assert "[default: " in fw.pattern_help(pattern)
+
+
+def test_parameters_of_patterns_are_arguments():
+    """Editors complete the parameters of all patterns, and no others."""
+    described = {name for pattern in fw.patterns() for name in re.findall(r"^ *--([a-z-]+)", fw.pattern_help(pattern), re.M)}
+    assert {name.replace("-", "_") for name in described} == set(inspect.signature(fw.generate).parameters) - {"pattern"}
 
 
 def test_arrays_make_the_sheet_that_they_draw():
@@ -59,10 +67,11 @@ def test_info_is_that_of_the_program(miura):
 def test_mistakes_are_named(tmp_path):
     with pytest.raises(fw.SheetError, match=r"no-such\.fold"):
         fw.Sheet.read("no-such.fold")
-    with pytest.raises(fw.SceneError, match="there is no pattern `miurra`"):
+    with pytest.raises(fw.SceneError, match="there is no pattern `miurra`") as caught:
         fw.generate("miurra")
-    with pytest.raises(fw.SceneError, match="unknown"):
-        fw.generate("miura", no_such_parameter=3)
+    assert caught.value.help.startswith("did you mean `miura`?")
+    with pytest.raises(fw.SceneError, match="`miura` has no parameter `sides`"):
+        fw.generate("miura", sides=3)
     with pytest.raises(ValueError, match="closed"):
         file = open(ROOT / "meshes/miura.fold")
         file.close()

@@ -2,17 +2,15 @@
 
 import csv
 import inspect
-import itertools
 import json
 import pickle
-import re
 import subprocess
 
 import foldwell as fw
 import numpy as np
 import pytest
 import pyvista
-from conftest import ROOT
+from conftest import ROOT, without_times
 
 #: Scenes of every kind of study and of every kind of boundary condition.
 SCENES = [
@@ -20,11 +18,6 @@ SCENES = [
     *("flat-branches", "miura-spectrum", "miura-frequencies", "kirigami-bloch", "near-cross-wells", "two-bars-push", "drum-path", "degree-four"),
 ]
 KINDS = ["bloch", "branches", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
-
-
-def without_times(summary):
-    """Returns a study's part of the summary without what belongs to the files of a run."""
-    return {key: value for key, value in summary.items() if key not in ("seconds", "files")}
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -57,10 +50,18 @@ def test_a_run_into_a_folder_is_that_of_the_program(program, tmp_path):
     path = ROOT / "meshes/star-landscape.toml"
     subprocess.run([program, "run", path, "--out", tmp_path / "a", "--quiet"], check=True)
     run = fw.run(path, out=tmp_path / "b")
-    assert run.converged and len(run) == 0 and run.summary["studies"]
+    assert run.converged and list(run) == [study["name"] for study in run.summary["studies"]]
     for file in (tmp_path / "a").rglob("*.csv"):
         assert file.read_bytes() == (tmp_path / "b" / file.relative_to(tmp_path / "a")).read_bytes()
+    alone = fw.run(path)
+    for name, result in run.items():
+        assert without_times(result.summary) == without_times(alone[name].summary)
+        for file in result.save(tmp_path / "c"):
+            assert file.read_bytes() == (tmp_path / "b" / file.relative_to(tmp_path / "c")).read_bytes()
     again = fw.run(path, out=tmp_path / "b", resume=True)
+    for name, words in [(next(iter(run)), "kept from an earlier run"), ("nobody", "there is no such study; there are")]:
+        with pytest.raises(KeyError, match=words):
+            again[name]
     assert [study["seconds"] for study in again.summary["studies"]] == [s["seconds"] for s in run.summary["studies"]]
 
 
@@ -76,110 +77,6 @@ def test_keyword_arguments_build_the_assembly_of_the_scene():
     for other in (by_arguments, by_other):
         assert without_times(other.summary) == without_times(by_scene.summary)
         assert np.array_equal(other.state.positions, by_scene.state.positions)
-
-
-def test_arrays_are_the_tables_of_a_scene(miura):
-    """Values for each edge of the cell, for each edge of the model, and one number for all give the same energy."""
-    uniform = fw.Assembly.patch(miura, (3, 2), bars=1e3, creases=2.0, facets=5.0, rest=0.25)
-    x = uniform.start + 1e-2 * np.random.default_rng(3).standard_normal(len(uniform.start))
-    model, cell = np.ones(len(uniform.edges)), np.ones(len(miura.edges))
-    for ones in (model, cell):
-        arrays = fw.Assembly.patch(miura, (3, 2), bars=1e3 * ones, creases=2 * ones, facets=5 * ones, rest=0.25 * ones)
-        assert arrays.energy(x) == uniform.energy(x)
-    varied = fw.Assembly.patch(miura, (3, 2), bars=1e3, creases=np.arange(1.0, len(model) + 1), facets=5.0, rest=0.25)
-    crease = uniform.kinds == "crease"
-    per_length = 0.5 * uniform.lengths(uniform.start)[crease] * (uniform.fold_angles(x)[crease] - 0.25) ** 2
-    more = ((np.arange(1.0, len(model) + 1)[crease] - 2.0) * per_length).sum()
-    assert varied.energy(x) - uniform.energy(x) == pytest.approx(more, rel=1e-11)
-    lengths = fw.Assembly.patch(miura, (3, 2), bars=1e3, rest_lengths=uniform.lengths(x))
-    assert lengths.energy(x) == pytest.approx(0.0, abs=1e-24)
-
-
-def test_loads_of_all_vertices_are_an_array(miura):
-    """Forces as an array are the same loads as those that are named one by one, and do the same work."""
-    force = np.zeros((16, 3))
-    force[7], force[15] = (0.0, 0.1, -0.2), (0.3, 0.0, 0.0)
-    terms = {"bars": 1e2, "creases": 1.0, "pins": [{"vertex": k} for k in range(3)]}
-    named = [{"vertex": 3, "cell": (1, 0), "force": force[7]}, {"vertex": 3, "cell": (1, 1), "force": force[15]}]
-    array, one_by_one = (fw.Assembly.patch(miura, (2, 2), loads=loads, **terms) for loads in (force, named))
-    x = array.start + 1e-2
-    assert array.energy(x) == one_by_one.energy(x) != fw.Assembly.patch(miura, (2, 2), **terms).energy(x)
-    assert np.array_equal(fw.relax(array).state.positions, fw.relax(one_by_one).state.positions)
-    for wrong, words in [(force[1:], r"loads has shape \(15, 3\), expected \(16, 3\)"), (force[:, 1:], r"\(16, 2\), expected \(n, 3\)")]:
-        with pytest.raises(ValueError, match=words):
-            fw.Assembly.patch(miura, (2, 2), loads=wrong, **terms)
-    with pytest.raises(fw.SceneError, match="vertices of a patch"):
-        fw.Assembly.torus(miura, (2, 2), bars=1.0, loads=force)
-    with pytest.raises(fw.SceneError, match="balance"):
-        fw.Assembly.patch(miura, (2, 2), bars=1.0, loads=force)
-
-
-def test_arrays_are_not_written_anywhere(miura, monkeypatch):
-    """Arrays come to the same assembly without a file: there is no folder for temporary ones, and a mode is an array too."""
-    monkeypatch.setattr("tempfile.tempdir", "/no/such/folder")
-    monkeypatch.setenv("TMPDIR", "/no/such/folder")
-    ones = np.ones(len(miura.edges))
-    assembly = fw.Assembly.patch(miura, (2, 2), bars=1e3 * ones, creases=ones, facets=ones, rest=0.25 * ones, facet_rest=0 * ones)
-    rates = np.where(miura.kinds == "crease", 1.0, np.nan)  # only creases have to have one
-    with pytest.raises(fw.SceneError, match=r"modes\[0\] has shape \(11,\), expected \(12,\)"):
-        fw.landscape(assembly, [rates[:-1]], [0.1])
-    with pytest.raises(fw.SceneError, match=r"modes\[0\]\[\d+\]: `NaN` in column `rate`"):
-        fw.landscape(assembly, [np.full(len(rates), np.nan)], [0.1])
-    assert fw.relax(assembly).to_pyvista().n_cells == len(assembly.edges) + 18
-
-
-def test_rest_angles_of_rigid_facets(miura):
-    """A rest angle at a facet is refused by its place where facets are rigid, and 0, nan or an angle of a soft facet is not."""
-    facet = int(np.flatnonzero(miura.kinds == "facet")[0])
-    edge = list(map(int, miura.edges[facet]))
-    for angle, facets, wrong in [(0.0, None, False), (np.nan, None, False), (0.1, 5.0, False), (0.1, None, True), (0.1, fw.RIGID, True)]:
-        rest = np.full(len(miura.edges), 0.25)
-        rest[miura.kinds == "facet"] = 0.0
-        rest[facet] = angle
-        if wrong:
-            with pytest.raises(ValueError, match=re.escape(f"rest[{facet}] is 0.1, but edge {edge} is a facet, which is rigid")):
-                fw.Assembly.patch(miura, (3, 2), bars=1e3, creases=2.0, facets=facets, rest=rest)
-        else:
-            fw.Assembly.patch(miura, (3, 2), bars=1e3, creases=2.0, facets=facets, rest=rest)
-
-
-@pytest.mark.parametrize(
-    ("terms", "error", "words"),
-    [
-        ({"bars": -1.0}, fw.SceneError, "stiffness is -1"),
-        ({"bars": 1.0, "rest": "flat"}, TypeError, "rest is given without creases"),
-        ({"bars": np.ones(5)}, ValueError, r"bars has shape \(5,\), expected \(12,\) or"),
-        ({"bars": np.ones((12, 2))}, ValueError, r"bars has shape \(12, 2\)"),
-        ({"creases": np.full(12, np.nan)}, ValueError, r"creases\[0\]: `NaN` in column `stiffness`"),
-        ({"creases": 1.0, "rest": np.full(12, np.inf)}, ValueError, r"rest\[0\]: `inf` in column `angle` is not a finite"),
-        ({"creases": 1.0, "rest": np.full(12, 40.0)}, ValueError, r"rest\[0\]: the angle 40 is more than a whole turn"),
-        ({"bars": 1.0, "rest_lengths": np.zeros(12)}, ValueError, r"rest_lengths\[0\]: `0` in column `length`"),
-        ({"bars": np.array(["a"] * 12)}, TypeError, "expected real numbers"),
-        ({"bars": np.full(12, -2.0)}, fw.SceneError, r"bars\[0\]: `-2` in column `stiffness` is not a positive number"),
-        ({"bar": 1.0}, TypeError, "unknown argument 'bar'"),
-        ({"bars": object()}, TypeError, "a object is no value of a scene"),
-        ({"creases": 1.0, "locks": {(0, 9, 0, 0): 1.0}}, fw.SceneError, r"no crease \[0, 9, 0, 0\]"),
-        ({"creases": 1.0, "locks": {(0, 1, 0, 0): "sixty"}}, fw.SceneError, "angle"),
-        ({"bars": 1.0, "pins": [{"vertex": 99}]}, fw.SceneError, "99"),
-    ],
-)
-def test_wrong_terms_are_refused(miura, terms, error, words):
-    with pytest.raises(error, match=words):
-        fw.Assembly.patch(miura, (2, 2), **terms)
-
-
-def test_wrong_scenes_name_line_and_correction():
-    with pytest.raises(fw.SceneError, match="unknown key `stifness`") as caught:
-        fw.run({"sheet": {"generate": {"pattern": "miura"}}, "energy": {"bars": {"stifness": 1.0}}})
-    assert "stiffness" in caught.value.help and caught.value.line is not None
-    with pytest.raises(fw.SceneError, match="nothing to compute"):
-        fw.run({"sheet": {"generate": {"pattern": "miura"}}, "study": []})
-    with pytest.raises(fw.SceneError, match="no-such"):
-        fw.run("no-such.toml")
-    with pytest.raises(TypeError, match=r"sheet\.mesh: a object"):
-        fw.run({"sheet": {"mesh": object()}})
-    with pytest.raises(TypeError, match="keys of a scene are str"):
-        fw.run({3: 4})
 
 
 def test_keys_are_set(tmp_path):
@@ -260,6 +157,13 @@ def test_tables_go_to_xarray():
     locked = data.fold_angle.sel(edge="0,1,-1,0")
     assert np.allclose(locked, star.fold_angles[star.edges.tolist().index([0, 1, -1, 0])], rtol=0.0, atol=1e-12)
     assert np.array_equal(data.curvature, traced.table["curvature"])
+    assert set(data.coords) == {"edge", "branch", "sign", "step", "state"} and np.array_equal(data.step, traced.table["step"])
+    assert data.arc_length.attrs == {"long_name": "arc length of the fold angles", "units": "rad"}
+    assert all(variable.attrs["long_name"] for name, variable in data.variables.items() if name != "edge")
+    land = fw.landscape(fw.Assembly.patch(star, (3, 3), bars=fw.RIGID, creases=1.0), [(1, 0, 0), (0, 1, 0), (1, 1, 0)], [0.1, 0.05])
+    energy = land.to_xarray().energy_total
+    assert energy.dims == ("mode", "amplitude") and energy.amplitude.values.tolist() == [0.05, 0.1]
+    assert energy.sel(mode=energy.mode[2], amplitude=0.05) == land.table["energy_total"][5]
     assert "fold_angle" not in fw.modes(fw.Assembly.patch(star, bars=1.0, creases=1.0), eigenvalues=3).to_xarray()
 
 
@@ -297,15 +201,6 @@ def test_frequencies_follow_from_a_mass(miura):
     assert "frequencies" not in fw.modes(fw.Assembly.patch(miura, (2, 2), **terms), eigenvalues=12).summary
 
 
-def test_terms_are_spelled_out():
-    """`help` and notebooks show every term as an argument, and each is described."""
-    for make in (fw.Assembly.patch, fw.Assembly.torus, fw.Assembly.screw, fw.Assembly.tube):
-        parameters = inspect.signature(make).parameters
-        assert {"sheet", "cells", "bars", "creases", "rest", "laws", "mass"} <= set(parameters) and "terms" not in parameters
-    terms = list(inspect.signature(fw.Assembly.patch).parameters)[2:]
-    assert all(f"            {name}: " in fw.Assembly.patch.__doc__ for name in terms)
-
-
 def test_every_key_of_every_kind_is_an_argument():
     """The functions of the package have the keys of the schema, no more and no less."""
     schema = fw.schema()
@@ -335,37 +230,6 @@ def test_arrays_are_views_of_the_memory_of_the_program(soft):
     del state
     fw.relax(soft)
     assert np.array_equal(kept, before)  # the array keeps the memory alive
-
-
-def test_values_without_end_are_refused():
-    """Values that contain themselves, are very deep, never end or multiply raise, and do not end the interpreter."""
-
-    class Same:
-        def tolist(self):
-            return self
-
-    def scene():
-        return {"sheet": {"generate": {"pattern": "miura"}}, "study": [{"name": "a", "kind": "modes"}]}
-
-    itself = []
-    itself.append(itself)
-    deep = []
-    for _ in range(10_000):
-        deep = [deep]
-    doubled = [1]
-    for _ in range(60):
-        doubled = [doubled, doubled]
-    around = scene()
-    around["x"] = around
-    for value in (itself, deep, Same(), around):
-        with pytest.raises(fw.SceneError, match="more than 100 dicts and lists within each other"):
-            fw.run({**scene(), "x": value})
-    for value in (doubled, itertools.count()):
-        with pytest.raises(fw.SceneError, match="a scene has at most 10000000 values"):
-            fw.run({**scene(), "x": value})
-    for value in (10**30, "\ud800"):
-        with pytest.raises(fw.SceneError, match="^title: "):
-            fw.run({**scene(), "title": value})
 
 
 def test_a_start_belongs_to_the_same_assembly(miura):

@@ -16,6 +16,7 @@ import foldwell as fw
 import numpy as np
 import pytest
 from conftest import ROOT
+from foldwell.sweeps import _dataset
 
 SCENE = {
     "sheet": {"generate": {"pattern": "random", "seed": 0}, "cells": [2, 2]},
@@ -35,13 +36,13 @@ def expected(tmp_path_factory):
 
 def test_a_point_is_the_study_that_it_would_be_alone(expected):
     data, _ = expected
-    assert dict(data.sizes) == {"sheet.generate.seed": 6, "energy.bars.stiffness": 3}
-    assert data["sheet.generate.seed"].values.tolist() == list(range(6)) and data["sheet.generate.seed"].dtype == int
-    assert (data.status == "converged").all() and (data.reason == "").all() and data["bent.converged"].all()
+    assert dict(data.sizes) == {"sheet_generate_seed": 6, "energy_bars_stiffness": 3}
+    assert data.sheet_generate_seed.values.tolist() == list(range(6)) and data.sheet_generate_seed.dtype == int
+    assert (data.status == "converged").all() and (data.reason == "").all() and data.bent_converged.all()
     for seed, stiffness in [(0, 1e2), (1, 1e4), (4, 1e2)]:  # off the diagonal: the axes are not swapped
         run = fw.run(SCENE, set={"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
-        point = data.sel({"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
-        assert float(point["bent.energy.total"]) == run["bent"].summary["energy"]["total"]
+        point = data.sel(sheet_generate_seed=seed, energy_bars_stiffness=stiffness)
+        assert float(point.bent_energy_total) == run["bent"].summary["energy"]["total"]
 
 
 @pytest.mark.parametrize("executor", [None, ThreadPoolExecutor, ProcessPoolExecutor])
@@ -124,10 +125,34 @@ def test_forms_of_axes(expected):
     data, _ = expected
     forms = {"sheet.generate.seed": {"seeds": [0, 6]}, "energy.bars.stiffness": {"log": [1e2, 1e4, 3]}}
     other = fw.sweep(SCENE, forms)
-    assert np.array_equal(other["bent.energy.total"], data["bent.energy.total"])
+    assert np.array_equal(other.bent_energy_total, data.bent_energy_total)
     together = fw.sweep(SCENE, {"sheet.generate.seed": [0, 1], "energy.bars.stiffness": [1e2, 1e3]}, zip=True)
     assert dict(together.sizes) == {"point": 2}
-    assert float(together["bent.energy.total"][1]) == float(data["bent.energy.total"][1, 1])
+    assert float(together.bent_energy_total[1]) == float(data.bent_energy_total[1, 1])
+
+
+@pytest.mark.parametrize("folder", [False, True])
+def test_scenes_of_sweeps_have_arrays(folder, tmp_path):
+    """Arrays in the dict of a scene go to the points, also on other processes and into folders; other numbers are another sweep."""
+    rest = np.linspace(0.0, 0.2, len(fw.generate("random", seed=0).edges))
+    scene = {**SCENE, "energy": {"bars": {"stiffness": 1e3}, "creases": {"stiffness": 1.0, "rest": rest}}}
+    axes, out = {"energy.bars.stiffness": np.array([1e2, 1e3])}, tmp_path / "sweep" if folder else None
+    expected = [fw.run(scene, set={"energy.bars.stiffness": k})["bent"].summary["energy"]["total"] for k in axes["energy.bars.stiffness"]]
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        for executor in (None, pool):
+            assert fw.sweep(scene, axes, out=out, executor=executor).bent_energy_total.values.tolist() == expected
+    scene["energy"]["creases"]["rest"] = 2.0 * rest
+    assert (fw.sweep(scene, axes, out=out).bent_energy_total.values != expected).all()
+
+
+def test_names_of_data_sets():
+    """Points in names become `_`, with the key as an attribute; where two names would be one, all keep their points."""
+    data = fw.sweep(SCENE, {"energy.bars.stiffness": [1e2, 1e3]})
+    assert data.bent_energy_total.attrs == {"key": "bent.energy.total", "long_name": "bent energy total"}
+    assert data.energy_bars_stiffness.attrs["key"] == "energy.bars.stiffness"
+    about = {"title": "t", "scene": "s", "version": "0", "digest": "", "keys": ["x.y"]}
+    both = _dataset(["point,x.y,status,reason,a.folding_modes,a_folding.modes", "0,1.5,converged,,2,3"], [1], about)
+    assert (both["a.folding_modes"].item(), both["a_folding.modes"].item()) == (2.0, 3.0) and dict(both.sizes) == {"x.y": 1}
 
 
 def test_points_that_fail_are_listed(tmp_path):

@@ -82,5 +82,5 @@ def test_what_is_wrong_with_it_is_said(soft, magnets, miura):
             magnets.with_term(name, vertices, poles)
     with pytest.raises(fw.SceneError, match="patches"):
         fw.Assembly.torus(miura, bars=1.0).with_term("magnets", [[0, 1]], poles)
-    with pytest.raises(fw.SceneError, match="do not know"):
+    with pytest.raises(fw.SceneError, match="studies of kind landscape do not know the term `magnets`"):
         fw.landscape(magnets, [(1.0, 0.0, 0.0)], [0.1])
