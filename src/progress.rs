@@ -149,13 +149,16 @@ impl Shown {
     }
 }
 
-/// Returns the text of the progress bar: study and residual.
+/// Returns the text of the progress bar: study, per cent of the way, and residual.
 fn message(progress: &Progress) -> String {
-    if progress.residual.is_finite() {
-        format!("{}  residual {:.1e}", progress.study, progress.residual)
-    } else {
-        progress.study.clone()
+    let mut text = progress.study.clone();
+    if progress.part.is_finite() {
+        text += &format!("  {:.0} %", 100.0 * progress.part.clamp(0.0, 1.0));
     }
+    if progress.residual.is_finite() {
+        text += &format!("  residual {:.1e}", progress.residual);
+    }
+    text
 }
 
 /// Returns a bar with the remaining time if the number of steps is known, otherwise a spinner with the elapsed time.
@@ -179,7 +182,7 @@ mod tests {
     fn a_watch_stops_after_an_interrupt() {
         let watch =
             Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: Some(Mutex::new(Shown::new())) };
-        let progress = Progress { study: "a".into(), step: 1, of: None, residual: 0.1 };
+        let progress = Progress { study: "a".into(), step: 1, of: None, residual: 0.1, part: f64::NAN };
         assert_eq!(watch.step(&progress), ControlFlow::Continue(()));
         assert!(watch.shown.as_ref().unwrap().lock().unwrap().bar.is_hidden());
         watch.interrupted.store(true, Ordering::Relaxed);
@@ -211,18 +214,21 @@ mod tests {
         let watch = Arc::new(Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: None });
         let writes_for_long = |watch: &Watch| {
             watch.interrupted.store(true, Ordering::Relaxed);
-            let stopped = watch.step(&Progress { study: "a".into(), step: 1, of: None, residual: 0.1 }).is_break();
+            let stopped = watch
+                .step(&Progress { study: "a".into(), step: 1, of: None, residual: 0.1, part: f64::NAN })
+                .is_break();
             thread::sleep(3 * GRACE);
             stopped
         };
         assert_eq!(watch.over(writes_for_long).unwrap(), Some(true));
     }
 
-    /// Claim: the residual is shown if there is one.
+    /// Claim: the residual and the part of the way are shown if they are known.
     #[test]
     fn messages() {
-        let progress = Progress { study: "a".into(), step: 2, of: None, residual: 1e-3 };
+        let progress = Progress { study: "a".into(), step: 2, of: None, residual: 1e-3, part: f64::NAN };
         assert_eq!(message(&progress), "a  residual 1.0e-3");
+        assert_eq!(message(&Progress { part: 0.425, ..progress.clone() }), "a  42 %  residual 1.0e-3");
         assert_eq!(message(&Progress { residual: f64::NAN, ..progress }), "a");
     }
 

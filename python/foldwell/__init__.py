@@ -25,7 +25,7 @@ from .runs import convert, run, schema
 from .sheet import Sheet, generate, pattern_help, patterns
 from .state import State
 from .sweeps import open_sweep, sweep
-from .studies import bloch, branches, compute, landscape, modes, path, relax, response, surface, trace, wells
+from .studies import bloch, branches, compute, fold, landscape, modes, path, relax, response, surface, trace, wells
 
 __all__ = [
     "RIGID",
@@ -45,6 +45,7 @@ __all__ = [
     "compute",
     "convert",
     "errors",
+    "fold",
     "generate",
     "landscape",
     "modes",

@@ -14,7 +14,7 @@ from .progress import Progress, listener
 from .results import Result
 from .sheet import Sheet
 
-__all__ = ["bloch", "branches", "compute", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
+__all__ = ["bloch", "branches", "compute", "fold", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
 Start = str | Result | Mapping[str, Any] | None
 Mode = Sequence[float] | NDArray[Any] | Mapping[str, Any]
@@ -338,6 +338,30 @@ def _study(
     """Computes a study with the arguments of its function."""
     return compute(
         assembly, kind, keys, start=start,
+        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
+    )
+
+
+def fold(
+    assembly: Assembly,
+    *,
+    tolerance: float | None = None,
+    max_step: float | None = None,
+    switch: bool | None = None,
+    stop: Mapping[str, Any] | None = None,
+    name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
+    threads: int | None = None, progress: Progress = None, must_converge: bool = True,
+) -> Result:
+    """Folds the sheet from 0 to 100 %: a path along the rest angles, from those drawn to those of the assembly.
+
+    Args:
+        assembly: The sheet with its energy, with rest angles such as `rest="assigned"`.
+        tolerance, max_step, switch, stop: As in `path`.
+        name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+    """
+    keys = {"tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
+    return compute(
+        assembly, "fold", keys,
         name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
     )
 

@@ -85,7 +85,7 @@ pub(crate) fn run_scene(
 /// Converts a mesh; returns what the new file does not keep. After Ctrl-C no file is begun.
 #[pyfunction]
 pub(crate) fn convert(py: Python<'_>, from: PathBuf, to: PathBuf, frame: Option<usize>) -> PyResult<Vec<String>> {
-    let reading = Progress { study: "convert".to_owned(), step: 0, of: None, residual: f64::NAN };
+    let reading = Progress { study: "convert".to_owned(), step: 0, of: None, residual: f64::NAN, part: f64::NAN };
     let work = move |observer: run::Observer<'_>| {
         let sheet = run::read_sheet(&from, frame, None)?;
         if observer(&reading).is_break() { Ok(Vec::new()) } else { run::write_sheet(&sheet, &to) }

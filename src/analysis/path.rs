@@ -56,6 +56,8 @@ pub struct PathPoint {
     pub arc_length: f64,
     /// The driven value.
     pub drive: f64,
+    /// The part of its way that the drive has gone: 0 at the beginning, 1 at the end.
+    pub part: f64,
     /// Its conjugate: the force on a driven displacement, the torque of a driven angle, the displacement of loads.
     pub reaction: f64,
     /// Work that the drive has done on the sheet since the path began.
@@ -285,6 +287,7 @@ fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoi
     PathPoint {
         arc_length: state.arc_length,
         drive: driven.drive_at(*parameter),
+        part: driven.part_at(*parameter),
         reaction: driven.reaction_of(*conjugate, *parameter),
         work: driven.work_of(*work, *conjugate, *parameter),
         state: State::new(&driven.model, x, tension),

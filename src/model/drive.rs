@@ -65,6 +65,9 @@ pub enum DriveError {
     /// Soft hinges cannot be driven to infinite stiffness.
     #[error("the {} cannot be driven to infinite stiffness: only bars can", .0.name())]
     TooStiff(TermKind),
+    /// The rest values are those of the drawn state.
+    #[error("the creases rest as they are drawn, so that nothing folds")]
+    RestAsDrawn,
     /// The driven value is at its end already.
     #[error("the driven value is {at} at the beginning already")]
     NoWay {

@@ -21,7 +21,7 @@ const WAITING: &str = "waiting for another run";
 /// [`OutputError::Claimed`] if another run has the folder, also if the observer ends the waiting;
 /// [`OutputError::Write`] if the folder cannot be written.
 pub(super) fn of_run(folder: &Path, patient: bool, observer: Observer) -> Result<Claim, OutputError> {
-    let waiting = Progress { study: WAITING.to_owned(), step: 0, of: None, residual: f64::NAN };
+    let waiting = Progress { study: WAITING.to_owned(), step: 0, of: None, residual: f64::NAN, part: f64::NAN };
     let waits = |process: u32| (patient || process == std::process::id()) && observer(&waiting).is_continue();
     loop {
         match Claim::on(folder, None) {

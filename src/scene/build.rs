@@ -1,5 +1,6 @@
 //! The assembly of a scene: reads the mesh, and checks every value of the scene that refers to the sheet.
 
+pub(crate) use super::drives::rest as rest_drive;
 use super::elements::{ElementKind, ElementValues, name};
 use super::forms::{Mode, RatesFile};
 use super::mass::mass;

@@ -241,6 +241,7 @@ fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
     study.kind.start().map_or(Ok(()), |start| earlier_study(file, start, earlier))?;
     match &*study.kind {
         StudyKind::Path(path) => driven(file, study, path),
+        StudyKind::Fold(path) => folded(file, path),
         StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
         StudyKind::Landscape(landscape) => not_empty(file, landscape),
         StudyKind::Relax(_) | StudyKind::Bloch(_) | StudyKind::Response(_) => Ok(()),
@@ -270,10 +271,11 @@ fn earlier_study(file: &SceneFile, start: &Located<StartSpec>, earlier: &[StudyS
 
 /// Whether studies of a kind end in a state from which another study can start.
 fn has_states(kind: &StudyKind) -> bool {
-    matches!(kind, StudyKind::Relax(_) | StudyKind::Trace(_) | StudyKind::Surface(_) | StudyKind::Path(_))
+    let follows = matches!(kind, StudyKind::Trace(_) | StudyKind::Path(_) | StudyKind::Fold(_));
+    follows || matches!(kind, StudyKind::Relax(_) | StudyKind::Surface(_))
 }
 
-/// Checks that a path has a drive, and that its sheet has the quantities at which it stops.
+/// Checks that a path has a drive.
 fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
     let drives = &file.scene.drives;
     let names = drives.iter().map(|drive| drive.name.0.as_str());
@@ -291,6 +293,22 @@ fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
         }
         _ => {}
     }
+    path_stop(file, path)
+}
+
+/// Checks that a study of kind `fold` names no drive.
+fn folded(file: &SceneFile, path: &PathSpec) -> Checked {
+    match &path.drive {
+        None => path_stop(file, path),
+        Some(name) => {
+            let help = "leave it out: what is driven are the rest angles; kind = \"path\" drives other quantities";
+            Err(file.error_at(name.span(), "a study of kind fold has no drive of the scene", help))
+        }
+    }
+}
+
+/// Checks that the sheet of a path has the quantities at which it stops.
+fn path_stop(file: &SceneFile, path: &PathSpec) -> Checked {
     let Some(stop) = &path.stop else { return Ok(()) };
     let rolls = matches!(file.scene.sheet.domain(), DomainSpec::Screw | DomainSpec::Tube);
     if let Some(curvature) = stop.curvature.as_ref().filter(|_| !rolls) {

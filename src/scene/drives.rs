@@ -83,14 +83,7 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
         }
         Quantity::Loads(_) => Driven::Loads,
         Quantity::Lock(crease) => lock(file, assembly, spec, crease)?,
-        Quantity::Rest(span) => {
-            let soft_facets = terms.facets.is_some() && !terms.has_rigid_facets();
-            if terms.creases.is_none() && !soft_facets {
-                let help = "give creases, or facets, a stiffness in [energy]";
-                return nothing(span, "the scene has no soft creases or facets whose rest angles could change", help);
-            }
-            Driven::Rest
-        }
+        Quantity::Rest(span) => rest(file, assembly, span)?,
         Quantity::Stiffness(term) => {
             let (there, kind, name) = match **term {
                 DrivenTerm::Bars => (terms.bars.is_some(), TermKind::Bars, "bars"),
@@ -105,6 +98,21 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
         }
     };
     Ok(Drive { quantity, to: spec.to.0.radians })
+}
+
+/// Returns the rest angles as a driven quantity, for the drive or study at this place of the scene.
+///
+/// # Errors
+/// [`SceneError`] if there are none.
+pub(crate) fn rest(file: &SceneFile, assembly: &Assembly, span: Range<usize>) -> Result<Driven, SceneError> {
+    let terms = assembly.terms();
+    let soft_facets = terms.facets.is_some() && !terms.has_rigid_facets();
+    if terms.creases.is_none() && !soft_facets {
+        let help = "give creases, or facets, a stiffness in [energy]";
+        let message = "the scene has no soft creases or facets whose rest angles could change";
+        return Err(file.error_at(span, message, help));
+    }
+    Ok(Driven::Rest)
 }
 
 /// Returns the one quantity that a drive names.

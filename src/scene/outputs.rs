@@ -25,7 +25,7 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
         StudyKind::Landscape(spec) if spec.map.is_some() => [MAP, &[]],
         StudyKind::Bloch(_) => [BLOCH, BANDS],
         StudyKind::Wells(_) => [WELLS, &[]],
-        StudyKind::Path(_) => [PATH, &[]],
+        StudyKind::Path(_) | StudyKind::Fold(_) => [PATH, &[]],
         StudyKind::Response(_) => [RESPONSE, &[]],
         StudyKind::Modes(_) => [MODES, &[]],
         StudyKind::Relax(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],

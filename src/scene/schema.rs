@@ -16,7 +16,7 @@ pub(super) fn common_study_keys() -> [&'static str; 4] {
 }
 
 /// Returns the kinds of studies.
-pub(super) fn kinds() -> [&'static str; 10] {
+pub(super) fn kinds() -> [&'static str; 11] {
     keys_of_kinds().map(|(kind, _)| kind)
 }
 
@@ -25,7 +25,7 @@ pub(super) fn kinds_with_key(key: &str) -> Vec<&'static str> {
     keys_of_kinds().into_iter().filter(|(_, keys)| keys.iter().any(|k| k == key)).map(|(kind, _)| kind).collect()
 }
 
-fn keys_of_kinds() -> [(&'static str, Vec<String>); 10] {
+fn keys_of_kinds() -> [(&'static str, Vec<String>); 11] {
     [
         ("relax", keys::<spec::RelaxSpec>()),
         ("trace", keys::<spec::TraceSpec>()),
@@ -36,6 +36,7 @@ fn keys_of_kinds() -> [(&'static str, Vec<String>); 10] {
         ("bloch", keys::<spec::BlochSpec>()),
         ("wells", keys::<spec::WellsSpec>()),
         ("path", keys::<spec::PathSpec>()),
+        ("fold", keys::<spec::PathSpec>()),
         ("response", keys::<spec::ResponseSpec>()),
     ]
 }
@@ -82,7 +83,7 @@ mod tests {
     /// Claim: kinds and keys are those that the documentation of the scene lists.
     #[test]
     fn keys_of_kinds() {
-        assert_eq!(kinds_with_key("tolerance"), ["relax", "trace", "path"]);
+        assert_eq!(kinds_with_key("tolerance"), ["relax", "trace", "path", "fold"]);
         assert_eq!(kinds_with_key("grid"), ["bloch"]);
         assert!(kinds_with_key("mesh").is_empty());
     }

@@ -68,7 +68,7 @@ fn rests(file: &SceneFile) -> impl Iterator<Item = &Located<RestSpec>> {
 fn stop_angle(study: &StudySpec) -> Option<&Located<Angle>> {
     let stop = match &*study.kind {
         StudyKind::Trace(trace) => trace.stop.as_ref(),
-        StudyKind::Path(path) => path.stop.as_ref(),
+        StudyKind::Path(path) | StudyKind::Fold(path) => path.stop.as_ref(),
         _ => None,
     };
     Some(&stop?.crease_angle.as_ref()?.angle)

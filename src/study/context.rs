@@ -24,6 +24,8 @@ pub struct Progress {
     pub of: Option<usize>,
     /// The residual to be reduced below its tolerance; NaN if there is none.
     pub residual: f64,
+    /// The part of the way of a path that its drive has gone, 0 to 1; NaN if it is not known.
+    pub part: f64,
 }
 
 /// The observer of a run: called after every step, it returns whether to go on.
@@ -97,7 +99,11 @@ impl Context<'_> {
 
     /// Reports a step and its residual to the observer; returns whether to go on.
     pub fn step_with_residual(&self, step: usize, of: Option<usize>, residual: f64) -> bool {
-        let progress = Progress { study: self.name().to_owned(), step, of, residual };
+        self.step_on_way(Progress { study: self.name().to_owned(), step, of, residual, part: f64::NAN })
+    }
+
+    /// Reports a step to the observer; returns whether to go on.
+    pub fn step_on_way(&self, progress: Progress) -> bool {
         let go_on = (self.observer)(&progress).is_continue();
         self.interrupted.fetch_or(!go_on, Ordering::Relaxed);
         go_on

@@ -10,7 +10,7 @@
 //! | `landscape` | [`landscape`] | the energy along folding modes, and a map over all of them |
 //! | `bloch` | [`bloch`] | spatially varying modes |
 //! | `wells` | [`wells`] | minima, and the barriers between them |
-//! | `path` | [`path`] | equilibria along a driven quantity |
+//! | `path`, `fold` | [`path`] | equilibria along a driven quantity, or along the rest angles |
 //! | `response` | [`response`] | linear modes, Poisson's ratios and moduli |
 //!
 //! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
@@ -51,7 +51,8 @@ pub use surface::left_out;
 /// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
     tube::check(context)?;
-    if !matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Path(_) | StudyKind::Wells(_)) {
+    let relaxes = matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Wells(_));
+    if !relaxes && !matches!(*context.study.kind, StudyKind::Path(_) | StudyKind::Fold(_)) {
         supported::no_parts(context)?;
     }
     match &*context.study.kind {
@@ -63,7 +64,7 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
         StudyKind::Landscape(spec) => landscape::check(context, spec),
         StudyKind::Bloch(spec) => bloch::check(context, spec),
         StudyKind::Wells(spec) => wells::check(context, spec),
-        StudyKind::Path(spec) => path::check(context, spec),
+        StudyKind::Path(spec) | StudyKind::Fold(spec) => path::check(context, spec),
         StudyKind::Response(spec) => response::check(context, spec),
     }
 }
@@ -88,7 +89,7 @@ fn compute_kind(context: &Context<'_>) -> Result<Answer, StudyError> {
         StudyKind::Landscape(spec) => landscape::compute(context, spec),
         StudyKind::Bloch(spec) => Ok(bloch::compute(context, spec)),
         StudyKind::Wells(spec) => wells::compute(context, spec),
-        StudyKind::Path(spec) => path::compute(context, spec),
+        StudyKind::Path(spec) | StudyKind::Fold(spec) => path::compute(context, spec),
         StudyKind::Response(spec) => response::compute(context, spec),
     }
 }

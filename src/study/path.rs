@@ -1,12 +1,14 @@
 //! `kind = "path"`: equilibria while a quantity is driven, through limit points, with branches on request.
 
+mod drive;
 mod plot;
 mod summary;
 mod table;
 
+use self::drive::{drive, drive_name, has_effect, moves};
 use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
-use super::context::Context;
+use super::context::{Context, Progress};
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
@@ -14,12 +16,11 @@ use super::{ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
-    PathRecord, PathStop, check_drive, resume_path,
+    PathRecord, PathStop, resume_path,
 };
-use crate::model::{Assembly, Drive, DriveError, Driven, Gauge};
+use crate::model::{Assembly, Drive, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
-use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, PathSpec};
 use std::collections::BTreeSet;
@@ -67,7 +68,8 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     let mut step = 0;
     let mut observe = |_: usize, point: &PathPoint| {
         step += 1;
-        context.step_with_residual(step, None, larger(point.residual_force, point.residual_length))
+        let residual = larger(point.residual_force, point.residual_length);
+        context.step_on_way(Progress { study: context.name().into(), step, of: None, residual, part: point.part })
     };
     let log = format!("{}.path.jsonl", context.name());
     let kept = context.checkpoints.log(&log)?;
@@ -86,53 +88,6 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         (Ok(branches), None) => Ok(answer(context, spec, &drive, &branches)),
         (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
     }
-}
-
-/// Returns the drive that the study names, or the only one of the scene.
-fn drive(context: &Context<'_>, spec: &PathSpec) -> Result<Drive, StudyError> {
-    let name = drive_name(context, spec);
-    Ok(build::drive(context.file, context.assembly, name)?)
-}
-
-/// Returns the name of the drive that the study names, or of the only one of the scene.
-fn drive_name<'a>(context: &'a Context<'_>, spec: &'a PathSpec) -> &'a str {
-    let first = context.file.scene.drives.first().map(|drive| drive.name.0.as_str());
-    spec.drive.as_ref().map(|name| name.as_str()).or(first).unwrap_or_default()
-}
-
-/// Checks that a factor of loads or rest angles does not end where it begins: at 0 in the drawn state, at 1 in an
-/// earlier state.
-fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
-    let drive = drive(context, spec)?;
-    let drawn = matches!(spec.start.as_deref(), None | Some(StartSpec::Drawn));
-    let begin = if drawn { 0.0 } else { 1.0 };
-    if !matches!(drive.quantity, Driven::Loads | Driven::Rest) || drive.to != begin {
-        return Ok(());
-    }
-    let name = drive_name(context, spec);
-    let table = context.file.scene.drives.iter().find(|drive| drive.name.0 == name);
-    let span = table.map_or(0..0, |table| table.to.span());
-    let message = format!("the path of study `{}` ends where it begins", context.name());
-    let help =
-        "loads and rest angles begin at 0 in the drawn state, and at 1 in the state of an earlier study or of a file";
-    Err(context.file.error_at(span, message, help).into())
-}
-
-/// Checks that a driven stiffness is one number, and another one than that at the end.
-fn has_effect(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
-    let drive = drive(context, spec)?;
-    let Driven::Stiffness(_) = drive.quantity else { return Ok(()) };
-    check_drive(context.assembly, &drive).map_err(|error| {
-        let name = drive_name(context, spec);
-        let table = context.file.scene.drives.iter().find(|drive| drive.name.0 == name);
-        let span = table.map_or(0..0, |table| table.to.span());
-        let help = "a driven stiffness goes from the one number that its term has in [energy] to another one";
-        let message = match error {
-            DriveError::NoWay { .. } => format!("the driven stiffness is {} at the beginning already", drive.to),
-            other => other.to_string(),
-        };
-        context.file.error_at(span, message, help).into()
-    })
 }
 
 /// Returns the stops. The angle of a crease is that of its copy in the middle cell, as in the table.
@@ -262,8 +217,11 @@ fn add_pictures(
             Some(_) => ", not stable",
             None => ", stability not known",
         };
-        let words =
-            format!("{quantity} {}, energy {}{unstable}", rounded(last.drive, 5), rounded(last.state.total(), 5));
+        let driven = match drive.quantity {
+            Driven::Rest => format!("folded to {}", summary::percent(last.drive)),
+            _ => format!("{quantity} {}", rounded(last.drive, 5)),
+        };
+        let words = format!("{driven}, energy {}{unstable}", rounded(last.state.total(), 5));
         states::add_figure(answer, context, &picture(0, branch.points.len() - 1, last), &words);
     }
     if context.draws(Draw::Svg) {

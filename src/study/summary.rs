@@ -55,17 +55,17 @@ pub struct Files {
 
 /// Defines the results of each kind of study, and the list of kinds with the schemas of these.
 macro_rules! kinds {
-    ($($word:literal: $kind:ident($result:ty)),* $(,)?) => {
+    ($($($word:literal)|+: $kind:ident($result:ty)),* $(,)?) => {
         /// The results of each kind of study.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(untagged)]
         pub enum StudyResult {
-            $(#[doc = concat!("`kind = \"", $word, "\"`.")] $kind($result)),*
+            $($(#[doc = concat!("`kind = \"", $word, "\"`.")])+ $kind($result)),*
         }
 
         /// The word of every kind, and the function that returns the schema of its results.
         const KINDS: &[(&str, fn(&mut SchemaGenerator) -> Schema)] =
-            &[$(($word, <$result>::json_schema)),*];
+            &[$($(($word, <$result>::json_schema)),+),*];
     };
 }
 kinds! {
@@ -76,7 +76,7 @@ kinds! {
     "landscape": Landscape(LandscapeSummary),
     "bloch": Bloch(Box<BlochSummary>),
     "wells": Wells(WellsSummary),
-    "path": Path(PathSummary),
+    "path" | "fold": Path(PathSummary),
     "response": Response(Box<ResponseSummary>),
     "trace": Trace(TraceSummary),
 }

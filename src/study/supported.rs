@@ -17,7 +17,7 @@ pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
         None => return Ok(()),
     };
     let message = format!("studies of kind {kind} do not know {what}");
-    Err(context.refuse(message, "leave them out, or ask for relax, path or wells").into())
+    Err(context.refuse(message, "leave them out, or ask for relax, path, fold or wells").into())
 }
 
 /// Checks that each term has one stiffness.

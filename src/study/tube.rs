@@ -34,7 +34,7 @@ pub(super) fn check(context: &Context<'_>) -> Result<(), StudyError> {
             let help = "use domain = \"screw\" or \"torus\"";
             Some(("strains and curvatures of a closed tube are fixed by its seam", help))
         }
-        StudyKind::Path(_) => {
+        StudyKind::Path(_) | StudyKind::Fold(_) => {
             let help = "use domain = \"patch\", or relax the tube at every value of a [sweep]";
             Some(("paths of equilibria of tubes are not known", help))
         }

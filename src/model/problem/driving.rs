@@ -65,7 +65,7 @@ impl DrivenModel {
                 let offsets = locks.iter().map(|(k, rest)| (*k, rest - from)).collect();
                 (Effect::Prescribed(offsets), from, drive.to)
             }
-            Driven::Rest => (Effect::rest(&model, drawn), begin, drive.to),
+            Driven::Rest => (Effect::rest(&model, drawn)?, begin, drive.to),
             Driven::Stiffness(kind) => Effect::stiffness(&model, *kind, drive.to)?,
         };
         if !((target - parameter).abs() > 0.0) {
@@ -97,6 +97,11 @@ impl DrivenModel {
     /// Returns the parameter at the end of the drive.
     pub fn target(&self) -> f64 {
         self.target
+    }
+
+    /// Returns the part of the way, from 0 at the beginning to 1 at the end, that a parameter has gone.
+    pub fn part_at(&self, parameter: f64) -> f64 {
+        1.0 - (self.target - parameter).abs() / self.way
     }
 
     /// Returns the driven value that belongs to a parameter.

@@ -132,7 +132,7 @@ fn survey(board: &Board<'_>, own: &[usize], resume: bool, observer: Observer) ->
 
 /// Returns the progress of work over points.
 fn progress(work: &str, step: usize, of: usize) -> Progress {
-    Progress { study: work.to_owned(), step, of: Some(of), residual: f64::NAN }
+    Progress { study: work.to_owned(), step, of: Some(of), residual: f64::NAN, part: f64::NAN }
 }
 
 /// Checks the scenes of all points as [`sweep`] does before it computes anything; of a sweep that writes nothing.

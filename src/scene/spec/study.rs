@@ -77,6 +77,8 @@ pub enum StudyKind {
     Wells(WellsSpec),
     /// Equilibria along a driven quantity.
     Path(PathSpec),
+    /// A path along the rest angles, from those drawn to those of `[energy]`.
+    Fold(PathSpec),
     /// The sheet as a material: its linear modes, Poisson's ratios and moduli.
     Response(ResponseSpec),
 }
@@ -306,7 +308,7 @@ pub struct WellsSpec {
     pub max_curvature: Option<Located<Positive>>,
 }
 
-/// `kind = "path"`.
+/// `kind = "path"`, and `kind = "fold"`, which has all of these keys but `drive`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PathSpec {
@@ -346,7 +348,7 @@ impl StudyKind {
             Self::Trace(_) | Self::Surface(_) | Self::Branches(_) | Self::Landscape(_) => None,
             Self::Modes(spec) => spec.start.as_ref(),
             Self::Wells(spec) => spec.start.as_ref(),
-            Self::Path(spec) => spec.start.as_ref(),
+            Self::Path(spec) | Self::Fold(spec) => spec.start.as_ref(),
             Self::Response(spec) => spec.start.as_ref(),
         }
     }
@@ -372,6 +374,7 @@ impl StudyKind {
             Self::Bloch(_) => "bloch",
             Self::Wells(_) => "wells",
             Self::Path(_) => "path",
+            Self::Fold(_) => "fold",
             Self::Response(_) => "response",
         }
     }

@@ -1,6 +1,7 @@
 //! The results of a study of kind `path` in the summary.
 
 use crate::output::counted;
+use crate::output::figure::rounded;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -95,7 +96,11 @@ pub struct FirstCrossing {
 impl PathSummary {
     /// One sentence: the end of every branch, and its events.
     pub(crate) fn sentence(&self) -> String {
-        let value = |value: Option<f64>| value.map_or("inf".to_owned(), |value| format!("{value:.6}"));
+        let value = |value: Option<f64>| match value {
+            None => "inf".to_owned(),
+            Some(value) if self.driven == "rest" => percent(value),
+            Some(value) => format!("{value:.6}"),
+        };
         let branches = self.branches.iter().map(|branch| {
             let events = branch.events.iter().map(|event| {
                 let eigenvalues = event.multiplicity.filter(|count| *count > 1);
@@ -109,6 +114,11 @@ impl PathSummary {
         });
         branches.collect::<Vec<_>>().join("; ")
     }
+}
+
+/// Returns a part as per cent.
+pub(super) fn percent(part: f64) -> String {
+    format!("{} %", rounded(100.0 * part, 6))
 }
 
 /// Describes how many half branches were found; empty where none were sought.

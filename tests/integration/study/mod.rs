@@ -3,6 +3,7 @@
 mod barriers;
 mod bloch_runs;
 mod empty_answers;
+mod folds;
 mod gallery_paths;
 mod kept_states;
 mod landscape_runs;

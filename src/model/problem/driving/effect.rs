@@ -6,6 +6,8 @@ use crate::model::problem::Model;
 
 /// Difference of two stiffnesses, relative to them, that counts as rounding.
 const SAME_STIFFNESS: f64 = 1e-12;
+/// Difference of two rest values, relative to them, that counts as rounding.
+const SAME_REST: f64 = 1e-9;
 
 /// The parts of a model that can change with a parameter.
 pub(super) enum Effect {
@@ -30,14 +32,18 @@ impl Effect {
         Self::Prescribed(measures.map(|k| (k, model.supports[k - first].rest)).collect())
     }
 
-    /// Rest values as given, and those of the drawn state; locks and supports keep theirs.
-    pub(super) fn rest(model: &Model, mut drawn: Vec<f64>) -> Self {
+    /// Rest values as given, and those of the drawn state, from which some differ; locks and supports keep theirs.
+    pub(super) fn rest(model: &Model, mut drawn: Vec<f64>) -> Result<Self, DriveError> {
         let given = model.rests();
         let locked = model.elements().map(|element| element.kind() == TermKind::Locks);
         let kept = locked.chain(model.supports.iter().map(|_| true));
         drawn.resize(given.len(), 0.0);
         kept.enumerate().filter(|(_, kept)| *kept).for_each(|(k, _)| drawn[k] = given[k]);
-        Self::Rest { drawn, given }
+        let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_REST * a.abs().max(b.abs());
+        if drawn.iter().zip(&given).all(is_same) {
+            return Err(DriveError::RestAsDrawn);
+        }
+        Ok(Self::Rest { drawn, given })
     }
 
     /// Returns the stiffness of all elements of a kind, with the parameter at the beginning and at the end.

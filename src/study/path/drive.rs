@@ -1,0 +1,84 @@
+//! The drive of a path, and its checks.
+
+use crate::analysis::path::check_drive;
+use crate::model::{Drive, DriveError, Driven};
+use crate::scene::build;
+use crate::scene::forms::StartSpec;
+use crate::scene::spec::{PathSpec, StudyKind};
+use crate::study::context::Context;
+use crate::study::error::StudyError;
+use std::ops::Range;
+
+/// Returns the drive that the study names, or the only one of the scene; that of the rest angles for a study of kind
+/// `fold`.
+pub(super) fn drive(context: &Context<'_>, spec: &PathSpec) -> Result<Drive, StudyError> {
+    if folds(context) {
+        let quantity = build::rest_drive(context.file, context.assembly, context.study.kind.span())?;
+        return Ok(Drive { quantity, to: 1.0 });
+    }
+    let name = drive_name(context, spec);
+    Ok(build::drive(context.file, context.assembly, name)?)
+}
+
+/// Whether the study is of kind `fold`.
+fn folds(context: &Context<'_>) -> bool {
+    matches!(*context.study.kind, StudyKind::Fold(_))
+}
+
+/// Returns the name of the drive that the study names, or of the only one of the scene.
+pub(super) fn drive_name<'a>(context: &'a Context<'_>, spec: &'a PathSpec) -> &'a str {
+    if folds(context) {
+        return "fold";
+    }
+    let first = context.file.scene.drives.first().map(|drive| drive.name.0.as_str());
+    spec.drive.as_ref().map(|name| name.as_str()).or(first).unwrap_or_default()
+}
+
+/// Checks that a factor of loads or rest angles does not end where it begins: at 0 in the drawn state, at 1 in an
+/// earlier state.
+pub(super) fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    let drive = drive(context, spec)?;
+    let drawn = matches!(spec.start.as_deref(), None | Some(StartSpec::Drawn));
+    let begin = if drawn { 0.0 } else { 1.0 };
+    if !matches!(drive.quantity, Driven::Loads | Driven::Rest) || drive.to != begin {
+        return Ok(());
+    }
+    let span = end(context, spec);
+    let message = format!("the path of study `{}` ends where it begins", context.name());
+    let help =
+        "loads and rest angles begin at 0 in the drawn state, and at 1 in the state of an earlier study or of a file";
+    Err(context.file.error_at(span, message, help).into())
+}
+
+/// Returns the place in the scene of the value to which the study drives; that of its kind for a study of kind `fold`.
+fn end(context: &Context<'_>, spec: &PathSpec) -> Range<usize> {
+    let name = drive_name(context, spec);
+    let table = context.file.scene.drives.iter().find(|drive| !folds(context) && drive.name.0 == name);
+    table.map_or(context.study.kind.span(), |table| table.to.span())
+}
+
+/// Checks that a driven stiffness is one number, and another one than that at the end, and that driven rest angles are
+/// others than those of the drawn state.
+pub(super) fn has_effect(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    let drive = drive(context, spec)?;
+    if !matches!(drive.quantity, Driven::Stiffness(_) | Driven::Rest) {
+        return Ok(());
+    }
+    let (message, help) = match check_drive(context.assembly, &drive) {
+        Ok(()) => return Ok(()),
+        // the path may begin in another state
+        Err(DriveError::NoWay { .. }) if drive.quantity == Driven::Rest => return Ok(()),
+        Err(error @ DriveError::RestAsDrawn) => {
+            (error.to_string(), "give creases rest = \"assigned\", folded flat by their letters, or other rest angles")
+        }
+        Err(error) => {
+            let help = "a driven stiffness goes from the one number that its term has in [energy] to another one";
+            let message = match error {
+                DriveError::NoWay { .. } => format!("the driven stiffness is {} at the beginning already", drive.to),
+                other => other.to_string(),
+            };
+            (message, help)
+        }
+    };
+    Err(context.file.error_at(end(context, spec), message, help).into())
+}
