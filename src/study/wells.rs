@@ -326,8 +326,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
         return;
     }
     if !passes.is_empty() {
-        let state =
-            "energies along the paths between wells; a dashed line marks the pass at the stiffness of the sheet";
+        let state = "energies along the paths down from passes to wells; a dashed line marks the pass";
         let charts: Vec<Chart> = passes.iter().map(|barrier| path_chart(found, barrier)).collect();
         answer.add(format!("{name}.svg"), chart::panels(&charts, &context.caption(state)));
     } else if let Some(lowest) = all.first() {
@@ -349,10 +348,10 @@ fn heights(passes: &[&Barrier]) -> Table {
     table
 }
 
-/// Returns the chart of energies along the path on which a pass was found, which may be a path with softer bars, and of
-/// the energy of the pass.
+/// Returns the chart of energies along the descents from a pass to the wells that it joins, in the sheet's own bars, and
+/// of the energy of the pass.
 fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
-    let ([from, to], last) = (barrier.between, barrier.path.len() - 1);
+    let ([from, to], last) = (barrier.joins, barrier.path.len() - 1);
     let label = |at: usize| match at {
         0 => format!("well {from}"),
         at if at == last => format!("well {to}"),
@@ -370,15 +369,19 @@ fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
             label: format!("pass at {}, {} above well {from}", rounded(energy, 5), rounded(above, 5)),
         }
     };
-    let [a, b] = barrier.joins;
-    let joins = if barrier.joins == barrier.between || [b, a] == barrier.between {
+    let [a, b] = barrier.between;
+    let sought = if barrier.joins == barrier.between || [to, from] == barrier.between {
         String::new()
     } else {
-        format!(" (the pass joins {a} and {b})")
+        format!(" (found between {a} and {b})")
+    };
+    let bars = match barrier.heights.last() {
+        Some(last) if barrier.singular => format!(" in bars of {}", rounded(last.stiffness, 3)),
+        _ => String::new(),
     };
     Chart {
-        title: format!("well {from} to well {to}{joins}"),
-        x: format!("length of the path in bars of {}", rounded(barrier.stiffness, 3)),
+        title: format!("well {from} to well {to}{sought}"),
+        x: format!("length of the path over the pass{bars}"),
         y: "energy (unit of the scene)".to_owned(),
         series: vec![Series { name: String::new(), points }],
         levels: summary.energy.map(level).into_iter().collect(),

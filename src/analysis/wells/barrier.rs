@@ -17,7 +17,7 @@
 
 use super::limit::{Height, STIFFER, rigid_limit};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
-use super::pass::{Pass, equilibrium, sides};
+use super::pass::{Descent, Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
 use crate::model::{Assembly, Gauge};
@@ -152,7 +152,8 @@ pub struct Barrier {
     pub heights: Vec<Height>,
     /// Stiffness of the bars in which the path was found.
     pub stiffness: f64,
-    /// Distances along that path, in `sqrt(sum k (d rho)^2)`, and energies.
+    /// The descents from the pass, from the first of the wells that it joins to the second one: distances along them, in
+    /// `sqrt(sum k (d rho)^2)`, and energies. Where the pass is singular, in the bars in which it is not.
     pub path: Vec<(f64, f64)>,
 }
 
@@ -274,8 +275,6 @@ fn from_softness(
         return Err(BarrierError::OneWell { stiffness });
     }
     let row = string(&settler, [&soft[0], &soft[1]], bend, &mut |_| go_on()).map_err(failed)?;
-    let path: Vec<(f64, f64)> =
-        string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
     let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
     let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
     let around = [top - 1, top, top + 1].map(|at| row[at].clone());
@@ -290,15 +289,24 @@ fn from_softness(
     if !(pass.energy > higher) {
         return Err(BarrierError::TooLow { pass: pass.energy, well: higher });
     }
-    match [number(&ends[1]), number(&ends[0])] {
+    let path = over(&settler, &pass, &ends);
+    match [number(&ends[1].end), number(&ends[0].end)] {
         [Some(a), Some(b)] if a != b => {
             let flat = if singular { flat_energy(assembly, &pass, &heights) } else { None };
             Ok(Barrier { between, joins: [a, b], pass, singular, flat, heights, stiffness, path })
         }
         [Some(well), Some(_)] => Err(BarrierError::OneSided { pass: pass.energy, well }),
-        [None, _] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[1].energy }),
-        [_, None] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[0].energy }),
+        [None, _] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[1].end.energy }),
+        [_, None] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[0].end.energy }),
     }
+}
+
+/// Returns the distances along the descents to both sides of a pass, and the energies there: from the end of the second
+/// descent up to the pass, and down the first one.
+fn over(settler: &MinimumTracker, pass: &Pass, [one, other]: &[Descent; 2]) -> Vec<(f64, f64)> {
+    let row = other.row().rev().chain([(pass.rho.as_slice(), pass.energy)]).chain(one.row());
+    let (angles, energies): (Vec<&[f64]>, Vec<f64>) = row.unzip();
+    string::stations(settler, &angles).into_iter().zip(energies).collect()
 }
 
 /// Whether two wells have the same fold angles of creases and soft facets.

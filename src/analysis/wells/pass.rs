@@ -17,6 +17,8 @@ const LONGEST_ANGLE_STEP_RAD: f64 = 0.2;
 
 /// Steps of the descent from a pass before the sheet is set free, and their tolerance.
 const DESCENT: usize = 12;
+/// Steps after these, each held half as strongly as the one before, that lead on towards the well.
+const LAST_STEPS: usize = 8;
 const DESCENT_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// How often a descent is held a hundred times as strongly, and the part of its strength that it loses in a step.
@@ -52,6 +54,21 @@ pub struct Pass {
     pub residual_length: f64,
     /// Newton steps.
     pub iterations: usize,
+}
+
+/// A descent from a pass.
+pub(crate) struct Descent {
+    /// States on the way.
+    way: Vec<Settled>,
+    /// Where the sheet comes to rest.
+    pub end: Settled,
+}
+
+impl Descent {
+    /// Returns the fold angles and energies of its states, from the first after the pass to the end.
+    pub fn row(&self) -> impl DoubleEndedIterator<Item = (&[f64], f64)> {
+        self.way.iter().chain([&self.end]).map(|settled| (settled.rho.as_slice(), settled.energy))
+    }
 }
 
 /// The equilibrium near a place.
@@ -94,11 +111,11 @@ pub(crate) fn sides(
     pass: &Pass,
     along: &[f64],
     options: Options,
-) -> Result<[Settled; 2], Failure> {
+) -> Result<[Descent; 2], Failure> {
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);
-        let side = |sign: f64| -> Result<(Settled, bool), Failure> {
+        let side = |sign: f64| -> Result<(Descent, bool), Failure> {
             let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
             descent(assembly, pass, &push, strength, options)
         };
@@ -121,17 +138,18 @@ pub(crate) fn sides(
 
 /// Descends from a pass to the side of a push with steps that are short against the way from the pass, so that none
 /// leads across it, however steep the pass and however near the well on the other side.
-fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Options) -> Result<Settled, Failure> {
+fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Options) -> Result<Descent, Failure> {
     let mut strength = STRENGTH * 100f64.powi(STRONGER);
     let mut settler = MinimumTracker::new(assembly, strength);
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + FIRST_PUSH * turn).collect();
-    let (mut place, mut energy) = (pass.place.clone(), pass.energy);
+    let (mut way, mut place, mut energy) = (Vec::new(), pass.place.clone(), pass.energy);
     for _ in 0..CAREFUL_STEPS {
         let found = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
-        let (step, way) = (largest_difference(&found.rho, &target), largest_difference(&target, &pass.rho));
-        if step <= PART_OF_WAY * way && found.energy <= energy {
-            (place, energy) = (found.place, found.energy);
-            target = found.rho;
+        let (step, far) = (largest_difference(&found.rho, &target), largest_difference(&target, &pass.rho));
+        if step <= PART_OF_WAY * far && found.energy <= energy {
+            (place, energy) = (found.place.clone(), found.energy);
+            target.clone_from(&found.rho);
+            way.push(found);
             if step <= AT_REST_RAD && strength <= STRENGTH {
                 break;
             }
@@ -141,16 +159,17 @@ fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Opti
         }
         settler.strength = strength;
     }
-    settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)
+    let end = settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)?;
+    Ok(Descent { way, end })
 }
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Whether two ends have the same fold angles.
-fn same(a: &Settled, b: &Settled) -> bool {
-    a.rho.iter().zip(&b.rho).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
+/// Whether two descents end with the same fold angles.
+fn same(a: &Descent, b: &Descent) -> bool {
+    a.end.rho.iter().zip(&b.end.rho).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
 }
 
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step
@@ -161,16 +180,17 @@ fn descent(
     push: &[f64],
     strength: f64,
     options: Options,
-) -> Result<(Settled, bool), Failure> {
+) -> Result<(Descent, bool), Failure> {
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
-    let (mut place, mut strength, mut to_its_side) = (pass.place.clone(), strength, None);
+    let (mut way, mut place, mut strength, mut to_its_side) = (Vec::new(), pass.place.clone(), strength, None);
     let mut settler = MinimumTracker::new(assembly, strength);
     let mut weak = 0;
     while weak < DESCENT {
         let found = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
         let moved = |((rho, from), turn): ((&f64, &f64), &f64)| (rho - from) * turn;
         to_its_side.get_or_insert_with(|| found.rho.iter().zip(&pass.rho).zip(push).map(moved).sum::<f64>() > 0.0);
-        (place, target) = (found.place, found.rho);
+        (place, target) = (found.place.clone(), found.rho.clone());
+        way.push(found);
         if strength > STRENGTH {
             strength = (strength / WEAKER).max(STRENGTH);
             settler.strength = strength;
@@ -178,6 +198,12 @@ fn descent(
             weak += 1;
         }
     }
+    for _ in 0..LAST_STEPS {
+        settler.strength *= 0.5;
+        let Ok(found) = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true) else { break };
+        (place, target) = (found.place.clone(), found.rho.clone());
+        way.push(found);
+    }
     let end = settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)?;
-    Ok((end, to_its_side == Some(true)))
+    Ok((Descent { way, end }, to_its_side == Some(true)))
 }

@@ -110,10 +110,11 @@ fn sweep(
     row: &mut [Settled],
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<f64, Failure> {
-    let places = stations(settler, row);
+    let old: Vec<Settled> = row.to_vec();
+    let angles: Vec<&[f64]> = old.iter().map(|settled| settled.rho.as_slice()).collect();
+    let places = stations(settler, &angles);
     let (whole, last) = (places[row.len() - 1], row.len() - 1);
     let mut moved: f64 = 0.0;
-    let old: Vec<Settled> = row.to_vec();
     for at in 1..last {
         let station = whole * at as f64 / last as f64;
         let behind = (0..last).rfind(|&k| places[k] <= station).unwrap_or(0);
@@ -138,11 +139,11 @@ pub fn distance(settler: &MinimumTracker, a: &[f64], b: &[f64]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// Distance of every state along the row.
-pub(crate) fn stations(settler: &MinimumTracker, row: &[Settled]) -> Vec<f64> {
+/// Distance of every state along a row of states, which have these fold angles.
+pub(crate) fn stations(settler: &MinimumTracker, row: &[&[f64]]) -> Vec<f64> {
     let mut along = vec![0.0];
     for pair in row.windows(2) {
-        along.push(along[along.len() - 1] + distance(settler, &pair[0].rho, &pair[1].rho));
+        along.push(along[along.len() - 1] + distance(settler, pair[0], pair[1]));
     }
     along
 }
