@@ -6,6 +6,7 @@
 use std::fmt::Write;
 
 use super::palette::{Colour, INK, PAPER, Ramp};
+use super::script;
 use super::style::{Anchor, Area, Font, PaperPoint, Short, Style, escaped};
 
 /// Width of every figure.
@@ -146,6 +147,7 @@ impl Canvas {
         if !words.is_empty() {
             self.taken.push(area);
         }
+        let (font, place, content) = written(font, place, words);
         let [x, y] = place.map(|x| Short(x, 1));
         match font.turned {
             true => put!(self.text, "<text transform=\"translate({x} {y}) rotate(-90)\""),
@@ -161,7 +163,7 @@ impl Canvas {
         if font.colour != INK {
             put!(self.text, " fill=\"{}\"", font.colour);
         }
-        put!(self.text, ">{}</text>\n", escaped(words));
+        put!(self.text, ">{content}</text>\n");
     }
 
     /// Reserves an area: `text_within` sets no text there.
@@ -235,6 +237,22 @@ impl Canvas {
         let middle = (0.5 * (left + right)).min(WIDTH - 12.0 - 0.5 * Font::LABEL.bold().width(name));
         self.text([middle, top - 22.0], name, Font::LABEL.bold().middle());
     }
+}
+
+/// Returns the content of the element of a text, with its font and place: text with subscripts or superscripts begins at
+/// its place.
+fn written(font: Font, [x, y]: PaperPoint, words: &str) -> (Font, PaperPoint, String) {
+    if !script::has_script(words) {
+        return (font, [x, y], escaped(words));
+    }
+    let width = script::width(words, font.size);
+    let before = match font.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5 * width,
+        Anchor::End => width,
+    };
+    let place = if font.turned { [x, y + before] } else { [x - before, y] };
+    (Font { anchor: Anchor::Start, ..font }, place, script::spans(words, font.size))
 }
 
 #[cfg(test)]

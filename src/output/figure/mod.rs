@@ -20,6 +20,7 @@ pub(crate) mod palette;
 pub(crate) mod projection;
 pub mod ratios;
 pub mod reaction;
+mod script;
 pub mod sheet;
 pub mod sphere;
 pub(crate) mod style;

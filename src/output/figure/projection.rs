@@ -1,9 +1,19 @@
-//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes.
+//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes, of a sheet that is
+//! closed round an axis with that axis upright.
 
 use nalgebra::Matrix3;
 
 use crate::math::Vec3;
 use crate::numerics::dense::small::symmetric_eigen_3;
+
+/// Most that the face normals of a closed sheet sum up to, over the sum of their sizes.
+const CANCELLED: f64 = 0.15;
+/// Least part of the faces of a closed sheet, by volume to its middle, that is turned outwards more than inwards.
+const OUTWARD: f64 = 0.7;
+/// Least extent of a closed sheet over its largest, squared.
+const THICK: f64 = 0.05;
+/// Two extents, squared, are about equal if the smaller one is more than this part of the larger one.
+const EQUAL: f64 = 0.7;
 
 /// An orthographic projection; `right`, `up` and `toward` are orthonormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,22 +24,30 @@ pub struct Projection {
     pub up: Vec3,
     /// Direction from the sheet to the eye.
     pub toward: Vec3,
-    /// Mean normal of the sheet.
+    /// Mean normal of the sheet; of a closed one, its axis.
     pub normal: Vec3,
 }
 
 impl Projection {
     /// Returns the view from the side of the face normals in which the longer side of the sheet runs across the figure.
+    /// A sheet that is closed round an axis, such as a tube or a drum, stands upright and is seen from less high above.
     ///
-    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet; its part in that plane has the
-    /// angle `TURN` to the second principal axis. Both are in radians.
+    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet, `OF_CLOSED` to that across the axis;
+    /// its part in that plane has the angle `TURN` to the second principal axis. All are in radians.
     pub(crate) fn of(points: &[Vec3], triangles: &[[usize; 3]]) -> Self {
         const ELEVATION: f64 = 0.82;
+        const OF_CLOSED: f64 = 0.4;
         const TURN: f64 = 0.5;
-        let [across, along, normal] = principal_axes(points, triangles);
+        let spread = Spread::of(points);
+        let normals = Normals::of(&spread.places, triangles);
+        let (axes, elevation) = match spread.axis(&normals) {
+            Some(axis) => ([level_x(axis), axis.cross(&level_x(axis)), axis], OF_CLOSED),
+            None => (spread.principal_axes(&normals), ELEVATION),
+        };
+        let [across, along, normal] = axes;
         let level = across * TURN.sin() - along * TURN.cos();
-        let toward = normal * ELEVATION.sin() + level * ELEVATION.cos();
-        let up = normal * ELEVATION.cos() - level * ELEVATION.sin();
+        let toward = normal * elevation.sin() + level * elevation.cos();
+        let up = normal * elevation.cos() - level * elevation.sin();
         Self { right: up.cross(&toward), up, toward, normal }
     }
 
@@ -50,32 +68,92 @@ impl Projection {
     }
 }
 
-/// Returns the principal axes of a sheet, a right-handed orthonormal frame: the directions of the largest and second
-/// largest extent, and the normal.
-///
-/// The normal is the direction of least extent, oriented like the mean of the face normals. If the sheet is about as
-/// long as wide, its other two axes are not well defined (they would change with rounding errors); then the first axis
-/// is the direction in the plane nearest to x.
-fn principal_axes(points: &[Vec3], triangles: &[[usize; 3]]) -> [Vec3; 3] {
-    let finite: Vec<Vec3> = points.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
-    let mean = finite.iter().sum::<Vec3>() / finite.len().max(1) as f64;
-    let size = finite.iter().map(|p| (p - mean).amax()).fold(f64::MIN_POSITIVE, f64::max);
-    let spread: Matrix3<f64> = finite.iter().map(|p| (p - mean) / size).map(|d| d * d.transpose()).sum();
-    let (values, vectors) = symmetric_eigen_3(spread);
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let [long, _, thin] = order.map(|axis| vectors.column(axis).into_owned());
-    let square = values[order[1]] > 0.7 * values[order[0]];
-    let normal = upright(thin, mean_normal(points, triangles));
-    let first = if square { level_x(normal).unwrap_or(long) } else { upright(long, Vec3::x()) };
-    let second = normal.cross(&first);
-    [first, second, normal]
+/// The points of a sheet about their mean in units of their largest distance from it, and how far they are spread.
+struct Spread {
+    places: Vec<Vec3>,
+    /// Sums of squares along the directions of largest, second largest and least extent, and these directions.
+    extents: [f64; 3],
+    directions: [Vec3; 3],
 }
 
-/// Returns twice the sum of the area vectors of the triangles.
-fn mean_normal(points: &[Vec3], triangles: &[[usize; 3]]) -> Vec3 {
-    let area = |&[a, b, c]: &[usize; 3]| (points[b] - points[a]).cross(&(points[c] - points[a]));
-    triangles.iter().map(area).filter(|normal| normal.iter().all(|x| x.is_finite())).sum()
+/// Sums over the faces of a sheet.
+#[derive(Default)]
+struct Normals {
+    /// Their area vectors, and the lengths of these.
+    vectors: Vec3,
+    sizes: f64,
+    /// Their volumes to the middle of the sheet, positive where a face is turned outwards, and the sizes of these.
+    volume: f64,
+    volumes: f64,
+}
+
+impl Spread {
+    fn of(points: &[Vec3]) -> Self {
+        let finite: Vec<Vec3> = points.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
+        let mean = finite.iter().sum::<Vec3>() / finite.len().max(1) as f64;
+        let size = finite.iter().map(|p| (p - mean).amax()).fold(f64::MIN_POSITIVE, f64::max);
+        let spread: Matrix3<f64> = finite.iter().map(|p| (p - mean) / size).map(|d| d * d.transpose()).sum();
+        let (values, vectors) = symmetric_eigen_3(spread);
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+        Self {
+            places: points.iter().map(|p| (p - mean) / size).collect(),
+            extents: order.map(|axis| values[axis]),
+            directions: order.map(|axis| vectors.column(axis).into_owned()),
+        }
+    }
+
+    /// Returns the principal axes of a sheet, a right-handed orthonormal frame: the directions of the largest and second
+    /// largest extent, and the normal.
+    ///
+    /// The normal is the direction of least extent, oriented like the mean of the face normals. If the sheet is about
+    /// as long as wide, its other two axes are not well defined (they would change with rounding errors); then the first
+    /// axis is the direction in the plane nearest to x.
+    fn principal_axes(&self, normals: &Normals) -> [Vec3; 3] {
+        let [long, _, thin] = self.directions;
+        let normal = upright(thin, normals.vectors);
+        let square = self.extents[1] > EQUAL * self.extents[0];
+        let first = if square { level_x(normal) } else { upright(long, Vec3::x()) };
+        [first, normal.cross(&first), normal]
+    }
+
+    /// Returns the axis round which a sheet is closed, upwards; `None` if it is not closed.
+    ///
+    /// The face normals of a closed sheet cancel, and nearly all of its faces are turned outwards, or nearly all
+    /// inwards. Its extents across the axis are about equal, so that the axis is the direction of the third. A sheet that
+    /// is as long as wide and high stands as it is drawn.
+    fn axis(&self, normals: &Normals) -> Option<Vec3> {
+        let [most, middle, least] = self.extents;
+        let cancelled = normals.vectors.norm() <= CANCELLED * normals.sizes;
+        let outward = normals.volume.abs() >= OUTWARD * normals.volumes;
+        if !(cancelled && outward && least > THICK * most) {
+            return None;
+        }
+        let axis = match (least > EQUAL * most, middle * middle > most * least) {
+            (true, _) => Vec3::z(),
+            (false, true) => self.directions[2],
+            (false, false) => self.directions[0],
+        };
+        Some(upright(axis, Vec3::z()))
+    }
+}
+
+impl Normals {
+    fn of(places: &[Vec3], triangles: &[[usize; 3]]) -> Self {
+        let mut sum = Self::default();
+        for corners in triangles {
+            let [a, b, c] = corners.map(|corner| places[corner]);
+            let vector = (b - a).cross(&(c - a));
+            let volume = vector.dot(&(a + b + c));
+            if volume.is_finite() {
+                sum.vectors += vector;
+                sum.sizes += vector.norm();
+                sum.volume += volume;
+                sum.volumes += volume.abs();
+            }
+        }
+        sum
+    }
 }
 
 /// Returns the axis or its opposite, whichever has a positive component along `side`; if both are perpendicular to
@@ -90,9 +168,10 @@ fn upright(axis: Vec3, side: Vec3) -> Vec3 {
     axis * sense.signum()
 }
 
-/// Returns the unit vector perpendicular to `normal` that is nearest to x; `None` if `normal` is nearly parallel to x.
-fn level_x(normal: Vec3) -> Option<Vec3> {
-    (Vec3::x() - normal * normal.x).try_normalize(0.1)
+/// Returns the unit vector perpendicular to `normal` that is nearest to x, or to y if `normal` is nearly parallel to x.
+fn level_x(normal: Vec3) -> Vec3 {
+    let level = |axis: Vec3| axis - normal * normal.dot(&axis);
+    level(Vec3::x()).try_normalize(0.1).unwrap_or_else(|| level(Vec3::y()).normalize())
 }
 
 #[cfg(test)]
@@ -111,6 +190,31 @@ mod tests {
         let frame = Matrix3::from_columns(&[view.right, view.up, view.toward]);
         assert!((frame.transpose() * frame - Matrix3::identity()).norm() < 1e-12);
         assert!((frame.determinant() - 1.0).abs() < 1e-12);
+    }
+
+    /// Claim: the side of a prism of six faces stands upright whatever its axis and its height, and a zigzag of as many
+    /// faces, folded until their normals cancel, does not.
+    #[test]
+    fn tubes_stand() {
+        let turns = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+        for (axes, height) in turns.iter().flat_map(|axes| [0.7, 5.0].map(|height| (axes, height))) {
+            let corner = |k: usize, level: f64| {
+                let angle = (k % 6) as f64 * std::f64::consts::FRAC_PI_3;
+                let place = [angle.cos(), angle.sin(), level * height];
+                Vec3::new(place[axes[0]], place[axes[1]], place[axes[2]])
+            };
+            let points: Vec<Vec3> = [0.0, 1.0].iter().flat_map(|level| (0..6).map(|k| corner(k, *level))).collect();
+            let side = |k: usize| [[k, (k + 1) % 6, 6 + k], [(k + 1) % 6, 6 + (k + 1) % 6, 6 + k]];
+            let triangles: Vec<_> = (0..6).flat_map(side).collect();
+            let axis = axes.iter().position(|axis| *axis == 2).unwrap();
+            let view = Projection::of(&points, &triangles);
+            assert!((view.normal[axis] - 1.0).abs() < 1e-9 && view.up[axis] > 0.9, "{axes:?} {height} {view:?}");
+        }
+        let points: Vec<Vec3> =
+            (0..14).map(|k| Vec3::new(0.1 * (k / 2) as f64, (k % 2) as f64, (k / 2 % 2) as f64)).collect();
+        let strip = |k: usize| [[2 * k, 2 * k + 2, 2 * k + 1], [2 * k + 1, 2 * k + 2, 2 * k + 3]];
+        let zigzag = Spread::of(&points);
+        assert!(zigzag.axis(&Normals::of(&zigzag.places, &(0..6).flat_map(strip).collect::<Vec<_>>())).is_none());
     }
 
     /// Sheets of no point, one point or points that are not finite have a view as well.

@@ -14,7 +14,8 @@ use super::style::{Font, PaperPoint, Style};
 use crate::math::Vec3;
 use crate::output::Picture;
 use crate::output::fault::ShapeError;
-use crate::sheet::EdgeKind;
+use crate::sheet::{Assignment, EdgeKind};
+use std::f64::consts::{PI, TAU};
 
 /// Margin around the sheet, and height of the legend below it.
 pub(super) const ROOM: f64 = 60.0;
@@ -209,8 +210,26 @@ impl Pen {
                 let colour = if angle < 0.0 { MOUNTAIN } else { VALLEY };
                 solid(colour, 0.5 + 1.3 * (angle.abs() / self.sharpest).min(1.0))
             }
-            EdgeKind::Crease => solid(GREY, 0.5),
+            EdgeKind::Crease => solid(letter_colour(picture.letters[line]), 0.6),
         }
+    }
+}
+
+/// Returns the colour of a crease that is still flat: the one it will have by its letter.
+fn letter_colour(letter: Assignment) -> Colour {
+    match letter {
+        Assignment::Mountain => MOUNTAIN,
+        Assignment::Valley => VALLEY,
+        _ => GREY,
+    }
+}
+
+/// Returns what a fold angle beyond pi means: the faces beside the crease have passed through each other.
+fn turns(angle: f64) -> &'static str {
+    match angle.abs() {
+        0.0..=PI => "",
+        0.0..=TAU => ", more than half a turn",
+        _ => ", more than a turn",
     }
 }
 
@@ -234,14 +253,18 @@ fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
     canvas.text([right + 12.0, level + 6.5], &number(length, length), Font::LABEL);
 }
 
-/// Draws the scale of fold angles, from the sharpest mountain to the sharpest valley, as wedges.
+/// Draws the scale of fold angles, from the sharpest mountain to the sharpest valley, as wedges; of a flat sheet, what the
+/// colours of its letters mean.
 fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
     let [mountain, valley] = fold_range(picture);
     let sharpest = valley.max(-mountain);
     let level = frame.height + LEGEND / 2.0 - 14.0;
     let mut sides = vec![(mountain, MOUNTAIN, "mountain", '\u{2212}'), (valley, VALLEY, "valley", '+')];
     sides.retain(|(angle, ..)| angle.abs() > FLAT);
-    let words = |angle: f64, word: &str, sign: char| format!("{word} {sign}{:.2} rad", angle.abs());
+    if sides.is_empty() {
+        letters(canvas, picture, level);
+    }
+    let words = |angle: f64, word: &str, sign: char| format!("{word} {sign}{:.2} rad{}", angle.abs(), turns(angle));
     let width = |&(angle, _, word, sign): &(f64, Colour, &str, char)| {
         WEDGE * angle.abs() / sharpest + 14.0 + Font::LABEL.width(&words(angle, word, sign))
     };
@@ -255,6 +278,20 @@ fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
         canvas.polygon(&wedge, Style::area(colour));
         let font = if angle < 0.0 { Font::LABEL.end() } else { Font::LABEL };
         canvas.text([end + 14.0 * angle.signum(), level + 6.5], &words(angle, word, sign), font);
+    }
+}
+
+/// Draws a line and a word for each letter of creases that has a colour, at the right margin.
+fn letters(canvas: &mut Canvas, picture: &Picture, level: f64) {
+    let mut right = WIDTH - MARGIN;
+    for (letter, word) in [(Assignment::Valley, "valley (V)"), (Assignment::Mountain, "mountain (M)")] {
+        let lettered = picture.line_kinds.iter().zip(&picture.letters);
+        if lettered.into_iter().any(|crease| crease == (&EdgeKind::Crease, &letter)) {
+            canvas.text([right, level + 6.5], word, Font::LABEL.end());
+            right -= Font::LABEL.width(word) + 12.0;
+            canvas.line(&[[right - 38.0, level], [right, level]], Style::line(letter_colour(letter), 2.4));
+            right -= 68.0;
+        }
     }
 }
 
@@ -287,7 +324,7 @@ mod tests {
     }
 
     /// Claim: valleys (positive fold angles) are blue and mountains red, on the sheet and in the legend, which gives
-    /// the angle.
+    /// the angle, and says where it is beyond pi or 2 pi; a flat crease has the colour of its letter.
     #[test]
     fn the_sign_of_a_fold_is_its_colour() {
         let [mountain_red, valley_blue] = [MOUNTAIN, VALLEY].map(|colour| colour.to_string());
@@ -298,8 +335,17 @@ mod tests {
         let mountain = drawing(&samples::hinge(-0.8));
         assert!(mountain.contains(&mountain_red) && !mountain.contains(&valley_blue));
         assert!(mountain.contains("mountain \u{2212}0.80 rad"));
-        let flat = drawing(&samples::hinge(0.0));
-        assert!(!flat.contains(&mountain_red) && !flat.contains(&valley_blue));
+        let flat = samples::hinge(0.0);
+        let lettered = |letter: Assignment| {
+            let letters = flat.letters.iter().map(|kept| if *kept == Assignment::Valley { letter } else { *kept });
+            let text = drawing(&Picture { letters: letters.collect(), ..flat.clone() });
+            ["valley (V)", "mountain (M)", &valley_blue, &mountain_red].map(|words| text.contains(words))
+        };
+        assert_eq!(lettered(Assignment::Valley), [true, false, true, false]);
+        assert_eq!(lettered(Assignment::Mountain), [false, true, false, true]);
+        assert_eq!(lettered(Assignment::Unassigned), [false; 4]);
+        assert!(drawing(&samples::hinge(4.0)).contains("valley +4.00 rad, more than half a turn<"));
+        assert!(drawing(&samples::hinge(-7.0)).contains("mountain \u{2212}7.00 rad, more than a turn<"));
     }
 
     /// Claim: the face nearer to the eye is painted later, and the crease between the two faces after both.
