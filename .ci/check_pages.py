@@ -49,6 +49,7 @@ FIGURES = {
     "quad-cell-folded": "quad-cell/roll",
     "quad-cell-strain": "quad-cell/roll-strain",
     "resch": "resch/folded",
+    "resch-fold": "resch-fold/folding",
     "resch-folded": "resch-folded/folded",
     "square-twist": "square-twist/folded",
     "star": "star/relaxed",

@@ -4,7 +4,8 @@
 //
 // NODE_MODULES is a folder with the package playwright-core, CHROMIUM the program. For every study on every page: no
 // error is reported and nothing is asked from a network; the sheet is there, where the study has states, and differs
-// from the background; arrow keys move the slider; moving it from one end to the other changes the picture of the sheet,
+// from the background; every point of every state is inside the window, on a desk and on a telephone, held upright or
+// not; arrow keys move the slider; moving it from one end to the other changes the picture of the sheet,
 // unless all its states are the same, and moves the dot of the first plot, if the plot has one; colours change the
 // picture; a study without states shows a drawing or says that there is none. A screenshot of each study is written into
 // PICTURES, to be looked at. The exit status is 1 where a check fails.
@@ -26,6 +27,10 @@ function that(truth, claim) {
     }
 }
 
+/** Sizes of windows: a desk, a telephone held upright, and the same one turned. */
+const DESK = { width: 1280, height: 800 };
+const PHONES = [{ width: 390, height: 844 }, { width: 844, height: 390 }];
+
 /** Number of different colours in a part of the page, counted in the browser, and the bytes of its picture. */
 async function seen(page, selector) {
     const shot = await page.locator(selector).screenshot();
@@ -46,6 +51,38 @@ async function seen(page, selector) {
 /** Waits until what was asked for is drawn. */
 async function drawn(page) {
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+/** Pixels by which the point of any state that is farthest out lies outside the canvas, and the canvas outside the window;
+ *  negative where all are inside. */
+async function outside(page) {
+    return page.evaluate(() => {
+        const { view, get, states } = window.foldwell;
+        const [slider, amplitude, along] = ["slider", "amplitude", "sequence"].map((id) => get(id));
+        const { left, top, right, bottom, width, height } = get("canvas").getBoundingClientRect();
+        let farthest = Math.max(-left, -top, right - window.innerWidth, bottom - window.innerHeight);
+        for (let sequence = 0; sequence < along.options.length; sequence += 1) {
+            along.value = sequence;
+            along.dispatchEvent(new Event("change"));
+            for (let state = 0; state <= Number(slider.max); state += 1) {
+                for (const part of states.sheet.moving ? [-1, 1] : [1]) {
+                    [slider.value, amplitude.value] = [state, part];
+                    window.foldwell.draw();
+                    const known = view.places().filter((place) => place.every(Number.isFinite));
+                    known.forEach(([x, y]) => {
+                        farthest = Math.max(farthest, -x, -y, x - width, y - height);
+                    });
+                }
+            }
+        }
+        return farthest;
+    });
+}
+
+async function checkInside(page, where) {
+    const far = await outside(page);
+    const { width, height } = page.viewportSize();
+    that(far <= 0, `${where}: the sheet is inside the window of ${width} x ${height} in every state (${far} pixels)`);
 }
 
 async function dot(page) {
@@ -133,7 +170,7 @@ async function checkStudy(page, where) {
 }
 
 async function checkPage(browser, file) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true });
+    const context = await browser.newContext({ viewport: DESK, offline: true });
     const page = await context.newPage();
     const [errors, asked] = [[], []];
     page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
@@ -151,9 +188,21 @@ async function checkPage(browser, file) {
         }, String(k));
         await drawn(page);
         const name = await page.locator("#study option").nth(k).textContent();
-        const run = basename(dirname(resolve(file)));
-        await page.screenshot({ path: resolve(pictures, `${run}-${name.replace(/\W+/g, "-")}.png`) });
-        await checkStudy(page, `${file}, study ${name}`);
+        const shot = `${basename(dirname(resolve(file)))}-${name.replace(/\W+/g, "-")}`;
+        await page.screenshot({ path: resolve(pictures, `${shot}.png`) });
+        const where = `${file}, study ${name}`;
+        if (await page.locator("#canvas").isVisible()) {
+            await checkInside(page, where);
+            for (const size of PHONES) {
+                await page.setViewportSize(size);
+                await drawn(page);
+                await page.screenshot({ path: resolve(pictures, `${shot}-${size.width}.png`) });
+                await checkInside(page, where);
+            }
+            await page.setViewportSize(DESK);
+            await drawn(page);
+        }
+        await checkStudy(page, where);
     }
     await page.locator("#theme").click();
     await drawn(page);

@@ -1,6 +1,6 @@
 // Plots: a line for each piece of a table, ticks at round numbers, and a dot at the state that is shown.
 
-import { short, spoken } from "foldwell/data";
+import { short } from "foldwell/data";
 
 const [WIDTH, HEIGHT] = [368, 210];
 const FRAME = { left: 62, right: 356, top: 10, bottom: 176 };
@@ -81,10 +81,10 @@ export class Chart {
     draw(table, [x, y]) {
         const [right, up] = [table.plotted(x), table.plotted(y)];
         this.svg.replaceChildren();
-        this.svg.setAttribute("aria-label", `${spoken(y)} over ${spoken(x)}`);
+        this.svg.setAttribute("aria-label", `${table.spoken(y)} over ${table.spoken(x)}`);
         this.values = [right, up];
         this.axes = [new Axis(right, FRAME.left, FRAME.right), new Axis(up, FRAME.bottom, FRAME.top)];
-        this.#frame([spoken(x), spoken(y)]);
+        this.#frame([table.spoken(x), table.spoken(y)]);
         this.#series(table);
         this.dot = element("circle", { class: "dot", r: 5, visibility: "hidden" });
         this.svg.append(this.dot);

@@ -1,5 +1,8 @@
 // The data of the page: arrays in base64 (little-endian), tables, and the states of a sheet.
 
+/** Part of the largest number of a column below which a number is a rounding error. */
+const ROUNDING = 1e-12;
+
 function bytes(text) {
     const raw = atob(text);
     const found = new Uint8Array(raw.length);
@@ -40,6 +43,8 @@ export class Table {
         this.leftOut = leftOut;
         this.columns = new Map();
         this.words = new Map();
+        /** Names of columns in the words of the study. */
+        this.said = {};
         for (const column of columns) {
             if (column.words) {
                 this.words.set(column.name, column.words);
@@ -55,11 +60,23 @@ export class Table {
         return [...this.columns.keys()].filter((name) => this.columns.get(name).some(Number.isFinite));
     }
 
+    /** The name of a column as words. */
+    spoken(name) {
+        return this.said[name] ?? spoken(name);
+    }
+
     /** A column as a plot shows it: arc lengths of the negative direction of a branch are negative. */
     plotted(name) {
         const values = this.columns.get(name);
         const sign = this.columns.get("sign");
         return name === "arc_length" && sign ? values.map((value, row) => value * (sign[row] < 0 ? -1 : 1)) : values;
+    }
+
+    /** A number of the table, 0 where it is a rounding error of the largest of its column; undefined where there is none. */
+    clean(name, row) {
+        const values = this.columns.get(name);
+        const largest = values?.reduce((most, value) => (Number.isFinite(value) ? Math.max(most, Math.abs(value)) : most), 0);
+        return Math.abs(values?.[row]) < ROUNDING * largest ? 0 : values?.[row];
     }
 
     /** The rows as pieces, each of one branch and direction, or of one mode or pair of wells. */
@@ -103,6 +120,12 @@ export function spoken(name) {
     return name.replace(/_/g, " ");
 }
 
+/** What a fold angle beyond pi means: the faces beside the crease have passed through each other. */
+export function turns(angle) {
+    const size = Math.abs(angle);
+    return size > 2 * Math.PI ? ", more than a turn" : size > Math.PI ? ", more than half a turn" : "";
+}
+
 /** The states of a sheet: positions in units of its size, and values on its lines. */
 export class States {
     constructor(arrays, sheet) {
@@ -112,9 +135,8 @@ export class States {
     }
 
     mesh(state) {
-        const { triangles, lines, edges, kinds } = this.sheet.meshes[this.sheet.states[state].mesh];
-        const [corners, ends, edge, kind] = [triangles, lines, edges, kinds].map((place) => this.arrays.indices(place));
-        return { triangles: corners, lines: ends, edges: edge, kinds: kind };
+        const mesh = this.sheet.meshes[this.sheet.states[state].mesh];
+        return Object.fromEntries(Object.entries(mesh).map(([name, place]) => [name, this.arrays.indices(place)]));
     }
 
     /** Positions about the middle of the state, or, in place, about that of the first state; those of a mode are moved so

@@ -1,14 +1,14 @@
 // The page: what is chosen, what is shown, and how keys and buttons change it.
 
 import { Chart } from "foldwell/chart";
-import { Arrays, States, Table, short, spoken } from "foldwell/data";
+import { Arrays, States, Table, short, spoken, turns } from "foldwell/data";
 import { Scale, SheetView, meanCurvature, paintedByFaces, paintedByLines, withSides } from "foldwell/view";
 
 /** What is plotted first, where a study has it: the end of the table's name, the columns across and upwards. */
 const PLOTS = [
     [".csv", "drive", "reaction"],
-    [".csv", "arc_length", "curvature"],
     [".csv", "drive", "energy_total"],
+    [".csv", "arc_length", "curvature"],
     [".csv", "arc_length", "energy_total"],
     [".csv", "arc_length", "strain11"],
     ["history", "iteration", "energy"],
@@ -27,8 +27,19 @@ const CURVATURE = "mean-curvature";
 /** Milliseconds between two states, and the part of the sheet's size that a mode moves at most. */
 const PACE = 90;
 const SWING = 0.2;
-/** Number of states by which the first view is chosen. */
-const LOOKED_AT = 60;
+/** Quantities that are red where they are positive, as the stress of mechanics: tension. */
+const STRETCHED = ["strain", "tension"];
+/** What the driven value of a path and its reaction are, by what is driven. */
+const DRIVEN = {
+    displacement: ["displacement", "force"],
+    rotation: ["rotation (rad)", "torque"],
+    load: ["factor of the loads", "displacement of the loads"],
+    lock: ["fold angle of the lock (rad)", "torque"],
+    rest: ["folded (1: as given)", "derivative of the energy"],
+    stiffness: ["stiffness", "derivative of the energy"],
+};
+/** Letters of edges by their numbers. */
+const LETTERS = "BMVFUCJ";
 
 function options(select, entries, chosen) {
     select.replaceChildren(...entries.map(([value, words]) => new Option(words, value, false, value === chosen)));
@@ -137,6 +148,11 @@ class Page {
         const study = this.data.studies[number];
         this.study = study;
         this.tables = study.tables.map((table) => new Table(this.arrays, table));
+        this.own = this.tables.find(({ name }) => name === `${study.name}.csv`);
+        const { driven } = Object.fromEntries(study.facts);
+        if (this.own && driven in DRIVEN) {
+            [this.own.said.drive, this.own.said.reaction] = DRIVEN[driven];
+        }
         this.states = study.sheet && this.view ? new States(this.arrays, study.sheet) : null;
         this.meshes = [];
         this.scales.clear();
@@ -165,23 +181,22 @@ class Page {
         this.#show("facets", meshes.some(({ kinds }) => this.arrays.indices(kinds).includes(1)));
         this.#show("follow", states.some(({ offset }) => offset.some((x) => Math.abs(x) > 1e-6)));
         // what is driven is held in its place
-        this.get("follow").checked = study.kind !== "path";
+        this.get("follow").checked = this.own?.columns.has("drive") !== true;
         this.get("amplitude").value = 1;
         this.openSequence(0);
         this.#face();
     }
 
-    /** Turns the sheet to the eye, so far away that the states of the sequence are seen. */
+    /** Turns the sheet to the eye, so far away that all states of the sequence are seen, modes with any amplitude. */
     #face() {
-        const { toward, normal } = this.study.sheet;
-        const every = Math.ceil(this.sequence.length / LOOKED_AT);
-        const some = this.sequence.filter((_, place) => place % every === 0 || place === this.sequence.length - 1);
-        this.view.orient(toward, normal, some.map((state) => this.#points(state)));
+        const { toward, normal, moving } = this.study.sheet;
+        const amplitudes = moving ? [-1, 1] : [0];
+        this.view.orient(toward, normal, this.sequence.flatMap((state) => amplitudes.map((part) => this.#points(state, part))));
         this.draw();
     }
 
-    #points(state) {
-        return this.states.points(state, SWING * Number(this.get("amplitude").value), !this.get("follow").checked);
+    #points(state, amplitude = Number(this.get("amplitude").value)) {
+        return this.states.points(state, SWING * amplitude, !this.get("follow").checked);
     }
 
     #show(control, truth) {
@@ -265,7 +280,7 @@ class Page {
         const entry = { chart, table };
         const useful = this.tables.filter((one) => one.names().length > 1);
         const fill = (right, up) => {
-            const names = entry.table.names().map((name) => [name, spoken(name)]);
+            const names = entry.table.names().map((name) => [name, entry.table.spoken(name)]);
             options(across, names, right);
             options(upwards, names, up);
         };
@@ -334,9 +349,22 @@ class Page {
             rim: getComputedStyle(this.root.documentElement).getPropertyValue("--rim").trim(),
         });
         this.shown = state;
-        this.get("where").textContent = `${this.states.sheet.moving ? "mode" : "state"} ${place + 1} of ${this.sequence.length}`;
-        this.#describe(this.study.sheet.states[state].row);
+        const { row } = this.study.sheet.states[state];
+        const count = `${this.states.sheet.moving ? "mode" : "state"} ${place + 1} of ${this.sequence.length}`;
+        this.get("where").textContent = [count, ...this.#numbers(row)].join(", ");
+        this.#describe(row);
         this.#legend(state);
+    }
+
+    /** How far the drive is, and energy and reaction of a row, where the study has them. */
+    #numbers(row) {
+        const value = (name) => this.own?.clean(name, row);
+        if (this.study.kind === "fold") {
+            return [`folded ${short(100 * value("drive"))} %`, `energy ${short(value("energy_total"))}`];
+        }
+        const entries = [["drive", "drive"], ["energy", "energy_total"], [this.own?.spoken("reaction"), "reaction"]];
+        const known = entries.filter(([, name]) => Number.isFinite(value(name)));
+        return known.map(([words, name]) => `${words} ${short(value(name))}`);
     }
 
     #sharpest() {
@@ -373,7 +401,9 @@ class Page {
             const finite = all.map((values) => values.filter(Number.isFinite));
             const ends = finite.reduce(([a, b], values) => values.reduce(([c, d], x) => [Math.min(c, x), Math.max(d, x)], [a, b]), [0, 0]);
             const [low, high] = field ? [field.low, field.high] : ends;
-            this.scales.set(name, new Scale(palette, low, high, name === CURVATURE ? palette.curvature : palette.signed));
+            const stretched = STRETCHED.includes(name);
+            const signed = stretched ? [...palette.signed].reverse() : palette.signed;
+            this.scales.set(name, new Scale(palette, low, high, name === CURVATURE ? palette.curvature : signed, stretched));
         }
         return this.scales.get(name);
     }
@@ -393,12 +423,19 @@ class Page {
         if (this.scale) {
             const bar = Object.assign(document.createElement("span"), { className: "bar" });
             bar.style.background = `linear-gradient(to right, ${this.scale.ramp.join(", ")})`;
-            const name = spoken(this.get("colours").value).replace("-", " ");
-            found.push(words(name), words(short(this.scale.low)), bar, words(short(this.scale.high)));
+            const name = this.get("colours").value;
+            const [low, high] = STRETCHED.includes(name) ? ["compression ", " tension"] : ["", ""];
+            const ends = [low + short(this.scale.low), short(this.scale.high) + high];
+            found.push(words(spoken(name).replace("-", " ")), words(ends[0]), bar, words(ends[1]));
         } else {
             const { low, high } = this.study.sheet.fields.find(({ name }) => name === "fold_angle") ?? { low: 0, high: 0 };
-            found.push(...(low < -1e-6 ? [entry(palette.mountain, `mountain, to ${short(low)} rad`)] : []));
-            found.push(...(high > 1e-6 ? [entry(palette.valley, `valley, to ${short(high)} rad`)] : []));
+            const { kinds, letters } = this.#mesh(state);
+            const side = (colour, name, letter, angle) => {
+                const lettered = letters.some((one, line) => kinds[line] === 0 && LETTERS[one] === letter);
+                const folds = Math.abs(angle) > 1e-6;
+                return folds || lettered ? [entry(colour, folds ? `${name}, to ${short(angle)} rad${turns(angle)}` : `${name} (${letter})`)] : [];
+            };
+            found.push(...side(palette.mountain, "mountain", "M", Math.min(low, 0)), ...side(palette.valley, "valley", "V", Math.max(high, 0)));
         }
         if (this.states.crossing(state)) {
             found.push(entry(palette.crossing, "passes through other faces"));
@@ -410,14 +447,14 @@ class Page {
     #describe(row) {
         this.row = row;
         this.#mark();
-        const table = this.tables.find(({ name }) => name === `${this.study.name}.csv`);
+        const table = this.own;
         const known = row !== null && row !== undefined && table && row < table.rows;
         rows(this.get("state"), known ? table.row(row) : []);
         this.get("state-box").hidden = !known;
     }
 
     #mark() {
-        const own = (table) => table.name === `${this.study.name}.csv` && this.row < table.rows;
+        const own = (table) => table === this.own && this.row < table.rows;
         this.charts.forEach(({ chart, table }) => chart.mark(own(table) ? (this.row ?? null) : null));
     }
 
@@ -435,7 +472,9 @@ class Page {
         const values = this.states.fields.map((name) => [name, this.states.values(this.shown, name)[line]]);
         const known = values.filter(([, value]) => Number.isFinite(value));
         const kind = ["crease", "facet", "boundary"][mesh.kinds[line]];
-        this.get("note").textContent = [`edge ${mesh.edges[line]} (${kind})`, ...known.map(([name, value]) => `${spoken(name)} ${short(value)}`)].join("\n");
+        const said = ([name, value]) => `${spoken(name)} ${short(value)}${name === "fold_angle" ? turns(value) : ""}`;
+        const letter = LETTERS[mesh.letters[line]];
+        this.get("note").textContent = [`edge ${mesh.edges[line]} (${kind}, ${letter})`, ...known.map(said)].join("\n");
     }
 }
 

@@ -42,6 +42,8 @@ struct Mesh {
     edges: usize,
     /// 0 for creases, 1 for facets, 2 for boundaries.
     kinds: usize,
+    /// Letters by their numbers: 1 for M, 2 for V.
+    letters: usize,
 }
 
 /// A quantity on the lines, and its range over all states.
@@ -185,6 +187,7 @@ impl Mesh {
             lines: arrays.indices(picture.lines.iter().flatten().copied()),
             edges: arrays.indices(picture.line_edges.iter().map(|&edge| edge.max(0) as usize)),
             kinds: arrays.indices(picture.line_kinds.iter().map(kind)),
+            letters: arrays.indices(picture.letters.iter().map(|letter| letter.number())),
         }
     }
 }

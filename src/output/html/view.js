@@ -7,6 +7,8 @@ import {
 } from "three";
 
 const [CREASE, FACET, BOUNDARY] = [0, 1, 2];
+/** Numbers of the letters of creases that are to fold. */
+const [MOUNTAIN, VALLEY] = [1, 2];
 /** Fold angle in radians below which a crease is drawn as flat, as in drawings. */
 const FLAT = 1e-6;
 /** Strains below this are rounding errors. */
@@ -24,9 +26,9 @@ function mixed(ramp, part) {
 
 /** What colours mean: a range of numbers and the colours of a scale, symmetric about zero for numbers of both signs. */
 export class Scale {
-    constructor(palette, low, high, signed = palette.signed) {
+    constructor(palette, low, high, signed = palette.signed, always = false) {
         const largest = Math.max(Math.abs(low), Math.abs(high));
-        const isSigned = low < -1e-9 * largest;
+        const isSigned = always || low < -1e-9 * largest;
         this.low = isSigned ? -largest : 0;
         this.high = largest;
         this.ramp = isSigned ? signed : palette.energy;
@@ -105,6 +107,7 @@ export class SheetView {
         const level = new Vector3(...toward).addScaledVector(up, -up.dot(new Vector3(...toward))).normalize();
         const frame = new Matrix4().makeBasis(new Vector3().crossVectors(up, level), up, level);
         this.sheet.quaternion.setFromRotationMatrix(frame).invert();
+        this.sheet.position.copy(middle(extremes)).applyQuaternion(this.sheet.quaternion).negate();
         this.elevation = Math.asin(Math.min(1, Math.max(-1, up.dot(new Vector3(...toward).normalize()))));
         this.reset();
     }
@@ -114,20 +117,21 @@ export class SheetView {
         this.controls.target.set(0, 0, 0);
         this.camera.position.set(0, 20 * Math.sin(this.elevation), 20 * Math.cos(this.elevation));
         this.controls.update();
-        this.camera.zoom = this.#zoom();
+        this.camera.zoom = this.fit = this.#zoom();
         this.#resize();
     }
 
     /** The zoom at which all the positions of `extremes` are on the canvas. */
     #zoom() {
         this.camera.updateMatrixWorld();
-        const turn = this.camera.quaternion.clone().invert().multiply(this.sheet.quaternion);
+        this.sheet.updateMatrixWorld();
+        const seen = this.camera.matrixWorldInverse.clone().multiply(this.sheet.matrixWorld);
         const { right, top } = this.camera;
         let largest = 0;
         const place = new Vector3();
         for (const points of this.extremes ?? []) {
             for (let k = 0; k < points.length; k += 3) {
-                place.fromArray(points, k).applyQuaternion(turn);
+                place.fromArray(points, k).applyMatrix4(seen);
                 const part = Math.max(Math.abs(place.x) / right, Math.abs(place.y) / top);
                 largest = Number.isFinite(part) ? Math.max(largest, part) : largest;
             }
@@ -141,10 +145,22 @@ export class SheetView {
         if (this.mesh !== mesh) {
             this.#build(mesh);
         }
+        this.points = points;
         this.#placeFaces(points);
         this.#paintFaces(crossing, painted);
         this.#placeLines(points, { angles, sharpest, painted, facets, rim });
         this.#ask();
+    }
+
+    /** Returns the places of the points that are shown, each as pixels from the upper left corner of the canvas. */
+    places() {
+        const { clientWidth: width, clientHeight: height } = this.canvas;
+        this.camera.updateMatrixWorld();
+        this.sheet.updateMatrixWorld();
+        return Array.from({ length: this.points.length / 3 }, (_, k) => {
+            const place = this.sheet.localToWorld(new Vector3().fromArray(this.points, 3 * k)).project(this.camera);
+            return [0.5 * (1 + place.x) * width, 0.5 * (1 - place.y) * height];
+        });
     }
 
     /** Returns the line under a place of the canvas (in pixels from its upper left corner); null if there is none. */
@@ -213,7 +229,7 @@ export class SheetView {
     }
 
     #placeLines(points, { angles, sharpest, painted, facets, rim }) {
-        const { lines, kinds } = this.mesh;
+        const { lines, kinds, letters } = this.mesh;
         const ends = (line) => [0, 1].map((k) => new Vector3().fromArray(points, 3 * lines[2 * line + k]));
         const unit = 0.5 * this.#unit(ends);
         const [middle, axis, turn, matrix] = [new Vector3(), new Vector3(), new Quaternion(), new Matrix4()];
@@ -224,7 +240,7 @@ export class SheetView {
             const length = axis.subVectors(b, a).length();
             const known = Number.isFinite(length) && length > 0;
             const hidden = !known || (kinds[line] === FACET && !facets);
-            const [width, colour] = pen(kinds[line], angles[line], sharpest, colours);
+            const [width, colour] = pen(kinds[line], letters[line], angles[line], sharpest, colours);
             const radius = hidden ? 0 : unit * (painted?.lines[line] ? 1.8 : width);
             middle.addVectors(a, b).multiplyScalar(0.5);
             turn.setFromUnitVectors(new Vector3(0, 1, 0), axis.normalize());
@@ -262,6 +278,10 @@ export class SheetView {
         this.renderer.setSize(width, height, false);
         const [right, top] = width > height ? [width / height, 1] : [1, height / width];
         Object.assign(this.camera, { left: -right, right, top, bottom: -top, near: 0.1, far: 100 });
+        // what was seen is seen in the window of another shape too
+        const fit = this.#zoom();
+        this.camera.zoom *= fit / (this.fit ?? fit);
+        this.fit = fit;
         this.camera.updateProjectionMatrix();
         this.#ask();
     }
@@ -290,8 +310,25 @@ export class SheetView {
     }
 }
 
-/** Width and colour of a line, as in drawings: mountains red, valleys blue, the wider the sharper. */
-function pen(kind, angle, sharpest, { mountain, valley, grey, rim }) {
+/** The middle of the box around the positions in some arrays. */
+function middle(arrays) {
+    const sides = [0, 1, 2].map((axis) => {
+        let [low, high] = [Infinity, -Infinity];
+        for (const points of arrays) {
+            for (let k = axis; k < points.length; k += 3) {
+                if (Number.isFinite(points[k])) {
+                    [low, high] = [Math.min(low, points[k]), Math.max(high, points[k])];
+                }
+            }
+        }
+        return low <= high ? 0.5 * (low + high) : 0;
+    });
+    return new Vector3(...sides);
+}
+
+/** Width and colour of a line, as in drawings: mountains red, valleys blue, the wider the sharper; a crease that is still flat
+ *  has the colour of its letter. */
+function pen(kind, letter, angle, sharpest, { mountain, valley, grey, rim }) {
     if (kind === BOUNDARY) {
         return [1, rim];
     }
@@ -300,7 +337,7 @@ function pen(kind, angle, sharpest, { mountain, valley, grey, rim }) {
     }
     return kind === CREASE && Math.abs(angle) > FLAT
         ? [0.5 + 1.3 * Math.min(1, Math.abs(angle) / sharpest), angle < 0 ? mountain : valley]
-        : [0.5, grey];
+        : [0.6, kind === CREASE ? ({ [MOUNTAIN]: mountain, [VALLEY]: valley }[letter] ?? grey) : grey];
 }
 
 /** Colours of faces and lines by a quantity on lines. */
