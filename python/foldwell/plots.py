@@ -43,30 +43,96 @@ def draw_state(state: State, ax: Axes | None, paper: str, numbers: bool) -> Axes
     return drawn
 
 
-#: For each kind with curves: columns of the abscissa and the ordinate, and the column that tells curves apart.
+#: For each kind with curves: pairs of columns across and upwards, of which the first that the table has is drawn.
 CURVES = {
-    "path": ("drive", "reaction", "branch"),
-    "trace": ("arc_length", "curvature", "branch"),
-    "landscape": ("amplitude", "energy_total", "mode"),
+    "path": [("drive", "reaction")],
+    "fold": [("drive", "energy_total")],
+    "trace": [("arc_length", "curvature"), ("arc_length", "energy_total"), ("arc_length", "strain11")],
+    "landscape": [("amplitude", "energy_total")],
 }
+#: What the driven value of a path and its reaction are, by what is driven.
+DRIVEN = {
+    "displacement": ("displacement", "force"),
+    "rotation": ("rotation (rad)", "torque"),
+    "load": ("factor of the loads", "displacement of the loads"),
+    "lock": ("fold angle of the lock (rad)", "torque"),
+    "rest": ("folded (1: as given)", "derivative of the energy"),
+    "stiffness": ("stiffness", "derivative of the energy"),
+}
+EVENTS = {"limit-load": "o", "limit-displacement": "s", "branch-point": "D", "self-intersection": "X", "stop": "|"}
+WORDS = {"energy_total": "energy", "arc_length": "arc length (rad)"}
 
 
 def draw_result(result: Result, ax: Axes | None) -> Axes:
     """Draws a result; see `Result.plot`."""
-    columns = CURVES.get(result.kind)
-    if columns is None or not {columns[0], columns[1]} <= result.table.keys():
+    table = result.table
+    known = [(x, y) for x, y in CURVES.get(result.kind, []) if x in table and np.isfinite(table.get(y, np.nan)).any()]
+    if not known:
         return result._shown().plot(ax)
     import matplotlib.pyplot as plt
 
-    axes: Any = plt.figure().add_subplot() if ax is None else ax
-    along, value, apart = columns
-    table = result.table
-    curves = table.get(apart, np.zeros(len(table[along])))
-    for curve in np.unique(curves):
-        here = curves == curve
-        axes.plot(table[along][here], table[value][here], marker=".", label=f"{apart} {curve}")
-    axes.set(xlabel=along.replace("_", " "), ylabel=value.replace("_", " "), title=result.name)
-    if len(np.unique(curves)) > 1:
+    axes: Any = plt.figure(layout="constrained").add_subplot() if ax is None else ax
+    columns = known[0]
+    if result.kind == "landscape":
+        _draw_landscape(result, axes, columns)
+    elif result.kind == "trace":
+        _draw_trace(result, axes, columns)
+    else:
+        _draw_path(result, axes, columns)
+    words = [WORDS.get(name, name.replace("_", " ")) for name in columns]
+    title = result.name
+    if "driven" in result.summary:
+        driven = dict(zip(("drive", "reaction"), DRIVEN[result.summary["driven"]], strict=True))
+        words = [driven.get(name, word) for name, word in zip(columns, words, strict=True)]
+        title = f"{result.summary['drive']}: {words[1]} against {words[0]}"
+    axes.set(xlabel=words[0], ylabel=words[1], title=title)
+    if axes.get_legend_handles_labels()[0]:
         axes.legend()
     drawn: Axes = axes
     return drawn
+
+
+def _draw_path(result: Result, axes: Any, columns: tuple[str, str]) -> None:
+    """Branches, dashed where states are not stable, with a mark of its own for each kind of event."""
+    table = result.table
+    across, upwards = (table[name] for name in columns)
+    # at an event an eigenvalue is zero, and its sign is rounding
+    stable = (table["negative_eigenvalues"] == 0) | (table["event"] != "")
+    branches = np.unique(table["branch"])
+    for number, branch in enumerate(branches):
+        rows = np.flatnonzero(table["branch"] == branch)
+        solid = stable[rows][:-1] & stable[rows][1:]
+        label = f"branch {branch}" if len(branches) > 1 else None
+        for part, style in ((solid, "-"), (~solid, "--")):
+            for run in np.split(np.flatnonzero(part), 1 + np.flatnonzero(np.diff(np.flatnonzero(part)) > 1)):
+                if len(run):
+                    here = rows[run[0] : run[-1] + 2]
+                    axes.plot(across[here], upwards[here], style, color=f"C{number}", label=label)
+                    label = None
+    for event, mark in EVENTS.items():
+        here = table["event"] == event
+        if here.any():
+            axes.plot(across[here], upwards[here], mark, color="black", markerfacecolor="white", label=event)
+
+
+def _draw_trace(result: Result, axes: Any, columns: tuple[str, str]) -> None:
+    """Branches, each with its two directions to the two sides of the drawn state."""
+    table = result.table
+    across, upwards = (table[name] for name in columns)
+    for number, branch in enumerate(np.unique(table["branch"])):
+        for sign in (1, -1):
+            here = (table["branch"] == branch) & (table["sign"] == sign)
+            label = f"branch {branch}" if sign == 1 else None
+            axes.plot(sign * across[here], upwards[here], color=f"C{number}", label=label)
+
+
+def _draw_landscape(result: Result, axes: Any, columns: tuple[str, str]) -> None:
+    """Energies against amplitudes on logarithmic axes, where a power law is a straight line."""
+    table = result.table
+    across, upwards = (table[name] for name in columns)
+    for number, mode in enumerate(result.summary["modes"]):
+        here = (table["mode"] == number) & (upwards > 0.0)
+        tensor = ", ".join(f"{k:g}" for k in mode["mode"]) if isinstance(mode["mode"], list) else str(mode["mode"])
+        slope = "" if mode["exponent"] is None else f", slope {mode['exponent']:.2f}"
+        axes.plot(across[here], upwards[here], marker=".", label=f"k11, k22, k12 = {tensor}{slope}")
+    axes.set(xscale="log", yscale="log")

@@ -174,6 +174,9 @@ class Result:
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws what the study is about: the curves of a path, trace or landscape, otherwise its state. Needs Matplotlib.
 
+        Paths are dashed where states are not stable, with marks at events. Both directions of a trace begin at 0. Landscapes have
+        logarithmic axes.
+
         Example:
             >>> import foldwell as fw
             >>> axes = fw.relax(fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)).plot()
@@ -202,9 +205,12 @@ class Result:
         return [Path(folder) / name for name in self._inner.save(Path(folder))]
 
     def _repr_svg_(self) -> str | None:
-        """The drawing of the study, which notebooks show; only with "svg" in `draw`."""
+        """The drawing of the study, which notebooks show; without "svg" in `draw` that of its state, if it has one."""
         drawings = self._inner.drawings
-        return drawings[0][1] if drawings else None
+        if drawings:
+            return str(drawings[0][1])
+        has_state = self._inner.coordinates is not None or self.states
+        return self._shown()._repr_svg_() if has_state else None
 
     def __repr__(self) -> str:
         end = "converged" if self.converged else f"did not converge: {self.summary.get('reason')}"

@@ -133,7 +133,9 @@ class State:
         self._inner.save(Path(path))
 
     def to_pyvista(self) -> Any:
-        """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files. Needs PyVista.
+        """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files, coloured by the fold angle.
+
+        Needs PyVista.
 
         Example:
             >>> import foldwell as fw
@@ -157,6 +159,7 @@ class State:
         letters = np.array(["BMVFUCJ".index(letter) for letter in inner.letters], np.int32)
         for name, wholes in (("edge", self.cell_edges), ("assignment", letters)):
             grid.cell_data[name] = np.concatenate([np.full(faces, -1, np.int32), wholes])
+        grid.set_active_scalars("fold_angle", preference="cell")
         return grid
 
     def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4", numbers: bool = False) -> Axes:
@@ -178,6 +181,10 @@ class State:
         from .plots import draw_state
 
         return draw_state(self, ax, paper, numbers)
+
+    def _repr_svg_(self) -> str:
+        """The drawing of the program, which notebooks show."""
+        return self._inner.svg()
 
     def __repr__(self) -> str:
         return f"<foldwell.State: {len(self.positions)} points, {len(self._inner.kinds)} edges, {len(self.faces)} faces>"

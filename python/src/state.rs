@@ -4,6 +4,7 @@ use crate::arrays::{Array1, Array2, indices, rows, view, view_of_points};
 use crate::errors::{bug, raise};
 use crate::sheet::{kind_word, letter_word};
 use foldwell::Picture;
+use foldwell::output::figure::{Annotations, Caption, sheet};
 use foldwell::output::vtk;
 use foldwell::run;
 use pyo3::prelude::*;
@@ -108,6 +109,12 @@ impl State {
     #[staticmethod]
     fn restore(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         vtk::parse_picture(bytes).map(|picture| Self { picture }).map_err(|fault| bug(py, fault.to_string()))
+    }
+
+    /// Returns the drawing of the state, without words.
+    fn svg(&self, py: Python<'_>) -> PyResult<String> {
+        let drawn = sheet::svg(&self.picture, &Annotations::default(), &Caption::default());
+        drawn.map_err(|fault| bug(py, fault.to_string()))
     }
 
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

@@ -145,6 +145,28 @@ def test_results_go_to_other_libraries(soft, tmp_path):
     screw = fw.Assembly.patch(sheet, (3, 3), bars=fw.RIGID, creases=1.0)
     land = fw.landscape(screw, [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [0.01, 0.02])
     assert len(land.plot().lines) == 2
+    assert land.plot().get_xscale() == land.plot().get_yscale() == "log"
+    assert mesh.active_scalars_name == "fold_angle"
+
+
+def test_plots_say_what_they_show(miura):
+    """A path has words for what is driven, marks at events and dashes where it is not stable; a trace has both directions on their own
+    sides of the drawn state; states draw themselves, also where a study made no drawing."""
+    pins = [{"vertex": 0, "axes": "xyz"}, {"vertex": 2, "axes": "xyz"}, {"vertex": 1, "axes": "xy"}]
+    loads, drives = [{"vertex": 1, "force": (0.0, 0.0, -0.02)}], [{"name": "push", "load": True, "to": 1.0}]
+    truss = fw.Assembly.patch(fw.generate("truss"), bars=1.0, pins=pins, loads=loads, drives=drives)
+    axes = fw.path(truss).plot()
+    assert (axes.get_xlabel(), axes.get_title()) == ("factor of the loads", "push: displacement of the loads against factor of the loads")
+    assert {line.get_linestyle() for line in axes.lines} >= {"-", "--"}
+    assert "limit-load" in {text.get_text() for text in axes.get_legend().get_texts()}
+    star = fw.Sheet.read(ROOT / "meshes/open-star.fold")
+    traced = fw.trace(fw.Assembly.screw(star, bars=fw.RIGID, creases=1.0, locks=[(0, 1, -1, 0)]), stop={"arc_length": 0.5})
+    ends = [line.get_xdata() for line in traced.plot().lines]
+    assert all((x >= 0.0).all() or (x <= 0.0).all() for x in ends) and any(x.min() < 0.0 for x in ends)
+    base = fw.Assembly.patch(fw.Sheet.read(ROOT / "meshes/waterbomb-base.fold"), bars=1e3, creases=1.0, facets=10.0, rest="assigned")
+    folded = fw.fold(base)
+    assert folded.kind == "fold" and folded.table["drive"][-1] == 1.0 and folded.plot().get_ylabel() == "energy"
+    assert miura._repr_svg_().startswith("<svg") and folded._repr_svg_() == folded.state._repr_svg_()
 
 
 def test_tables_go_to_xarray():
