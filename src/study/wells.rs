@@ -373,7 +373,7 @@ fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
     let sought = if barrier.joins == barrier.between || [to, from] == barrier.between {
         String::new()
     } else {
-        format!(" (found between {a} and {b})")
+        format!(" (for {a} and {b})")
     };
     let bars = match barrier.heights.last() {
         Some(last) if barrier.singular => format!(" in bars of {}", rounded(last.stiffness, 3)),
