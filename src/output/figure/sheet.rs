@@ -226,9 +226,9 @@ fn letter_colour(letter: Assignment) -> Colour {
 
 /// Returns what a fold angle beyond pi means: the faces beside the crease have passed through each other.
 fn turns(angle: f64) -> &'static str {
-    match angle.abs() {
-        0.0..=PI => "",
-        0.0..=TAU => ", more than half a turn",
+    match angle.abs() - FLAT {
+        ..=PI => "",
+        ..=TAU => ", more than half a turn",
         _ => ", more than a turn",
     }
 }

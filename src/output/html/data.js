@@ -122,7 +122,7 @@ export function spoken(name) {
 
 /** What a fold angle beyond pi means: the faces beside the crease have passed through each other. */
 export function turns(angle) {
-    const size = Math.abs(angle);
+    const size = Math.abs(angle) - 1e-6;
     return size > 2 * Math.PI ? ", more than a turn" : size > Math.PI ? ", more than half a turn" : "";
 }
 
