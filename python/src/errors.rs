@@ -31,11 +31,16 @@ pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
     let RunError::Scene(SceneError::At { file, line, key, message, .. }) = error else {
         return exception(py, class, (error.to_string(), help, None, None));
     };
+    let key = key.strip_suffix(".file").or_else(|| key.strip_suffix(".rates")).unwrap_or(key);
     let key = match Path::new(file.trim_end_matches(" (keys set)")).file_name() {
-        Some(name) if name == DICT => key.clone(),
+        Some(name) if name == DICT => key.to_owned(),
         Some(name) if name == ARGUMENTS => argument(key),
         _ => return exception(py, class, (error.to_string(), help, Some(file.clone()), Some(*line))),
     };
+    // messages about arrays begin with their names, and are about numbers as they were given
+    if !key.is_empty() && message.starts_with(&key) {
+        return exception(py, class, (message.clone(), help, None, None));
+    }
     let message = if key.is_empty() { message.clone() } else { format!("{key}: {message}") };
     let [message, help] = [Some(message), help].map(|text| text.map(|text| in_python(&text)));
     exception(py, class, (message.unwrap_or_default(), help, None, None))

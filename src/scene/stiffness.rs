@@ -84,7 +84,7 @@ impl Letters {
 read_as_written!(StiffnessSpec, RestLengthSpec);
 
 impl Written for StiffnessSpec {
-    const FORMS: &str = "a number, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }";
+    const FORMS: &str = "a number, `inf`, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }";
 
     fn from_word<E: Error>(word: &str) -> Result<Self, E> {
         let mesh = (word == "mesh").then_some(Self::Mesh);

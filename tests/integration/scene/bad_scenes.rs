@@ -124,7 +124,7 @@ const FAULTS: &[Fault] = &[
     fault(7, "bars = { stiffness = 0 }", "7:22", "the stiffness is 0", "expected a positive number or `inf` (exactly rigid)"),
     fault(7, "bars = { stiffness = -3.0 }", "7:22", "the stiffness is -3", "expected a positive number or `inf` (exactly rigid)"),
     fault(7, "bars = { stiffness = nan }", "7:22", "the stiffness is NaN", "expected a positive number or `inf` (exactly rigid)"),
-    fault(7, "bars = { stiffness = \"soft\" }", "7:22", "invalid value: string \"soft\"", "expected a number, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }"),
+    fault(7, "bars = { stiffness = \"soft\" }", "7:22", "invalid value: string \"soft\"", "expected a number, `inf`, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }"),
     fault(7, "bars = { stifness = 1 }", "7:10", "unknown key `stifness`", "did you mean `stiffness`? the keys here are `stiffness`, `rest`, `law`"),
     fault(7, "bars = {}", "7:8", "missing key `stiffness`", "`stiffness` has to be given here, or follow from [material], for creases with `crease_length`"),
     fault(6, "[material]\nyoung = 3200.0\npoisson = 0.6\nthickness = 0.3\n[energy]", "8:11", "Poisson's ratio is 0.6", "expected a number above -1, and at most 0.5"),
