@@ -185,7 +185,7 @@ def test_tables_go_to_xarray():
     land = fw.landscape(fw.Assembly.patch(star, (3, 3), bars=fw.RIGID, creases=1.0), [(1, 0, 0), (0, 1, 0), (1, 1, 0)], [0.1, 0.05])
     energy = land.to_xarray().energy_total
     assert energy.dims == ("mode", "amplitude") and energy.amplitude.values.tolist() == [0.05, 0.1]
-    assert energy.sel(mode=energy.mode[2], amplitude=0.05) == land.table["energy_total"][5]
+    assert energy.sel(mode=energy.mode[2], amplitude=0.05) == land.table["energy_total"][4]
     assert "fold_angle" not in fw.modes(fw.Assembly.patch(star, bars=1.0, creases=1.0), eigenvalues=3).to_xarray()
 
 
