@@ -295,7 +295,8 @@ mod tests {
         let text =
             "title = \"a\"\n[energy]\nbars = { stiffness = 3 }\n[[study]]\nname = \"a\"\n[[study]]\nq1 = [1, 2]\n";
         for (place, key) in [
-            ("= 3", ""),
+            ("= 3", "energy.bars"),
+            ("= \"a\"\n[e", ""),
             ("3 }", "energy.bars.stiffness"),
             ("stiff", "energy.bars.stiffness"),
             ("energy", "energy"),

@@ -252,7 +252,7 @@ fn no_barrier_lies_below_its_wells() {
         let Ok(barrier) = barrier(&assembly, &found, [0, other], &mut || true) else { continue };
         assert!(barrier.pass.energy > found[other].settled.energy && barrier.pass.negative_eigenvalues == Some(1));
         let ends = [barrier.path[0], barrier.path[barrier.path.len() - 1]];
-        for (well, (_, soft)) in barrier.between.into_iter().zip(ends) {
+        for (well, (_, soft)) in barrier.joins.into_iter().zip(ends) {
             let energy = found[well].settled.energy;
             assert!((soft / energy - 1.0).abs() <= 0.05, "the path ends in another state than well {well}: {soft}");
         }

@@ -54,7 +54,7 @@ fn every_scene_in_meshes_gives_its_answer() {
             let name = study["name"].as_str().unwrap();
             assert_eq!(study["converged"], true, "{} {name}", scene.display());
             let written = |ending: &str| folder.has(format!("{name}.{ending}"));
-            let states = ["relax", "path", "trace", "surface", "bloch", "wells", "response"]
+            let states = ["relax", "path", "fold", "trace", "surface", "bloch", "wells", "response"]
                 .iter()
                 .any(|kind| study["kind"] == *kind);
             let shown = states || study["eigenvalues"].as_array().is_some_and(|list| !list.is_empty());

@@ -38,7 +38,7 @@ fn wrong_settings_are_refused() {
     let folder = Folder::new().with("a.toml", SCENE);
     for (setting, parts) in [
         ("energy.bars", ["sets no key", "energy.bars.stiffness=1e4"]),
-        ("study.pulled.kind=trace", ["no element `pulled`", "there are relaxed"]),
+        ("study.pulled.kind=trace", ["no element `pulled`", "there are `relaxed`"]),
         ("energy.bars.stiffness=-1", ["a.toml (keys set):5:", "the stiffness is -1"]),
         ("energy.bars.stifness=1", ["a.toml (keys set):5:", "unknown key `stifness`"]),
     ] {

@@ -105,7 +105,7 @@ const FAULTS: &[Fault] = &[
     fault(3, "mesh = 3", "3:8", "invalid type: integer `3`", "expected a path in quotes"),
     fault(4, "domain = \"pipe\"", "4:10", "unknown word `pipe`", "expected one of `screw`, `patch`, `torus`, `tube`"),
     fault(5, "cells = [0, 6]", "5:9", "there are 0 x 6 cells", "expected at least 1 in either direction"),
-    fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2"),
+    fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2 values"),
     fault(5, "cells = [4000000000, 4000000000]", "5:9", "4000000000 x 4000000000 cells are more than can be numbered", "expected at most 2147483647 in all"),
     fault(5, "cells = [99999999999999999999, 1]", "5:10", "invalid type: integer `99999999999999999999` as i128", "expected a whole number"),
     fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `merge`, `frame`, `generate`, `domain`, `cells`, `lattice`, `seam`, `closing`, `inwards`"),
@@ -159,7 +159,7 @@ const FAULTS: &[Fault] = &[
     fault(1, "mass = 1.0", "1:8", "invalid type: floating point `1.0`", "expected a table"),
     fault(1, "mass = { edge = 1 }", "1:10", "unknown key `edge`", "the keys here are `vertex` or `area`"),
     // locks, loads, pins
-    fault(11, "crease = [0, 1, 0]", "11:10", "the list has 3 values", "expected 4"),
+    fault(11, "crease = [0, 1, 0]", "11:10", "the list has 3 values", "expected 4 values"),
     fault(11, "crease = [0, 0.5, 0, 0]", "11:14", "invalid type: floating point `0.5`", "expected a whole number"),
     fault(11, "crease = [0, -1, 0, 0]", "11:10", "an edge cannot start or end at vertex -1", "expected [i, j, n1, n2] with i and j counted from 0"),
     fault(11, "crease = [1, 1, 0, 0]", "11:10", "the edge runs from vertex 1 to itself", "expected two different ends in [i, j, n1, n2]"),
@@ -170,7 +170,7 @@ const FAULTS: &[Fault] = &[
     fault(15, "cell = [4, 0]", "15:8", "there is no cell [4, 0]", "cells of this patch run from [0, 0] to [3, 5]"),
     fault(15, "cell = [-1, 0]", "15:9", "invalid value: integer `-1`", "expected a whole number, 0 or more"),
     fault(16, "force = [0.0, 0.0, inf]", "16:9", "the number is inf", "expected a finite number"),
-    fault(15, "cell = [1, 2, 3]", "15:8", "the list has 3 values", "expected 2"),
+    fault(15, "cell = [1, 2, 3]", "15:8", "the list has 3 values", "expected 2 values"),
     fault(16, "force = [0.0, 0.0, 1.0, 2.0]", "16:9", "the list has 4 values", "expected 3"),
     fault(16, "", "13:1", "missing key `force`", "`force` has to be given here"),
     fault(19, "axes = \"xw\"", "19:8", "`xw` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
@@ -193,7 +193,7 @@ const FAULTS: &[Fault] = &[
     fault(23, "start = 3", "23:9", "invalid type: integer `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
     fault(24, "tolerance = 0", "24:13", "the number is 0", "expected a finite number above 0"),
     fault(62, "resolution = 0", "62:14", "the number is 0", "expected a whole number from 1 to 4294967295"),
-    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace, path; the keys here are `start`, `tolerance`, `method`, `keep_every`"),
+    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace, path, fold; the keys here are `start`, `tolerance`, `method`, `keep_every`"),
     fault(28, "start = \"third\"", "28:9", "no earlier study is called `third`", "\"drawn\", the name of an earlier study with states (here \"first\"), { random, seed } or a .vtu file"),
     fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
     fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected one of `vtk`, `svg`, `numbers`, `html`"),
@@ -206,7 +206,7 @@ const FAULTS: &[Fault] = &[
     fault(49, "modes = []", "49:9", "no modes", "give at least one, as in [[1, 0, 0]]"),
     fault(50, "amplitudes = []", "50:14", "no amplitudes", "give at least one, as in [0.01]"),
     fault(54, "grid = [0, 4]", "54:8", "there are 0 x 4 cells", "expected at least 1 in either direction"),
-    fault(58, "kind = \"branches\"\nstart = \"drawn\"", "59:1", "unknown key `start`", "`start` is a key of studies of kind relax, modes, bloch, wells, path, response; no keys are expected here"),
+    fault(58, "kind = \"branches\"\nstart = \"drawn\"", "59:1", "unknown key `start`", "`start` is a key of studies of kind relax, modes, bloch, wells, path, fold, response; no keys are expected here"),
 ];
 
 fn with_line(line: usize, new: &str) -> String {

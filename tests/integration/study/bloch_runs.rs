@@ -180,7 +180,7 @@ fn what_cannot_be_done() {
         ("generate = { pattern = \"random\" }", "modes = [[0.1, inf]]", "the number is inf"),
         ("generate = { pattern = \"random\" }", "q1 = [nan]", "the number is NaN"),
         ("generate = { pattern = \"random\" }", "grid = [0, 8]", "0"),
-        ("generate = { pattern = \"random\" }", "modes = [[0.1]]", "the list has 1 value,"),
+        ("generate = { pattern = \"random\" }", "modes = [[0.1]]", "the list has 1 value"),
         ("generate = { pattern = \"random\" }", "kappa = 1", "kappa"),
         ("generate = { pattern = \"random\" }", "start = \"rolled\"", "no earlier study is called"),
         (
