@@ -28,14 +28,14 @@ pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
         _ => "SceneError",
     };
     let help = error.help().map(|help| help.to_string());
-    let RunError::Scene(SceneError::At { file, line, key, message, .. }) = error else {
+    let RunError::Scene(SceneError::At { text, line, key, message, .. }) = error else {
         return exception(py, class, (error.to_string(), help, None, None));
     };
-    let key = key.strip_suffix(".file").or_else(|| key.strip_suffix(".rates")).unwrap_or(key);
-    let key = match Path::new(file.trim_end_matches(" (keys set)")).file_name() {
+    let key = key.strip_suffix(".file").or_else(|| key.strip_suffix(".rates")).unwrap_or(&**key);
+    let key = match Path::new(text.name().trim_end_matches(" (keys set)")).file_name() {
         Some(name) if name == DICT => key.to_owned(),
         Some(name) if name == ARGUMENTS => argument(key),
-        _ => return exception(py, class, (error.to_string(), help, Some(file.clone()), Some(*line))),
+        _ => return exception(py, class, (error.to_string(), help, Some(text.name().to_owned()), Some(*line))),
     };
     // messages about arrays begin with their names, and are about numbers as they were given
     if !key.is_empty() && message.starts_with(&key) {

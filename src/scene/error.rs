@@ -20,22 +20,20 @@ pub enum SceneError {
         source: io::Error,
     },
     /// A place in the scene is wrong.
-    #[error("{file}:{line}:{column}: {message}")]
+    #[error("{}:{line}:{column}: {message}", text.name())]
     At {
-        /// Name of the scene file.
-        file: String,
         /// Line, counted from 1.
         line: usize,
         /// Column in characters, counted from 1.
         column: usize,
         /// Path of the key at the place, as in `energy.bars.stiffness` or `study.0.name`; empty if there is none.
-        key: String,
+        key: Box<str>,
         /// Description of the error.
         message: String,
         /// Proposed correction.
         #[help]
         help: Option<String>,
-        /// The text of the scene.
+        /// The text of the scene, and the name of its file.
         #[source_code]
         text: Arc<NamedSource<String>>,
         /// The bytes to which the error refers.

@@ -110,10 +110,10 @@ impl SceneFile {
 
 fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String, help: Option<String>) -> SceneError {
     let (line, column) = line_and_column(text.inner(), span.start);
-    let key = if span.is_empty() { String::new() } else { key_at(text.inner(), span.start) };
+    let key = if span.is_empty() { "".into() } else { key_at(text.inner(), span.start).into() };
     let (text, span) = excerpt(text, span);
     let (message, help) = (cut(&message), help.as_deref().map(cut));
-    SceneError::At { file: text.name().into(), line, column, key, message, help, text, span: span.into() }
+    SceneError::At { line, column, key, message, help, text, span: span.into() }
 }
 
 /// Returns the path of the key whose name or value is at a byte offset; empty if there is none.
