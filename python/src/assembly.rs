@@ -15,8 +15,9 @@ use foldwell::scene::{Arrays, SceneFile, build, parse};
 use foldwell::study::PreviousAnswers;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
-use toml::Table;
+use toml::{Table, Value};
 
 /// A sheet with its boundary conditions and terms; see `foldwell.Assembly`.
 #[pyclass(frozen, module = "foldwell._foldwell", subclass)]
