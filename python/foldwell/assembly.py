@@ -479,7 +479,7 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
             energy.setdefault(term, {})[key] = value
     title = sheet.title or "sheet"
     place = {"mesh": title, "domain": domain, **{key: given[key] for key in PLACE if key in given}}
-    scene = {"title": title, "sheet": place, "energy": energy, "lock": _locks(given.get("locks", ()))}
+    scene: dict[str, Any] = {"title": title, "sheet": place, "energy": energy, "lock": _locks(given.get("locks", ()))}
     scene |= {name: given.get(name) for name in ("mass", "material", "units")}
     scene |= {name: given.get(f"{name}s") for name in ("pin", "load", "part", "spring", "drive")}
     return cls(_foldwell.Assembly.of_arguments(scene, sheet._inner))

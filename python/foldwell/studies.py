@@ -345,10 +345,12 @@ def _study(
 def fold(
     assembly: Assembly,
     *,
+    start: Start = None,
     tolerance: float | None = None,
     max_step: float | None = None,
     switch: bool | None = None,
     stop: Mapping[str, Any] | None = None,
+    response: str | None = None,
     name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
     threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
@@ -356,14 +358,17 @@ def fold(
 
     Args:
         assembly: The sheet with its energy, with rest angles such as `rest="assigned"`.
-        tolerance, max_step, switch, stop: As in `path`.
+        start, tolerance, max_step, switch, stop, response: As in `path`.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
+
+    Example:
+        >>> import foldwell as fw
+        >>> base = fw.Sheet.read("meshes/waterbomb-base.fold")
+        >>> folded = fw.fold(fw.Assembly.patch(base, bars=1e3, creases=1.0, facets=10.0, rest="assigned"))
+        >>> float(folded.table["drive"][-1])
+        1.0
     """
-    keys = {"tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
-    return compute(
-        assembly, "fold", keys,
-        name=name, draw=draw, check=check, threads=threads, progress=progress, must_converge=must_converge,
-    )
+    return _study("fold", **locals())
 
 
 def compute(

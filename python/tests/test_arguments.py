@@ -181,7 +181,7 @@ def test_arrays_in_scenes_are_those_of_arguments(miura, tmp_path):
     assert "relax" in fw.run(scene, out=tmp_path / "a", resume=True)
     with pytest.raises(fw.SceneError, match=r"^energy.creases.rest has shape \(3,\)"):
         fw.run({**scene, "energy": {"creases": {"stiffness": 1.0, "rest": rest[:3]}}, "load": None})
-    bent = {"sheet": scene["sheet"], "energy": {"creases": {"stiffness": 1.0, "rest": {"mode": rates, "amplitude": 0.1}}}}
+    bent = {"sheet": scene["sheet"], "energy": {"bars": {"stiffness": 1e3}, "creases": {"stiffness": 1.0, "rest": {"mode": rates, "amplitude": 0.1}}}}
     bent["study"] = [{"name": "cost", "kind": "landscape", "modes": [rates, [1.0, 0.0, 0.0]], "amplitudes": np.array([0.1])}]
     with pytest.raises(fw.SceneError, match="^study.0.modes.0 has shape"):
         fw.run({**bent, "study": [{**bent["study"][0], "modes": [rates[1:]]}]})

@@ -93,7 +93,7 @@ def test_glb_is_binary_gltf(states, tmp_path):
 
 
 def test_other_endings_are_refused(states, tmp_path):
-    for name in ("a.ply", "a", "a.vtk"):
-        with pytest.raises(fw.SceneError, match=r"\.vtu, \.stl, \.obj, \.fold or \.glb"):
+    for name in ("a.dae", "a", "a.vtk"):
+        with pytest.raises(fw.SceneError, match=r"\.vtu, \.stl, \.ply, \.obj, \.fold or \.glb"):
             states["patch"].save(tmp_path / name)
     assert not list(tmp_path.iterdir())

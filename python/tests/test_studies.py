@@ -17,7 +17,7 @@ SCENES = [
     *("star", "star-torus", "star-trace", "star-landscape", "star-surface"),
     *("flat-branches", "miura-spectrum", "miura-frequencies", "kirigami-bloch", "near-cross-wells", "two-bars-push", "drum-path", "degree-four"),
 ]
-KINDS = ["bloch", "branches", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
+KINDS = ["bloch", "branches", "fold", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -166,7 +166,7 @@ def test_plots_say_what_they_show(miura):
     base = fw.Assembly.patch(fw.Sheet.read(ROOT / "meshes/waterbomb-base.fold"), bars=1e3, creases=1.0, facets=10.0, rest="assigned")
     folded = fw.fold(base)
     assert folded.kind == "fold" and folded.table["drive"][-1] == 1.0 and folded.plot().get_ylabel() == "energy"
-    assert miura._repr_svg_().startswith("<svg") and folded._repr_svg_() == folded.state._repr_svg_()
+    assert folded._repr_svg_().startswith("<svg") and folded._repr_svg_() == folded.state._repr_svg_()
 
 
 def test_tables_go_to_xarray():
