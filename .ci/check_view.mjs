@@ -172,6 +172,7 @@ async function checkStudy(page, where) {
 async function checkPage(browser, file) {
     const context = await browser.newContext({ viewport: DESK, offline: true });
     const page = await context.newPage();
+    page.setDefaultTimeout(120_000); // pictures are drawn without a graphics card
     const [errors, asked] = [[], []];
     page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(String(error)));
