@@ -192,7 +192,8 @@ pub(crate) fn main() -> ExitCode {
     ExitCode::from(status)
 }
 
-/// Adds the command that is meant to the error about an unknown one, if clap finds none: it overlooks exchanged letters.
+/// Adds the command that is meant to the error about an unknown one, if clap finds none: it overlooks exchanged
+/// letters.
 fn with_suggestion(mut error: clap::Error) -> clap::Error {
     let (Some(ContextValue::String(word)), None) =
         (error.get(ContextKind::InvalidSubcommand), error.get(ContextKind::SuggestedSubcommand))

@@ -1,4 +1,4 @@
-//! What the examples of one's own laws, terms and domains do with their sheets: what one does with any other.
+//! The steps that the examples of laws, terms and domains share: a relaxation, its VTU file, a path, and the wells.
 
 use foldwell::analysis::path::{PathOptions, follow_path};
 use foldwell::analysis::wells::merge::{Comparison, wells};

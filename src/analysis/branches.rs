@@ -59,8 +59,8 @@ pub struct Branches {
 /// answer.
 ///
 /// # Errors
-/// [`BranchesError`] for a torus, for a domain of one's own, for periodic sheets with openings, for too many edges, and where ranks are not clear
-/// or the solutions do not add up.
+/// [`BranchesError`] for a torus, for a domain of one's own, for periodic sheets with openings, for too many edges, and
+/// where ranks are not clear or the solutions do not add up.
 pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
     let (sheet, boundary) = (assembly.sheet(), assembly.boundary());
     if matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus) {

@@ -199,8 +199,8 @@ impl Along {
     }
 }
 
-/// The closed state nearest to `x`, across the tangents there; `None` where Newton's method finds none, or moves an angle
-/// by more than `reach`.
+/// The closed state nearest to `x`, across the tangents there; `None` where Newton's method finds none, or moves an
+/// angle by more than `reach`.
 fn close(closing: &mut Closing<'_>, x: Vec<f64>, reach: f64) -> Option<Vec<f64>> {
     let search = Search { most_steps: CORRECTIONS, residual: CLOSURE_RESIDUAL, terms: DIRECTION };
     let closed = search.root(x.clone(), |x| {

@@ -94,13 +94,7 @@ impl Assembly {
     /// [`AssemblyError::NoLattice`] for a sheet without lattice, and [`AssemblyError::NoCells`] if a number of cells is
     /// zero.
     pub fn tube_without_terms(sheet: Sheet, roll: &Roll, cells: [usize; 2]) -> Result<Self, AssemblyError> {
-        if !sheet.is_repeated() {
-            return Err(AssemblyError::NoLattice);
-        }
-        if cells.contains(&0) {
-            return Err(AssemblyError::NoCells);
-        }
-        let (tiling, drawn) = (tile(&sheet, [1, 1], true), roll.drawn(&sheet));
+        let (tiling, drawn) = (one_cell(&sheet, cells)?, roll.drawn(&sheet));
         let of_file = |tiled: &TiledEdge| sheet.drawn_angle(&sheet.edges[tiled.edge]).unwrap_or(f64::NAN);
         let angles = tiling.edges.iter().map(of_file).collect();
         let start_angles = tiling.edges.iter().map(|tiled| roll.angles[tiled.edge]).collect();
@@ -108,24 +102,18 @@ impl Assembly {
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
-    /// Makes an assembly of one cell on a domain of one's own, without terms. The drawn state has these coordinates: x, y
-    /// and z of every vertex of the cell, then the shared ones. `cells` counts the cells that pictures show.
+    /// Makes an assembly of one cell on a domain of one's own, without terms. The drawn state has these coordinates: x,
+    /// y and z of every vertex of the cell, then the shared ones. `cells` counts the cells that pictures show.
     ///
     /// # Errors
-    /// [`AssemblyError::NoLattice`] for a sheet without lattice, [`AssemblyError::NoCells`] if a number of cells is zero,
-    /// and [`AssemblyError::Coordinates`] for another number of them.
+    /// [`AssemblyError::NoLattice`] for a sheet without lattice, [`AssemblyError::NoCells`] if a number of cells is
+    /// zero, and [`AssemblyError::Coordinates`] for another number of them.
     pub fn own_without_terms(
         sheet: Sheet,
         (domain, coordinates): (OwnDomain, Vec<f64>),
         cells: [usize; 2],
     ) -> Result<Self, AssemblyError> {
-        if sheet.lattice.is_none() {
-            return Err(AssemblyError::NoLattice);
-        }
-        if cells.contains(&0) {
-            return Err(AssemblyError::NoCells);
-        }
-        let (tiling, drawn) = (tile(&sheet, [1, 1], true), Drawn::own(domain, coordinates));
+        let (tiling, drawn) = (one_cell(&sheet, cells)?, Drawn::own(domain, coordinates));
         let needed = 3 * sheet.vertices.len() + drawn.domain.shared();
         if drawn.coordinates.len() != needed {
             let given = drawn.coordinates.len();
@@ -377,6 +365,14 @@ impl Assembly {
         model.continue_from(self.start_angles());
         model
     }
+}
+
+/// Returns the tiling of one cell of a sheet that is repeated, of which pictures show so many.
+fn one_cell(sheet: &Sheet, shown: [usize; 2]) -> Result<Tiling, AssemblyError> {
+    if !sheet.is_repeated() {
+        return Err(AssemblyError::NoLattice);
+    }
+    if shown.contains(&0) { Err(AssemblyError::NoCells) } else { Ok(tile(sheet, [1, 1], true)) }
 }
 
 /// Returns the fold angles of a tiling with edges that are folded flat on the side that they have in the sheet: pi and

@@ -64,7 +64,8 @@ impl Assembly {
     }
 
     /// Begins one cell on a domain of one's own, from the state with these coordinates: x, y and z of every vertex of
-    /// the cell, then the shared ones; pictures show `cells[0] x cells[1]` copies of it. See [`CellMaps`](super::CellMaps).
+    /// the cell, then the shared ones; pictures show `cells[0] x cells[1]` copies of it. See
+    /// [`CellMaps`](super::CellMaps).
     pub fn own(sheet: Sheet, domain: OwnDomain, coordinates: Vec<f64>, cells: [usize; 2]) -> Builder {
         Builder { sheet, cells, place: Place::Own(domain, coordinates), given: Given::default() }
     }

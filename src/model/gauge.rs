@@ -51,12 +51,13 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
     rows
 }
 
-/// Returns the same of any domain: the rigid motions with which all copies of the vertices move alike, for some rates of
-/// the shared coordinates; each column is one of a basis of them.
+/// Returns the same of any domain: the rigid motions with which all copies of the vertices move alike, for some rates
+/// of the shared coordinates; each column is one of a basis of them.
 ///
 /// They are the null space of what a rigid motion of the vertices, with those rates, makes of a copy, less the same
 /// motion of the copy. It is asked at four points, as far apart as the sheet is large, in the two next cells: maps are
-/// affine.
+/// affine. Where its singular values leave the dimension of the null space open, no motion is held, and the
+/// solver reports a singular system.
 fn kept_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let ((centre, size), shared) = (centre_and_size(domain, x), &x[3 * vertices..]);

@@ -1,7 +1,7 @@
 //! The stiffnesses of bars and hinges that stand for an elastic sheet of uniform thickness.
 //!
-//! With Young's modulus `E`, Poisson's ratio `nu`, the thickness `t`, and the bending stiffness of a plate,
-//! `D = E t^3 / (12 (1 - nu^2))`:
+//! The formulas below have Young's modulus `E`, Poisson's ratio `nu`, the thickness `t`, and the bending stiffness of a
+//! plate `D = E t^3 / (12 (1 - nu^2))`:
 //!
 //! - **Bars.** A triangle of area `S` and perimeter `P` gives each of its edges the cross section `A = 2 S t / ((1 -
 //!   nu) P)`; an edge of two triangles has the sum. Where all lengths grow by the strain `e`, its bars store `E A P e^2

@@ -107,8 +107,8 @@ pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
     Ok(notes)
 }
 
-/// Writes a state into a file of the format of its ending; STL, PLY, OBJ and FOLD files have the sheet as it is drawn in
-/// this state.
+/// Writes a state into a file of the format of its ending; STL, PLY, OBJ and FOLD files have the sheet as it is drawn
+/// in this state.
 pub(super) fn write_state(picture: &Picture, to: &Path) -> Result<(), RunError> {
     match ending(to).as_str() {
         "vtu" => Ok(vtk::write_vtu(to, picture)?),

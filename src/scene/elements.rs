@@ -161,8 +161,8 @@ impl<'a> ElementValues<'a> {
         Ok(if of_cell { self.tiling.edges.iter().map(|tiled| values[tiled.edge]).collect() } else { values })
     }
 
-    /// Checks an array of rest angles of creases, if there is one of this name: it has no angle at these edges of the cell,
-    /// which are diagonals of rigid polygons.
+    /// Checks an array of rest angles of creases, if there is one of this name: it has no angle at these edges of the
+    /// cell, which are diagonals of rigid polygons.
     pub(super) fn flat_at(&self, rigid: &[usize], name: &Located<PathBuf>) -> Result<(), SceneError> {
         let Some(array) = self.file.array(name) else { return Ok(()) };
         let cell = self.sheet.edges.len();

@@ -289,7 +289,8 @@ fn plain_words(expected: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Claim: every place is at its key: in headers, lists of tables, inline tables and lists, whatever comes before it.
+    /// Claim: every place is at its key: in headers, lists of tables, inline tables and lists, whatever comes before
+    /// it.
     #[test]
     fn places_have_their_keys() {
         let text =

@@ -31,9 +31,6 @@ pub enum ValueError {
     /// A number that must be positive and finite is not.
     #[error("the number is {0}, expected a finite number above 0")]
     NotPositive(f64),
-    /// No elastic sheet has this Poisson's ratio.
-    #[error("Poisson's ratio is {0}, expected a number above -1, and at most 0.5")]
-    NoPoisson(f64),
     /// A fraction of rest angles is outside its range.
     #[error("the fraction is {0}, expected a number from -1 (folded to the other side) to 1 (folded)")]
     NoFraction(f64),

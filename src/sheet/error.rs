@@ -5,6 +5,7 @@ pub use super::drawn_edge::DrawnEdge;
 use super::fold_angle_fault::FoldAngleFault;
 use super::frame_fault::FrameFault;
 use super::pattern_fault::PatternFault;
+use super::plane_fault::PlaneFault;
 use std::path::PathBuf;
 
 /// The reason why a file gives no sheet.
@@ -350,20 +351,9 @@ pub enum Problem {
         /// The other.
         b: DrawnEdge,
     },
-    /// An edge is parallel to z, and faces cannot be rebuilt from it.
-    #[error("edge {0} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it")]
-    Upright(DrawnEdge),
-    /// Edges inside a face that no edge joins to the others, so that faces cannot be rebuilt from them.
-    #[error(
-        "edge {edge} of the list, {ends}, belongs to edges inside a face that are not joined to the others; give \
-         `faces_vertices`, which cannot be rebuilt for them, or join them"
-    )]
-    Nested {
-        /// Index in `edges_vertices`.
-        edge: usize,
-        /// Its ends.
-        ends: DrawnEdge,
-    },
+    /// Edges from which faces cannot be rebuilt.
+    #[error(transparent)]
+    Plane(#[from] PlaneFault),
     /// An assignment that contradicts the mesh.
     #[error(transparent)]
     Assignment(#[from] AssignmentFault),

@@ -94,7 +94,7 @@ pub struct Info {
     pub frame: usize,
     /// Number of the other frames of the file.
     pub further_frames: usize,
-    /// What was done to a drawing of lines to read it, and what is in doubt.
+    /// Remarks on a drawing of lines: each change that was made to read it, and each doubt.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remarks: Vec<String>,
 }

@@ -33,6 +33,7 @@ pub mod obj;
 pub mod pattern;
 pub(crate) mod pattern_fault;
 pub mod pieces;
+pub(crate) mod plane_fault;
 pub mod ply;
 pub(crate) mod record;
 pub(crate) mod redrawing;

@@ -28,7 +28,8 @@ pub(crate) fn there_are<'a>(name: &str, known: impl IntoIterator<Item = &'a str>
     format!("{question}there are {}", known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))
 }
 
-/// Does the same as [`did_you_mean`] with a message as serde writes it, "unknown field `word`, expected one of `a`, `b`".
+/// Does the same as [`did_you_mean`] with a message as serde writes it, "unknown field `word`, expected one of `a`,
+/// `b`".
 pub(crate) fn did_you_mean_of(message: &str) -> String {
     let mut quoted = message.split('`').skip(1).step_by(2);
     quoted.next().map_or_else(String::new, |word| did_you_mean(word, quoted))

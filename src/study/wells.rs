@@ -348,8 +348,8 @@ fn heights(passes: &[&Barrier]) -> Table {
     table
 }
 
-/// Returns the chart of energies along the descents from a pass to the wells that it joins, in the sheet's own bars, and
-/// of the energy of the pass.
+/// Returns the chart of energies along the descents from a pass to the wells that it joins, in the sheet's own bars,
+/// and of the energy of the pass.
 fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
     let ([from, to], last) = (barrier.joins, barrier.path.len() - 1);
     let label = |at: usize| match at {

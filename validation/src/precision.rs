@@ -64,8 +64,8 @@ impl Diagram {
     }
 }
 
-/// Returns the median run time of each piece of `work` over `rounds` rounds, the upper one of an even number. The pieces
-/// are run by turns, so that other load on the machine affects all of them alike.
+/// Returns the median run time of each piece of `work` over `rounds` rounds, the upper one of an even number. The
+/// pieces are run by turns, so that other load on the machine affects all of them alike.
 pub fn medians(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(rounds); work.len()];
     for _ in 0..rounds {

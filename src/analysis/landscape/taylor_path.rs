@@ -31,8 +31,8 @@ impl HeldState {
 pub struct TaylorPath {
     /// Rates of the rest angles along the modes.
     pub rates: Vec<f64>,
-    /// Coefficients of the Taylor series of the state in the amplitude, from the first power on. That of the first power
-    /// has no tensions, and no rest angles other than those along the modes.
+    /// Coefficients of the Taylor series of the state in the amplitude, from the first power on. That of the first
+    /// power has no tensions, and no rest angles other than those along the modes.
     pub orders: [HeldState; ORDERS],
 }
 

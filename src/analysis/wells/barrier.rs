@@ -15,13 +15,12 @@
 //! and if the descents to its two sides end in different wells. If these are other wells than the given two, they are
 //! reported.
 
-use super::limit::{Height, STIFFER, rigid_limit};
+use super::limit::{Height, STIFFER, flat_energy};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
 use super::pass::{Descent, Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
-use crate::model::{Assembly, Gauge};
-use crate::sheet::flatten;
+use crate::model::Assembly;
 use crate::solver::inertia::in_words;
 use crate::solver::{Failure, Options};
 use thiserror::Error;
@@ -42,11 +41,6 @@ const BENDS: u64 = 3;
 const SAME_PASS: f64 = 1e-8;
 /// Tolerance of a pass.
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
-/// Largest fold angle, in radians, of a pass in nearly rigid bars that tends to the flat state: with the cube root of
-/// one over their stiffness.
-const NEARLY_FLAT_RAD: f64 = 1e-2;
-/// How many estimated errors of a limit it may be off.
-const ERRORS_OF_LIMIT: f64 = 5.0;
 /// Least distance of two wells in soft bars, over that of the wells of the sheet.
 const APART: f64 = 1e-3;
 /// How often, at last, a path is held more strongly in the sheet's own bars, and by what factor.
@@ -152,8 +146,8 @@ pub struct Barrier {
     pub heights: Vec<Height>,
     /// Stiffness of the bars in which the path was found.
     pub stiffness: f64,
-    /// The descents from the pass, from the first of the wells that it joins to the second one: distances along them, in
-    /// `sqrt(sum k (d rho)^2)`, and energies. Where the pass is singular, in the bars in which it is not.
+    /// The descents from the pass, from the first of the wells that it joins to the second one: distances along them,
+    /// in `sqrt(sum k (d rho)^2)`, and energies. Where the pass is singular, in the bars in which it is not.
     pub path: Vec<(f64, f64)>,
 }
 
@@ -388,17 +382,4 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed
 /// Whether a pass in rigid bars is regular: no fold angle is farther from the last pass before than that.
 fn near(found: &Pass, before: &Pass) -> bool {
     found.rho.iter().zip(&before.rho).all(|(a, b)| (a - b).abs() <= REGULAR)
-}
-
-/// The energy of the flat state of a sheet without loads, where a pass that is singular in rigid bars tends to it: the
-/// sheet can be unfolded, all hinges of the last regular pass are nearly flat, and the energies tend to that energy
-/// within a few times the error of their limit.
-fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Option<f64> {
-    let flat = singular.rho.iter().all(|angle| angle.abs() <= NEARLY_FLAT_RAD);
-    let limit = rigid_limit(heights).filter(|_| flat)?;
-    if !assembly.terms().loads.is_empty() || flatten(assembly.sheet()).is_err() {
-        return None;
-    }
-    let energy = assembly.model(Gauge::Held).elastic_hinges().map(|hinge| hinge.response(0.0)[0]).sum::<f64>();
-    ((energy - limit.energy).abs() <= ERRORS_OF_LIMIT * limit.error).then_some(energy)
 }

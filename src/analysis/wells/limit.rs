@@ -1,10 +1,19 @@
 //! The energy to which a pass tends as its bars become rigid, from its energies at finite stiffness.
 
+use super::pass::Pass;
+use crate::model::{Assembly, Gauge};
+use crate::sheet::flatten;
+
 /// Factor from the stiffness of the bars of a pass to the next.
 pub(super) const STIFFER: f64 = 10.0;
 
 /// Differences of energies, relative, from which their law is read.
 const CLEAR: f64 = 1e-8;
+/// Largest fold angle, in radians, of a pass in nearly rigid bars that tends to the flat state: with the cube root of
+/// one over their stiffness.
+const NEARLY_FLAT_RAD: f64 = 1e-2;
+/// How many estimated errors of a limit it may be off.
+const ERRORS_OF_LIMIT: f64 = 5.0;
 
 /// A pass at one stiffness of the bars.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,4 +53,17 @@ fn law(three: &[&Height]) -> Option<RigidLimit> {
     let left = second * ratio / (1.0 - ratio);
     let law = RigidLimit { exponent: -ratio.log10(), energy: three[2].energy + left, error: left.abs() };
     (even && clear).then_some(law)
+}
+
+/// The energy of the flat state of a sheet without loads, where a pass that is singular in rigid bars tends to it: the
+/// sheet can be unfolded, all hinges of the last regular pass are nearly flat, and the energies tend to that energy
+/// within a few times the error of their limit.
+pub(super) fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Option<f64> {
+    let flat = singular.rho.iter().all(|angle| angle.abs() <= NEARLY_FLAT_RAD);
+    let limit = rigid_limit(heights).filter(|_| flat)?;
+    if !assembly.terms().loads.is_empty() || flatten(assembly.sheet()).is_err() {
+        return None;
+    }
+    let energy = assembly.model(Gauge::Held).elastic_hinges().map(|hinge| hinge.response(0.0)[0]).sum::<f64>();
+    ((energy - limit.energy).abs() <= ERRORS_OF_LIMIT * limit.error).then_some(energy)
 }

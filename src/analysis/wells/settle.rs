@@ -108,8 +108,8 @@ impl MinimumTracker {
         Ok(Settled { place, rho, energy, relaxed })
     }
 
-    /// The energy of all elements, with the springs of the sheet itself, in the state of a model that may be held. Stiff
-    /// elements other than hinges store it in their tensions.
+    /// The energy of all elements, with the springs of the sheet itself, in the state of a model that may be held.
+    /// Stiff elements other than hinges store it in their tensions.
     fn elastic_energy(&self, held: &Model, state: &Configuration) -> f64 {
         let of_value = |(held, own): (Element<'_>, Element<'_>)| own.response(held.value(&state.coordinates))[0];
         let soft = held.soft().zip(self.model.soft()).map(of_value);

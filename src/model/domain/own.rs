@@ -122,8 +122,8 @@ impl CellMap {
         (self.map.linear, Some(by_shared))
     }
 
-    /// Adds the second derivative of `force . P` to the lower triangle, `P` being the copy of a vertex: the block of the
-    /// vertex (at `at`) and that of the shared coordinates (at `shared`, which come after it).
+    /// Adds the second derivative of `force . P` to the lower triangle, `P` being the copy of a vertex: the block of
+    /// the vertex (at `at`) and that of the shared coordinates (at `shared`, which come after it).
     pub(super) fn add_curvature(&self, vertex: &Vec3, force: &Vec3, (at, shared): (usize, usize), to: &mut Pulled) {
         for (k, first) in self.first.iter().enumerate() {
             let by_vertex = first.linear.transpose() * force;

@@ -239,8 +239,8 @@ impl Canvas {
     }
 }
 
-/// Returns the content of the element of a text, with its font and place: text with subscripts or superscripts begins at
-/// its place.
+/// Returns the content of the element of a text, with its font and place: text with subscripts or superscripts begins
+/// at its place.
 fn written(font: Font, [x, y]: PaperPoint, words: &str) -> (Font, PaperPoint, String) {
     if !script::has_script(words) {
         return (font, [x, y], escaped(words));

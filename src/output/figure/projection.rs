@@ -1,5 +1,5 @@
-//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes, of a sheet that is
-//! closed round an axis with that axis upright.
+//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes, of a sheet that
+//! is closed round an axis with that axis upright.
 
 use nalgebra::Matrix3;
 
@@ -32,8 +32,8 @@ impl Projection {
     /// Returns the view from the side of the face normals in which the longer side of the sheet runs across the figure.
     /// A sheet that is closed round an axis, such as a tube or a drum, stands upright and is seen from less high above.
     ///
-    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet, `OF_CLOSED` to that across the axis;
-    /// its part in that plane has the angle `TURN` to the second principal axis. All are in radians.
+    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet, `OF_CLOSED` to that across the
+    /// axis; its part in that plane has the angle `TURN` to the second principal axis. All are in radians.
     pub(crate) fn of(points: &[Vec3], triangles: &[[usize; 3]]) -> Self {
         const ELEVATION: f64 = 0.82;
         const OF_CLOSED: f64 = 0.4;
@@ -103,12 +103,12 @@ impl Spread {
         }
     }
 
-    /// Returns the principal axes of a sheet, a right-handed orthonormal frame: the directions of the largest and second
-    /// largest extent, and the normal.
+    /// Returns the principal axes of a sheet, a right-handed orthonormal frame: the directions of the largest and
+    /// second largest extent, and the normal.
     ///
     /// The normal is the direction of least extent, oriented like the mean of the face normals. If the sheet is about
-    /// as long as wide, its other two axes are not well defined (they would change with rounding errors); then the first
-    /// axis is the direction in the plane nearest to x.
+    /// as long as wide, its other two axes are not well defined (they would change with rounding errors); then the
+    /// first axis is the direction in the plane nearest to x.
     fn principal_axes(&self, normals: &Normals) -> [Vec3; 3] {
         let [long, _, thin] = self.directions;
         let normal = upright(thin, normals.vectors);
@@ -120,8 +120,8 @@ impl Spread {
     /// Returns the axis round which a sheet is closed, upwards; `None` if it is not closed.
     ///
     /// The face normals of a closed sheet cancel, and nearly all of its faces are turned outwards, or nearly all
-    /// inwards. Its extents across the axis are about equal, so that the axis is the direction of the third. A sheet that
-    /// is as long as wide and high stands as it is drawn.
+    /// inwards. Its extents across the axis are about equal, so that the axis is the direction of the third. A sheet
+    /// that is as long as wide and high stands as it is drawn.
     fn axis(&self, normals: &Normals) -> Option<Vec3> {
         let [most, middle, least] = self.extents;
         let cancelled = normals.vectors.norm() <= CANCELLED * normals.sizes;

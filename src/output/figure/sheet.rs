@@ -253,8 +253,8 @@ fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
     canvas.text([right + 12.0, level + 6.5], &number(length, length), Font::LABEL);
 }
 
-/// Draws the scale of fold angles, from the sharpest mountain to the sharpest valley, as wedges; of a flat sheet, what the
-/// colours of its letters mean.
+/// Draws the scale of fold angles, from the sharpest mountain to the sharpest valley, as wedges; of a flat sheet, what
+/// the colours of its letters mean.
 fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
     let [mountain, valley] = fold_range(picture);
     let sharpest = valley.max(-mountain);

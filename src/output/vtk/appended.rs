@@ -1,6 +1,6 @@
 //! Arrays that follow a VTU file as raw bytes, as ParaView saves them, put into its elements as base64.
 //!
-//! Such a file is no XML: behind `<AppendedData encoding="raw">_` come the bytes of the arrays one after the other,
+//! A file with raw bytes is no XML. Behind `<AppendedData encoding="raw">_` stand the bytes of the arrays in a row,
 //! each after its length, or compressed after the number and lengths of its blocks. The offsets of `DataArray` elements
 //! count from the underscore ("VTK XML formats", Kitware).
 
@@ -12,7 +12,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::output::fault::VtuFault;
 
 /// How the raw bytes of a file are to be read.
-struct Layout<'b> {
+struct RawArrays<'b> {
     data: &'b [u8],
     /// Bytes of a number of the headers of arrays.
     width: usize,
@@ -34,7 +34,7 @@ pub(super) fn inlined(bytes: &[u8]) -> Result<Cow<'_, [u8]>, VtuFault> {
     let head = String::from_utf8_lossy(&bytes[..start]);
     let file = head.find("<VTKFile").map_or("", |at| &head[at..]);
     let file = &file[..file.find('>').unwrap_or(file.len())];
-    let layout = Layout {
+    let arrays = RawArrays {
         data: &bytes[begin..],
         width: if attribute(file, "header_type") == Some("UInt64") { 8 } else { 4 },
         big_endian: attribute(file, "byte_order") == Some("BigEndian"),
@@ -56,7 +56,7 @@ pub(super) fn inlined(bytes: &[u8]) -> Result<Cow<'_, [u8]>, VtuFault> {
         let inner = tag.trim_end_matches('>').trim_end_matches('/');
         text.push_str(&inner.replace("\"appended\"", "\"binary\""));
         text.push('>');
-        text.push_str(&layout.encoded(offset).ok_or_else(|| VtuFault::Format("an array is beyond its end".into()))?);
+        text.push_str(&arrays.encoded(offset).ok_or_else(|| VtuFault::Format("an array is beyond its end".into()))?);
         text.push_str("</DataArray>");
         let closing = "</DataArray>";
         let is_closed = tag.ends_with("/>");
@@ -67,7 +67,7 @@ pub(super) fn inlined(bytes: &[u8]) -> Result<Cow<'_, [u8]>, VtuFault> {
     Ok(text.into_bytes().into())
 }
 
-impl Layout<'_> {
+impl RawArrays<'_> {
     /// Returns the array at an offset as the text of an element; `None` if it is beyond the end.
     fn encoded(&self, offset: usize) -> Option<String> {
         let array = self.data.get(offset..)?;

@@ -2,8 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-use crate::scene::values::{Positive, ValueError};
+use crate::scene::values::Positive;
 
 /// `[units]`: names of units for axes, tables and summaries.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -38,7 +39,7 @@ pub struct MaterialSpec {
     /// Young's modulus, force per area.
     pub young: Positive,
     /// Poisson's ratio.
-    pub poisson: Poisson,
+    pub poisson: PoissonRatio,
     /// Thickness of the sheet.
     pub thickness: Positive,
     /// Length scale of the creases: the width of the strip of sheet that bends as one of them. Left out: `energy` gives
@@ -50,12 +51,17 @@ pub struct MaterialSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
 #[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5))]
-pub struct Poisson(pub f64);
+pub struct PoissonRatio(pub f64);
 
-impl TryFrom<f64> for Poisson {
-    type Error = ValueError;
+/// A Poisson's ratio that no elastic material has.
+#[derive(Debug, Error)]
+#[error("Poisson's ratio is {0}, expected a number above -1, and at most 0.5")]
+pub struct NoPoissonRatio(f64);
 
-    fn try_from(value: f64) -> Result<Self, ValueError> {
-        if value > -1.0 && value <= 0.5 { Ok(Self(value)) } else { Err(ValueError::NoPoisson(value)) }
+impl TryFrom<f64> for PoissonRatio {
+    type Error = NoPoissonRatio;
+
+    fn try_from(value: f64) -> Result<Self, NoPoissonRatio> {
+        if value > -1.0 && value <= 0.5 { Ok(Self(value)) } else { Err(NoPoissonRatio(value)) }
     }
 }

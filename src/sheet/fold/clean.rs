@@ -7,7 +7,7 @@ use serde_json::value::RawValue;
 use super::edges::Edges;
 use super::frames::Frame;
 use super::locate::Source;
-use super::read::{Drawn, Rows};
+use super::read::{ReadFrame, Rows};
 use super::record;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::Drawing;
@@ -30,7 +30,7 @@ const LOST: [&str; 3] = ["foldwell:stiffness", "foldwell:bar_stiffness", "foldwe
 pub(super) fn sheet(
     source: &Source,
     frame: &Frame,
-    (drawn, rows, mut edges): Drawn,
+    (drawn, rows, mut edges): ReadFrame,
     cleanup: &Cleanup,
 ) -> Result<Sheet, SheetError> {
     if let Some(found) = no_flat_pattern(&drawn) {
@@ -57,7 +57,7 @@ pub(super) fn sheet(
 
 /// Returns the clean-up of a flat pattern with auxiliary edges that end inside a face, or with cuts of one edge; `None`
 /// if it has none of these.
-pub(super) fn needed((drawn, rows, edges): &Drawn) -> Option<Cleanup> {
+pub(super) fn needed((drawn, rows, edges): &ReadFrame) -> Option<Cleanup> {
     if edges.ends.is_empty() || no_flat_pattern(drawn).is_some() {
         return None;
     }

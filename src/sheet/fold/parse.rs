@@ -5,7 +5,7 @@ use std::path::Path;
 use super::frames::{self, Frame};
 use super::keys::Keys;
 use super::locate::Source;
-use super::read::{Drawn, read_drawing};
+use super::read::{ReadFrame, read_drawing};
 use super::{clean, read as listed};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::SheetError;
@@ -79,7 +79,7 @@ fn with_frame(
     text: &str,
     name: &str,
     frame: Option<usize>,
-    build: impl for<'a> Fn(&Source<'a>, &Frame<'a>, &Keys<'a>, Drawn<'a>) -> Result<Sheet, SheetError>,
+    build: impl for<'a> Fn(&Source<'a>, &Frame<'a>, &Keys<'a>, ReadFrame<'a>) -> Result<Sheet, SheetError>,
 ) -> Result<Sheet, SheetError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { name, text };

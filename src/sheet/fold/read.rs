@@ -27,15 +27,15 @@ pub(super) struct Rows<'a> {
     holes: Vec<&'a RawValue>,
 }
 
-/// What a frame draws, where its parts stand in the text, and its edges.
-pub(super) type Drawn<'a> = (Drawing, Rows<'a>, Edges<'a>);
+/// A frame as it is read: the drawing, the places of its parts in the text, and its edges.
+pub(super) type ReadFrame<'a> = (Drawing, Rows<'a>, Edges<'a>);
 
 /// Returns the sheet that a frame draws, with the numbers of its vertices and edges.
 pub(super) fn sheet<'a>(
     source: &Source<'a>,
     frame: &Frame<'a>,
     keys: &Keys<'a>,
-    (mut drawn, mut rows, mut edges): Drawn<'a>,
+    (mut drawn, mut rows, mut edges): ReadFrame<'a>,
 ) -> Result<Sheet, SheetError> {
     check_ends(&edges.ends, drawn.coords.len()).map_err(|(e, problem)| source.at(edges.rows[e], problem))?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
@@ -54,7 +54,7 @@ pub(super) fn sheet<'a>(
 }
 
 /// Reads title, vertices, edges and faces of a frame.
-pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Keys<'a>) -> Result<Drawn<'a>, SheetError> {
+pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Keys<'a>) -> Result<ReadFrame<'a>, SheetError> {
     let mut rows = Rows::default();
     let mut drawn = head(source, keys)?;
     read_vertices(source, keys, &mut drawn, &mut rows)?;

@@ -10,7 +10,7 @@ pub enum GenerateError {
     Unknown {
         /// Description of the error.
         message: String,
-        /// What would be right.
+        /// Advice: the names or values that are allowed, and the one that is probably meant.
         help: String,
     },
     /// A number is outside its range.

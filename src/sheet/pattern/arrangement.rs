@@ -38,7 +38,7 @@ pub(crate) enum Disorder {
     /// The end of the segment of this number belongs to a chain of near points that is too wide for one point, or its
     /// pieces are still split after all repetitions.
     Tangled(usize),
-    /// There are more than this number of points.
+    /// The lines meet at more points than this number, which is the limit.
     TooMany(usize),
 }
 

@@ -1,6 +1,6 @@
 //! `.cp` files of ORIPA and Oriedita: a line of text for each line of the pattern, `type x1 y1 x2 y2`.
 
-use super::line::{Drawn, Line, Lines, flip, offset, place};
+use super::line::{DrawnLines, Line, Lines, flip, offset, place};
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -48,7 +48,7 @@ pub(super) fn value(found: &str, what: &'static str, right: &'static str) -> Pat
 
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
-    let mut drawn = Drawn::default();
+    let mut drawn = DrawnLines::default();
     for row in text.lines() {
         let words: Vec<&str> = row.split_whitespace().collect();
         let at = offset(text, row.trim_start());

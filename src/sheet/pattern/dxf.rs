@@ -12,7 +12,7 @@ use kurbo::{Arc, BezPath, Circle, Point, Shape, Vec2};
 
 use super::colour;
 use super::cp::{number, value};
-use super::line::{Drawn, Line, Lines, Misread, offset, place};
+use super::line::{DrawnLines, Line, Lines, Misread, offset, place};
 use super::outline::{self, Outline};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -93,7 +93,7 @@ pub(super) fn lines(text: &str) -> Lines {
             _ => {}
         }
     }
-    let mut drawn = Drawn::default();
+    let mut drawn = DrawnLines::default();
     drawn.redrawing.grey = grey;
     outline::draw(&outlines, &mut drawn);
     Ok(drawn)

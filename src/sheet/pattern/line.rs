@@ -7,22 +7,22 @@ use crate::sheet::pattern_fault::{LineName, PatternFault};
 use crate::sheet::redrawing::Redrawing;
 
 /// The lines of a file, or an error with its line and column.
-pub(super) type Lines = Result<Drawn, Misread>;
+pub(super) type Lines = Result<DrawnLines, Misread>;
 
 /// The lines of a file.
 #[derive(Default)]
-pub(super) struct Drawn {
+pub(super) struct DrawnLines {
     pub lines: Vec<Line>,
     /// Title of the file; empty if it has none.
     pub title: String,
-    /// What was done to read the lines.
+    /// Changes that were made to read the lines.
     pub redrawing: Redrawing,
 }
 
 /// A problem together with the line and column of the file that have it.
 pub(super) type Misread = ([usize; 2], Box<Problem>);
 
-impl Drawn {
+impl DrawnLines {
     /// Adds a line; one without a finite length draws nothing, and is counted.
     pub fn push(&mut self, line: Line) {
         if line.ends.iter().flat_map(|end| end.iter()).all(|c| c.is_finite()) {

@@ -60,7 +60,7 @@ pub use flat::NotFlat;
 pub(crate) use line::Line;
 pub use write::{write_cp, write_dxf, write_svg};
 
-use line::Drawn;
+use line::DrawnLines;
 
 use super::build::Drawing;
 use super::cell::Sheet;
@@ -144,7 +144,7 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         column,
         problem,
     };
-    let Drawn { lines, mut title, redrawing } = read.map_err(|(place, problem)| bad(place, problem))?;
+    let DrawnLines { lines, mut title, redrawing } = read.map_err(|(place, problem)| bad(place, problem))?;
     if title.is_empty() {
         title = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     }

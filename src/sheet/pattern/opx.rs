@@ -10,7 +10,7 @@
 use roxmltree::Node;
 
 use super::cp::{self, LineType, typed};
-use super::line::{Drawn, Line, Lines};
+use super::line::{DrawnLines, Line, Lines};
 use super::xml;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -32,7 +32,7 @@ pub(super) fn lines(text: &str) -> Lines {
     let objects = objects.filter(|node| node.has_tag_name("object"));
     let title = document.descendants().find(|node| node.attribute("property") == Some("title"));
     let title = title.and_then(|node| node.first_element_child()).and_then(|node| node.text()).unwrap_or_default();
-    let mut drawn = Drawn { title: title.trim().to_owned(), ..Drawn::default() };
+    let mut drawn = DrawnLines { title: title.trim().to_owned(), ..DrawnLines::default() };
     for object in objects {
         drawn.push(line(object).map_err(|fault| (xml::place(&document, object), fault.into()))?);
     }

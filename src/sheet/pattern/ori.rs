@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::cp::{self, LineType, typed, value};
-use super::line::{Drawn, Line, Lines, offset, place};
+use super::line::{DrawnLines, Line, Lines, offset, place};
 use crate::sheet::pattern_fault::PatternFault;
 
 /// The format as messages name it.
@@ -45,7 +45,8 @@ pub(super) fn lines(text: &str) -> Lines {
     let syntax = |error: &serde_json::Error| PatternFault::Syntax { format: FORMAT, message: error.to_string() }.into();
     let save: Save =
         serde_json::from_str(text).map_err(|error| ([error.line().max(1), error.column().max(1)], syntax(&error)))?;
-    let mut drawn = Drawn { title: save.title.filter(|title| title != "_").unwrap_or_default(), ..Drawn::default() };
+    let mut drawn =
+        DrawnLines { title: save.title.filter(|title| title != "_").unwrap_or_default(), ..DrawnLines::default() };
     for raw in save.segments {
         let at = offset(text, raw.get());
         let segment: Segment = serde_json::from_str(raw.get()).map_err(|error| (place(text, at), syntax(&error)))?;

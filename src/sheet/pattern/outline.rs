@@ -2,7 +2,7 @@
 
 use kurbo::{BezPath, PathEl, Point, Rect};
 
-use super::line::{Drawn, Line};
+use super::line::{DrawnLines, Line};
 use crate::math::Vec2;
 
 /// Largest distance of a polyline from its curve, relative to the extent of the drawing: a quarter of a circle as large
@@ -13,7 +13,7 @@ const FLATNESS: f64 = 1e-3;
 pub(super) type Outline = (BezPath, Line);
 
 /// Adds the sides of outlines to the lines of a drawing; curves become polylines, and are counted.
-pub(super) fn draw(outlines: &[Outline], drawn: &mut Drawn) {
+pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
     let finite = outlines.iter().map(|(path, _)| path.control_box()).filter(Rect::is_finite);
     let bounds = finite.reduce(|all, one| all.union(one)).unwrap_or_default();
     let tolerance = FLATNESS * bounds.width().max(bounds.height());

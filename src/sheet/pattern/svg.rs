@@ -11,7 +11,7 @@ use svgtypes::{Color, Transform};
 
 use super::colour;
 use super::cp::value;
-use super::line::{Drawn, Line, Lines, Misread, flip};
+use super::line::{DrawnLines, Line, Lines, Misread, flip};
 use super::outline::{self, Outline};
 use super::svg_shape::{length, outline};
 use super::svg_style::{Properties, Rules, Style};
@@ -38,7 +38,7 @@ pub(super) fn lines(text: &str) -> Lines {
     let mut drawing =
         Drawing { document: &document, rules: Rules::new(&document), elements: 0, grey: 0, outlines: vec![] };
     drawing.read(root, &Around::default(), 0)?;
-    let mut drawn = Drawn { title: title.unwrap_or_default().trim().to_owned(), ..Drawn::default() };
+    let mut drawn = DrawnLines { title: title.unwrap_or_default().trim().to_owned(), ..DrawnLines::default() };
     drawn.redrawing.grey = drawing.grey;
     outline::draw(&drawing.outlines, &mut drawn);
     if drawn.lines.is_empty() {

@@ -80,8 +80,9 @@ fn rings(sectors: usize) -> [Assembly; 2] {
     ]
 }
 
-/// Claim: one sector of a ring relaxes to the energy of a sector of the whole, which keeps its symmetry, and its picture
-/// shows all sectors on the ring. Its rigid motions are along the axis and about it. Tolerance: that of the equilibria.
+/// Claim: one sector of a ring relaxes to the energy of a sector of the whole, which keeps its symmetry, and its
+/// picture shows all sectors on the ring. Its rigid motions are along the axis and about it. Tolerance: that of the
+/// equilibria.
 #[test]
 fn a_sector_has_the_energy_of_its_part_of_the_ring() {
     for sectors in [5, 8, 12] {

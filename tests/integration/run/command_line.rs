@@ -31,8 +31,8 @@ fn wrong_words_are_wrong_input() {
     }
 }
 
-/// Claim: a slip in a command, a pattern, a parameter, a key, a word of a scene or a name is answered by the word that is
-/// meant. Source: slips that users made.
+/// Claim: a slip in a command, a pattern, a parameter, a key, a word of a scene or a name is answered by the word that
+/// is meant. Source: slips that users made.
 #[test]
 fn slips_are_answered_by_what_is_meant() {
     let study = "name = \"a\"\nkind = \"relax\"\n";

@@ -222,8 +222,8 @@ fn chords(random: &mut Numbers) -> String {
 }
 
 /// Claim: random drawings, scribbles and chords of a square in turn, are read or refused within two seconds of
-/// processor time each, chords in most cases read; nothing panics or hangs. `RANDOM_DRAWINGS` in the environment sets their
-/// number.
+/// processor time each, chords in most cases read; nothing panics or hangs. `RANDOM_DRAWINGS` in the environment sets
+/// their number.
 #[test]
 fn random_drawings_come_to_an_end() {
     let count = std::env::var("RANDOM_DRAWINGS").map_or(3_000, |count| count.parse().unwrap());

@@ -13,8 +13,8 @@ fn folding(sheet: &str, rest: &str) -> Scene {
     Scene::on(sheet, &format!("{ENERGY}{creases}[[study]]\nname = \"fold\"\nkind = \"fold\"\ndraw = []"))
 }
 
-/// Claim: a study of kind `fold` has the table of a path along the driven rest angles, to the last digit, from the drawn
-/// sheet without energy to 100 %.
+/// Claim: a study of kind `fold` has the table of a path along the driven rest angles, to the last digit, from the
+/// drawn sheet without energy to 100 %.
 #[test]
 fn folding_is_a_path_along_the_rest_angles() {
     let scene = folding("mesh = \"waterbomb-base.fold\"", "assigned");
@@ -53,8 +53,8 @@ fn patterns_fold_to_the_end() {
     }
 }
 
-/// Claim: a drive, creases that rest as drawn, and a start in a state that is folded already are refused at their place,
-/// with what would be right.
+/// Claim: a drive, creases that rest as drawn, and a start in a state that is folded already are refused at their
+/// place, with what would be right.
 #[test]
 fn what_does_not_fold_is_refused() {
     let sheet = "mesh = \"waterbomb-base.fold\"";

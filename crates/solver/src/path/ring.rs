@@ -8,8 +8,8 @@
 //! (the reduction is that of Lyapunov and Schmidt: M. Golubitsky, I. Stewart, D. Schaeffer, "Singularities and Groups
 //! in Bifurcation Theory", 1988).
 //!
-//! The force `T` shrinks with the radius as `r^(N - 1)` where the sheet has a symmetry of order `N`. On a small ring it is
-//! lost in rounding errors: the ring is widened until it is well above them.
+//! The force `T` shrinks with the radius as `r^(N - 1)` where the sheet has a symmetry of order `N`. On a small ring it
+//! is lost in rounding errors: the ring is widened until it is well above them.
 
 use super::bordered::{Plane, Planes, REFUSED_RESIDUAL};
 use super::corrector::Guess;
