@@ -25,6 +25,7 @@ FIGURES = {
     "crane": "crane/folded",
     "degree-four": "degree-four/folded",
     "drum": "drum-path/crush",
+    "drum-buckling": "drum-buckling/crush-reaction",
     "drum-path": "drum-path/crush-reaction",
     "eggbox": "eggbox/relaxed",
     "flat-quad-folded": "flat-quad/folding",

@@ -96,7 +96,9 @@ class Assembly:
             springs: Springs between two vertices, each a dict as `[[spring]]`: `{"vertices": [3, (7, 0, 1)], "stiffness": 2.0}`.
             drives: Quantities that `path` drives, each a dict as `[[drive]]`.
             laws: Laws other than that of a spring, by term: `{"bars": {"kind": "ogden", "exponents": [5.0, 1.0]},
-                "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`.
+                "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`; a formula, `{"kind": "formula", "torque":
+                "k*sinh(m - m0)"}`; a measured curve, `{"kind": "table", "points": np.column_stack([angle, torque])}`, angles in
+                radians off rest.
             mass: Mass, from which frequencies follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
             material: The elastic sheet from which stiffnesses follow that are not given: `{"young": 1400.0, "poisson": 0.4,
                 "thickness": 0.3, "crease_length": 20.0}`; without `crease_length` there are no creases. Left out: none.
@@ -472,8 +474,9 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     keys = [(term, key, given.get(name), name) for term, (key, name) in own.items()]
     keys += [("creases", "fraction", given.get("fraction"), "fraction")]
     keys += [(term, "law", law, f"laws[{term!r}]") for term, law in given.get("laws", {}).items()]
+    curves = {term for term, law in given.get("laws", {}).items() if isinstance(law, Mapping) and law.get("kind") == "table"}
     for term, key, value, name in keys:
-        if value is not None and term not in energy and "material" not in given:
+        if value is not None and term not in {*energy, *curves} and "material" not in given:
             raise TypeError(f"{name} is given without {term}")
         if value is not None:
             energy.setdefault(term, {})[key] = value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
 from .assembly import Assembly
@@ -297,6 +297,8 @@ def path(
     max_step: float | None = None,
     switch: bool | None = None,
     stop: Mapping[str, Any] | None = None,
+    at: ArrayLike | None = None,
+    probe: Sequence[Mapping[str, Any]] | None = None,
     response: str | None = None,
     name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
     threads: int | None = None, progress: Progress = None, must_converge: bool = True,
@@ -310,7 +312,11 @@ def path(
         tolerance: Bound on both scaled residuals.
         max_step: Longest step in arc length.
         switch: Whether branches that leave at branch points are followed too.
-        stop: Conditions of which the first ends a branch, as in `trace`.
+        stop: Conditions of which the first ends a branch: those of `trace`, and `{"drive": v}`, `{"reaction": r}`,
+            `{"displacement": {"probe": name, "value": d}}`, `{"states": n}`, `{"limit_points": n}`.
+        at: Values of the drive of which the states are rows of their own, wherever the path passes them.
+        probe: Columns `probe_NAME` with the mean displacement of vertices of a patch along an axis since they were drawn:
+            `[{"name": "lid", "vertices": "top", "axis": "z"}]`.
         response: Whether the table has Poisson's ratios of every state of a periodic sheet, as in `trace`.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
 
@@ -350,6 +356,8 @@ def fold(
     max_step: float | None = None,
     switch: bool | None = None,
     stop: Mapping[str, Any] | None = None,
+    at: ArrayLike | None = None,
+    probe: Sequence[Mapping[str, Any]] | None = None,
     response: str | None = None,
     name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
     threads: int | None = None, progress: Progress = None, must_converge: bool = True,
@@ -358,7 +366,8 @@ def fold(
 
     Args:
         assembly: The sheet with its energy, with rest angles such as `rest="assigned"`.
-        start, tolerance, max_step, switch, stop, response: As in `path`.
+        start, tolerance, max_step, switch, stop, probe, response: As in `path`.
+        at: Parts of the way, from 0 to 1, of which the states are rows of their own.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
 
     Example:

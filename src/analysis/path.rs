@@ -10,8 +10,8 @@ use crate::solver::path::{
 };
 pub use crate::solver::path::{HalfBranches, PathEntry, PathRecord};
 use crate::solver::{Failure, Options, Problem, Start};
-pub use stops::PathStop;
 use stops::{CROSSING, Stops};
+pub use stops::{PathStop, Probe};
 use thiserror::Error;
 
 /// Tolerance, steps and ends of a path.
@@ -25,11 +25,13 @@ pub struct PathOptions {
     pub switch: bool,
     /// Conditions that end the path early.
     pub stop: PathStop,
+    /// Driven values of which the states are points of their own, wherever the path passes them.
+    pub at: Vec<f64>,
 }
 
 impl Default for PathOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-12, max_step: 0.05, switch: false, stop: PathStop::default() }
+        Self { tolerance: 1e-12, max_step: 0.05, switch: false, stop: PathStop::default(), at: vec![] }
     }
 }
 
@@ -204,14 +206,17 @@ pub fn resume_path(
         tolerance: options.tolerance,
         max_step: options.max_step,
         target: driven.target(),
+        listed: options.at.iter().map(|value| driven.parameter_at(*value)).collect(),
         length: options.stop.arc_length.unwrap_or(f64::INFINITY),
         switch: options.switch,
+        limit_points: options.stop.limit_points.unwrap_or(usize::MAX),
         ..PathSettings::default()
     };
+    let settings = PathSettings { steps: options.stop.states.unwrap_or(settings.steps), ..settings };
     let mut watch = Stops::new(assembly, &options.stop);
     let mut seen = Seen { measures, branches: vec![], callbacks };
     let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut seen, record)?;
-    Ok(found.iter().zip(seen.branches).map(|(branch, points)| ended(branch, points)).collect())
+    Ok(found.iter().zip(seen.branches).map(|(branch, points)| ended(branch, points, &options.stop)).collect())
 }
 
 /// The points of a path so far, and its observers.
@@ -318,20 +323,23 @@ fn event(driven: &DrivenModel, mark: PathMark) -> Option<PathEvent> {
         (PathMark::BranchPoint(_), _) => Some(PathEvent::BranchPoint),
         (PathMark::Watched(CROSSING), _) => Some(PathEvent::SelfIntersection),
         (PathMark::Watched(_), _) => Some(PathEvent::Stop),
+        (PathMark::Listed, _) => None,
     }
 }
 
-fn ended(branch: &Branch, mut points: Vec<PathPoint>) -> PathBranch {
+fn ended(branch: &Branch, mut points: Vec<PathPoint>, stop: &PathStop) -> PathBranch {
     let end = match branch.end {
         BranchEnd::Target => PathEnd::Arrived,
         BranchEnd::Returned => PathEnd::Returned,
         BranchEnd::Retraced => PathEnd::Retraced,
-        BranchEnd::Length | BranchEnd::Watched(_) => PathEnd::Stopped,
+        BranchEnd::Length | BranchEnd::Watched(_) | BranchEnd::LimitPoints => PathEnd::Stopped,
+        BranchEnd::Steps if stop.states.is_some() => PathEnd::Stopped,
         BranchEnd::Steps => PathEnd::TooManySteps,
         BranchEnd::Failed => PathEnd::Failed,
         BranchEnd::Interrupted => PathEnd::Interrupted,
     };
-    if branch.end == BranchEnd::Length
+    if matches!(branch.end, BranchEnd::Length | BranchEnd::Steps)
+        && end == PathEnd::Stopped
         && let Some(last) = points.last_mut()
     {
         last.event = Some(PathEvent::Stop);

@@ -24,7 +24,9 @@
 //! assert!((rotation::log(&turn) - Vec3::new(0.3, 0.0, 0.0)).norm() < 1e-15);
 //! ```
 
+pub(crate) mod expression;
 pub mod fold_angle;
+pub(crate) mod quadrature;
 pub mod rotation;
 pub(crate) mod sinc;
 pub(crate) mod taylor;

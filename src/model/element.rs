@@ -265,6 +265,14 @@ impl<'a> Element<'a> {
         self.term.stored().is_law()
     }
 
+    /// Whether it has no force at its rest value, and the stiffness of its spring there.
+    pub(crate) fn is_spring_at_rest(&self) -> bool {
+        let [_, force, stiffness] = self.term.stored().at(self.spring.rest, self.spring);
+        let expected = if self.is_beyond_spring() { 0.0 } else { self.spring.stiffness };
+        let known = 1e-9 * self.spring.stiffness;
+        !self.has_law() || (force.abs() <= known * self.spring.rest.abs() && (stiffness - expected).abs() <= known)
+    }
+
     /// Puts value and gradient at the coordinates `x` into `out`, and the Hessian if it is wanted.
     pub(crate) fn local(&self, x: &[f64], want_hessian: bool, out: &mut Local) {
         self.term.local(self.index, self.domain, x, want_hessian, out);

@@ -1,5 +1,6 @@
 //! Laws of published programs.
 
+use super::curve::{of_rest, of_stretch};
 use super::law::Law;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -85,28 +86,36 @@ fn green_lagrange(stretch: f64) -> [f64; 3] {
     [0.125 * (square - 1.0).powi(2), 0.5 * stretch * (square - 1.0), 0.5 * (3.0 * square - 1.0)]
 }
 
-/// `phi = rest^2 f(m / rest)` and its derivatives by `m`, from those of `f`.
-fn of_stretch(rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
-    [rest * rest * f, rest * first, second]
-}
-
-/// The derivatives of the same `phi` and of `phi'` by `rest`, and the second one of `phi`.
-fn of_rest(length: f64, rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
-    let stretch = length / rest;
-    let twice = 2.0 * f - 2.0 * stretch * first + stretch * stretch * second;
-    [2.0 * rest * f - length * first, first - stretch * second, twice]
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::{Bilinear, Formula, Measured, OfAngle, OfStrain, Power};
     use super::*;
 
-    const LAWS: [(&dyn Law, [f64; 4], f64); 4] = [
-        (&Stiffening { limits: [-2.0, 1.0] }, [-2.9, -1.0, 0.7, 2.4], 0.3),
-        (&Ogden { exponents: [5.0, 1.0] }, [0.6, 1.1, 1.5, 2.0], 1.2),
-        (&Ogden { exponents: [2.0, 0.0] }, [0.6, 1.1, 1.5, 2.0], 1.2),
-        (&GreenLagrange, [0.6, 1.1, 1.5, 2.0], 1.2),
-    ];
+    const ANGLES: [f64; 4] = [-2.9, -1.0, 0.7, 2.4];
+    const LENGTHS: [f64; 4] = [0.6, 1.1, 1.5, 2.0];
+    const POINTS: [[f64; 2]; 5] = [[-2.0, -3.0], [-0.45, -1.0], [0.0, 0.0], [0.2, 0.5], [0.9, 0.4]];
+
+    /// A law, values of its measure, a rest value, and whether it has the stiffness of a spring there.
+    type Case = (Box<dyn Law>, [f64; 4], f64, bool);
+
+    fn laws() -> Vec<Case> {
+        let bilinear = Bilinear { ratio: 0.2, at: [-0.9, 0.3] };
+        let measured = Measured::new(&POINTS).unwrap();
+        let torque = "k*(sinh(2*(m - m0))/2 + 0.1*(m - m0)^3 + 0.3*m0*(m - m0)^2)";
+        vec![
+            (Box::new(Stiffening { limits: [-2.0, 1.0] }), ANGLES, 0.3, true),
+            (Box::new(OfAngle(Power { exponent: 4.0 / 3.0 })), ANGLES, 0.3, false),
+            (Box::new(OfAngle(bilinear)), ANGLES, 0.3, true),
+            (Box::new(OfAngle(measured.clone())), ANGLES, 0.3, true),
+            (Box::new(Formula::of_angle(torque).unwrap()), ANGLES, 0.3, true),
+            (Box::new(Ogden { exponents: [5.0, 1.0] }), LENGTHS, 1.2, true),
+            (Box::new(Ogden { exponents: [2.0, 0.0] }), LENGTHS, 1.2, true),
+            (Box::new(GreenLagrange), LENGTHS, 1.2, true),
+            (Box::new(OfStrain(bilinear)), LENGTHS, 1.2, true),
+            (Box::new(OfStrain(measured)), LENGTHS, 1.2, true),
+            (Box::new(Formula::of_length("k*m0*ln(m/m0)").unwrap()), LENGTHS, 1.2, true),
+        ]
+    }
 
     fn difference(f: impl Fn(f64) -> f64, at: f64) -> f64 {
         let step = |h: f64| (f(at + h) - f(at - h)) / (2.0 * h);
@@ -118,9 +127,10 @@ mod tests {
     /// 10, 1e-8 at a wall.
     #[test]
     fn derivatives_are_right() {
-        for (law, values, rest) in LAWS {
+        for (law, values, rest, is_spring) in laws() {
             let [energy, force, stiffness] = law.at(rest, rest);
-            assert!(energy == 0.0 && force == 0.0 && (stiffness - 1.0).abs() < 1e-15, "{law:?} at rest");
+            let expected = if is_spring { 1.0 } else { 0.0 };
+            assert!(energy == 0.0 && force == 0.0 && (stiffness - expected).abs() < 1e-15, "{law:?} at rest");
             for value in values {
                 let ([_, force, stiffness], by_rest) = (law.at(value, rest), law.by_rest(value, rest));
                 let found = [force, stiffness, by_rest[0], by_rest[1], by_rest[2]];

@@ -3,15 +3,16 @@
 pub(crate) use super::drives::rest as rest_drive;
 use super::elements::{ElementKind, ElementValues, name};
 use super::forms::{Mode, RatesFile};
+use super::laws::GivenLaw;
 use super::mass::mass;
 use super::material::material;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::Column;
-use super::spec::{BarLawSpec, DomainSpec, EnergySpec, HingeLawSpec, Lattice};
+use super::spec::{DomainSpec, EnergySpec, HingeLawSpec, Lattice, VertexSet};
 use super::stiffness::StiffnessSpec;
 use super::values::{EdgeName, Fraction};
-use super::{Located, SceneError, SceneFile, drives};
+use super::{Located, SceneError, SceneFile, drives, laws};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, Laws, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Cleanup, Format};
@@ -56,6 +57,18 @@ pub fn drive(file: &SceneFile, assembly: &Assembly, name: &str) -> Result<Drive,
     let found = file.scene.drives.iter().find(|drive| drive.name.0 == name);
     let spec = found.ok_or_else(|| file.error_at(0..0, format!("no drive is called `{name}`"), "add a [[drive]]"))?;
     drives::resolve(file, assembly, spec)
+}
+
+/// Returns the vertices of a set.
+///
+/// # Errors
+/// [`SceneError`] if there are none.
+pub(crate) fn vertices(
+    file: &SceneFile,
+    assembly: &Assembly,
+    set: &Located<VertexSet>,
+) -> Result<Vec<usize>, SceneError> {
+    Places::new(file, assembly).set(set)
 }
 
 /// Returns remarks about a scene for the user, made before its studies.
@@ -169,8 +182,14 @@ impl<'a> Reader<'a> {
 
     fn terms(&self) -> Result<Terms, SceneError> {
         let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec } = &self.file.scene.energy;
+        let of_bars = bar_spec.as_ref().and_then(|spec| spec.law.as_ref());
+        let [bar_law, crease_law, facet_law] = [
+            of_bars.map(|law| laws::of_bars(self.file, law)).transpose()?,
+            self.hinge_law(crease_spec.as_ref().and_then(|spec| spec.law.as_ref()))?,
+            self.hinge_law(facet_spec.as_ref().and_then(|spec| spec.law.as_ref()))?,
+        ];
         let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let bars = match self.stiffness(given, ElementKind::Bars)? {
+        let bars = match self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)? {
             Some(stiffness) => {
                 let rest = bar_spec.as_ref().and_then(|spec| spec.rest.as_ref());
                 Some(Bars { stiffness, rest: self.values.lengths(rest)? })
@@ -179,10 +198,10 @@ impl<'a> Reader<'a> {
         };
         // without facets on the tiling, those of the cell still say which folding modes there are
         let given = facet_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let facet_stiffness = self.stiffness(given, ElementKind::Facets)?.unwrap_or(RIGID.into());
+        let facet_stiffness = self.stiffness(given, facet_law.as_ref(), ElementKind::Facets)?.unwrap_or(RIGID.into());
         let rigid = self.rigid_facets(&facet_stiffness);
         let given = crease_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let creases = match self.stiffness(given, ElementKind::Creases)? {
+        let creases = match self.stiffness(given, crease_law.as_ref(), ElementKind::Creases)? {
             Some(stiffness) => {
                 let spec = crease_spec.as_ref();
                 let rest = (spec.and_then(|spec| spec.rest.as_ref()), spec.and_then(|spec| spec.fraction.as_ref()));
@@ -197,24 +216,30 @@ impl<'a> Reader<'a> {
         } else {
             None
         };
-        let laws = Laws {
-            bars: bar_spec.as_ref().and_then(|bars| bars.law.as_ref()).map(BarLawSpec::law),
-            creases: crease_spec.as_ref().and_then(|creases| creases.law.as_ref()).map(HingeLawSpec::law),
-            facets: facet_spec.as_ref().and_then(|facets| facets.law.as_ref()).map(HingeLawSpec::law),
-        };
+        let [bar_law, crease_law, facet_law] = [bar_law, crease_law, facet_law].map(|own| own.map(|own| own.law));
+        let laws = Laws { bars: bar_law, creases: crease_law, facets: facet_law };
         let (locks, mass) = (self.locks()?, mass(self.file));
         let terms = Terms { bars, creases, facets, locks, mass, laws, ..Terms::default() };
         self.placed(terms)
     }
 
-    /// Returns the stiffness of a term, as given or as the material has it; `None` if neither says anything of it.
+    fn hinge_law(&self, spec: Option<&Located<HingeLawSpec>>) -> Result<Option<GivenLaw>, SceneError> {
+        spec.map(|law| laws::of_hinges(self.file, law)).transpose()
+    }
+
+    /// Returns the stiffness of a term, as given, as its law has it at rest or as the material has it; `None` if none
+    /// of them says anything of it.
     fn stiffness(
         &self,
         given: Option<&Located<StiffnessSpec>>,
+        law: Option<&GivenLaw>,
         of: ElementKind,
     ) -> Result<Option<Stiffness>, SceneError> {
         if let Some(spec) = given {
             return self.values.stiffness(spec, of).map(Some);
+        }
+        if let Some(stiffness) = law.and_then(|law| law.stiffness) {
+            return Ok(Some(stiffness.into()));
         }
         let Some(material) = material(self.file) else { return Ok(None) };
         Ok(match of {

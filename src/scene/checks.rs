@@ -242,7 +242,7 @@ fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
     match &*study.kind {
         StudyKind::Path(path) => driven(file, study, path),
         StudyKind::Fold(path) => folded(file, path),
-        StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
+        StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| trace_stop(file, stop)),
         StudyKind::Landscape(landscape) => not_empty(file, landscape),
         StudyKind::Relax(_) | StudyKind::Bloch(_) | StudyKind::Response(_) => Ok(()),
         StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) => Ok(()),
@@ -318,13 +318,21 @@ fn path_stop(file: &SceneFile, path: &PathSpec) -> Checked {
     some_condition(file, stop)
 }
 
+/// Checks that a trace stops at what it has.
+fn trace_stop(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
+    match stop.of_path() {
+        None => some_condition(file, stop),
+        Some(span) => {
+            let help = "a trace follows rigid foldings, without a drive and forces; kind = \"path\" has this condition";
+            Err(file.error_at(span, "a trace does not stop there", help))
+        }
+    }
+}
+
 fn some_condition(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
-    let none = stop.arc_length.is_none()
-        && stop.curvature.is_none()
-        && stop.crease_angle.is_none()
-        && stop.self_intersection != Some(true);
-    let help = "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true";
-    if none { Err(file.error_at(stop.span(), "no condition to stop at", help)) } else { Ok(()) }
+    let help = "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true; a path \
+                also has drive, displacement = { probe, value }, reaction, states and limit_points";
+    if stop.is_empty() { Err(file.error_at(stop.span(), "no condition to stop at", help)) } else { Ok(()) }
 }
 
 /// Checks that keys about the sampling of rigid states are given only together with `rigid`.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::setting::SettingError;
+use crate::model::CurveError;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
 
@@ -74,6 +75,17 @@ pub enum TableFault {
         /// Name of the last column.
         value: &'static str,
     },
+    /// The header of a curve has other column names.
+    #[error("the header is `{found}`, expected `{},{}`", columns[0], columns[1])]
+    CurveHeader {
+        /// The first line.
+        found: String,
+        /// Names of the columns.
+        columns: [&'static str; 2],
+    },
+    /// Points are no curve.
+    #[error(transparent)]
+    Curve(CurveError),
     /// A line has too few or too many fields.
     #[error("the line has {found} fields, expected {expected} as in the header")]
     Fields {

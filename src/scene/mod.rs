@@ -11,6 +11,7 @@ mod elements;
 pub(crate) mod error;
 mod file;
 pub(crate) mod forms;
+mod laws;
 mod located;
 pub(crate) mod mass;
 mod material;

@@ -7,6 +7,7 @@
 mod drive;
 mod law;
 mod material;
+mod stop;
 mod study;
 mod sweep;
 mod vertices;
@@ -24,6 +25,7 @@ use std::path::PathBuf;
 pub use drive::*;
 pub use law::*;
 pub use material::*;
+pub use stop::*;
 pub use study::*;
 pub use sweep::*;
 pub use vertices::*;
@@ -201,7 +203,7 @@ pub struct BarsSpec {
     /// Rest lengths; left out: as drawn.
     pub rest: Option<Located<RestLengthSpec>>,
     /// How the force grows with the stretch; left out: linearly.
-    pub law: Option<BarLawSpec>,
+    pub law: Option<Located<BarLawSpec>>,
 }
 
 /// `creases = { stiffness, rest, fraction, law }`.
@@ -217,7 +219,7 @@ pub struct CreasesSpec {
     /// letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
-    pub law: Option<HingeLawSpec>,
+    pub law: Option<Located<HingeLawSpec>>,
 }
 
 /// `facets = { stiffness, rest, fraction, law }`.
@@ -233,7 +235,7 @@ pub struct FacetsSpec {
     /// letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
-    pub law: Option<HingeLawSpec>,
+    pub law: Option<Located<HingeLawSpec>>,
 }
 
 /// `mass = { vertex }` or `mass = { area }`: exactly one of both.

@@ -16,13 +16,15 @@ use super::{ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
-    PathRecord, PathStop, resume_path,
+    PathRecord, PathStop, Probe, resume_path,
 };
 use crate::model::{Assembly, Drive, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
+use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, PathSpec};
+use crate::sheet::similar::there_are;
 use std::collections::BTreeSet;
 pub use summary::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
 
@@ -41,6 +43,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     moves(context, spec)?;
     has_effect(context, spec)?;
     stop(context, spec)?;
+    probes(context, spec)?;
     match spec.start.as_ref().map(|start| (&**start, start.span())) {
         Some((StartSpec::Random(_), span)) => {
             let help =
@@ -59,7 +62,12 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         return Ok(start::unavailable(context));
     };
     let start = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
-    let options = PathOptions { switch: spec.switch, stop, ..PathOptions::default() };
+    let options = PathOptions {
+        switch: spec.switch,
+        stop,
+        at: spec.at.iter().map(|value| value.0).collect(),
+        ..PathOptions::default()
+    };
     let options = PathOptions {
         tolerance: spec.tolerance.as_ref().map_or(options.tolerance, |tolerance| tolerance.0),
         max_step: spec.max_step.as_ref().map_or(options.max_step, |step| step.0),
@@ -85,9 +93,29 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     let found = resume_path(context.assembly, &drive, start, &options, record, callbacks);
     match (found, fault) {
         (_, Some(fault)) => Err(fault.into()),
-        (Ok(branches), None) => Ok(answer(context, spec, &drive, &branches)),
+        (Ok(branches), None) => Ok(answer(context, (spec, probes(context, spec)?), &drive, &branches)),
         (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
     }
+}
+
+/// Returns the probes.
+fn probes<'a>(context: &Context<'_>, spec: &'a PathSpec) -> Result<Vec<(&'a str, Probe)>, StudyError> {
+    let mut found: Vec<(&str, Probe)> = vec![];
+    for probe in &spec.probe {
+        let refused = |message: &str, help| Err(context.file.error_at(probe.name.span(), message, help).into());
+        if found.iter().any(|(name, _)| *name == probe.name.0) {
+            return refused("two probes have this name", "give each probe a name of its own");
+        }
+        if context.assembly.boundary().is_periodic() {
+            return refused(
+                "a periodic sheet has no vertex that can be told from its copies",
+                "probes are for patches",
+            );
+        }
+        let vertices = build::vertices(context.file, context.assembly, &probe.vertices)?;
+        found.push((probe.name.0.as_str(), Probe { vertices, axis: probe.axis as usize }));
+    }
+    Ok(found)
 }
 
 /// Returns the stops. The angle of a crease is that of its copy in the middle cell, as in the table.
@@ -107,7 +135,25 @@ fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> 
             Some((edge, wanted.angle.radians))
         }
     };
+    let displacement = match &said.displacement {
+        None => None,
+        Some(wanted) => {
+            let probes = probes(context, spec)?;
+            let names: Vec<&str> = probes.iter().map(|(name, _)| *name).collect();
+            let found = probes.into_iter().find(|(name, _)| *name == wanted.probe.as_str());
+            let missing = || {
+                let message = format!("no probe is called `{}`", *wanted.probe);
+                context.file.error_at(wanted.probe.span(), message, there_are(&wanted.probe, names))
+            };
+            Some((found.ok_or_else(missing)?.1, wanted.value.0))
+        }
+    };
     Ok(PathStop {
+        displacement,
+        drive: said.drive.as_ref().map(|value| value.0),
+        reaction: said.reaction.as_ref().map(|value| value.0),
+        states: said.states.as_ref().map(|count| count.0 as usize),
+        limit_points: said.limit_points.as_ref().map(|count| count.0 as usize),
         arc_length: said.arc_length.as_ref().map(|length| length.0),
         curvature: said.curvature.as_ref().map(|curvature| curvature.0),
         crease_angle,
@@ -127,10 +173,15 @@ fn crease_in_middle(assembly: &Assembly, key: crate::sheet::EdgeKey) -> Option<u
 }
 
 /// Returns the answer of a path that began.
-fn answer(context: &Context<'_>, spec: &PathSpec, drive: &Drive, branches: &[PathBranch]) -> Answer {
+fn answer(
+    context: &Context<'_>,
+    (spec, probes): (&PathSpec, Vec<(&str, Probe)>),
+    drive: &Drive,
+    branches: &[PathBranch],
+) -> Answer {
     let mut answer = Answer::empty(context.study);
     let marks = marks(context, branches);
-    answer.add(format!("{}.csv", context.name()), table::table(context, spec, branches, marks.as_deref()));
+    answer.add(format!("{}.csv", context.name()), table::table(context, (spec, &probes), branches, marks.as_deref()));
     add_pictures(&mut answer, context, drive, branches, marks.as_deref());
     let result = summary(context, (drive_name(context, spec), drive), branches, marks.as_deref());
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));

@@ -11,6 +11,9 @@ use std::f64::consts::TAU;
 const CREASE_ANGLE: usize = 0;
 pub(super) const CROSSING: usize = 1;
 const CURVATURE: usize = 2;
+const DRIVE: usize = 3;
+const DISPLACEMENT: usize = 4;
+const REACTION: usize = 5;
 
 /// Conditions that end a path before the driven value reaches its target; the first that is met ends it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,28 +26,55 @@ pub struct PathStop {
     pub crease_angle: Option<(usize, f64)>,
     /// Whether the path ends where faces first pass through each other.
     pub self_intersection: bool,
+    /// A probe, and its displacement at which the path ends.
+    pub displacement: Option<(Probe, f64)>,
+    /// Driven value at which the path ends.
+    pub drive: Option<f64>,
+    /// [Reaction](super::PathPoint::reaction) at which the path ends.
+    pub reaction: Option<f64>,
+    /// Number of states with which a branch ends.
+    pub states: Option<usize>,
+    /// Number of limit points at the last of which a branch ends.
+    pub limit_points: Option<usize>,
+}
+
+/// A quantity that is read from every state: the mean displacement of some vertices of a patch along an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Numbers of the vertices.
+    pub vertices: Vec<usize>,
+    /// The axis: 0, 1 or 2.
+    pub axis: usize,
+}
+
+impl Probe {
+    /// The displacement from the drawn state to one with these coordinates, in units of length.
+    pub fn displacement(&self, assembly: &Assembly, coordinates: &[f64]) -> f64 {
+        let drawn = &assembly.drawn().coordinates;
+        let moved = self.vertices.iter().map(|vertex| 3 * vertex + self.axis).map(|k| coordinates[k] - drawn[k]);
+        moved.sum::<f64>() / self.vertices.len() as f64
+    }
 }
 
 /// The stops of a path as watched functions.
 pub(super) struct Stops<'a> {
     assembly: &'a Assembly,
-    crease_angle: Option<(usize, f64)>,
+    stop: &'a PathStop,
     /// The crease's angle in the last state that was asked for, from which angles continue.
     last_angle: f64,
-    curvature: Option<f64>,
     crossing: Option<SelfIntersection>,
 }
 
 impl<'a> Stops<'a> {
-    pub(super) fn new(assembly: &'a Assembly, stop: &PathStop) -> Self {
+    pub(super) fn new(assembly: &'a Assembly, stop: &'a PathStop) -> Self {
         let crossing = stop.self_intersection.then(|| SelfIntersection::new(assembly));
         let last_angle = stop.crease_angle.map_or(0.0, |(edge, _)| assembly.drawn_angles()[edge]);
-        Self { assembly, crease_angle: stop.crease_angle, last_angle, curvature: stop.curvature, crossing }
+        Self { assembly, stop, last_angle, crossing }
     }
 
     /// The watched crease's angle less the one at which to stop.
     fn angle(&mut self, model: &Model, coordinates: &[f64]) -> Option<f64> {
-        let (edge, wanted) = self.crease_angle?;
+        let (edge, wanted) = self.stop.crease_angle?;
         let sites = self.assembly.tiling().edges[edge].hinge()?;
         let angle = fold_angle(model.domain().points(coordinates, &sites));
         self.last_angle = angle + TAU * ((self.last_angle - angle) / TAU).round();
@@ -53,7 +83,7 @@ impl<'a> Stops<'a> {
 
     /// The magnitude of the curvature less the one at which to stop.
     fn curvature(&self, coordinates: &[f64]) -> Option<f64> {
-        Some(cylinder(self.assembly.drawn(), coordinates)?.curvature.abs() - self.curvature?)
+        Some(cylinder(self.assembly.drawn(), coordinates)?.curvature.abs() - self.stop.curvature?)
     }
 
     /// 1 where faces pass through each other, -1 elsewhere.
@@ -68,10 +98,17 @@ impl<'a> Stops<'a> {
 impl Watch<DrivenModel> for Stops<'_> {
     fn values(&mut self, driven: &DrivenModel, state: &PathState) -> Vec<f64> {
         let coordinates = driven.model.coordinates(&state.x);
-        let mut values = vec![f64::NAN; 3];
+        let mut values = vec![f64::NAN; 6];
         values[CURVATURE] = self.curvature(&coordinates).unwrap_or(f64::NAN);
         values[CREASE_ANGLE] = self.angle(&driven.model, &coordinates).unwrap_or(f64::NAN);
         values[CROSSING] = self.crosses(driven, state).unwrap_or(f64::NAN);
+        let drive = driven.drive_at(state.parameter);
+        values[DRIVE] = self.stop.drive.map_or(f64::NAN, |wanted| drive - wanted);
+        let displacement = self.stop.displacement.as_ref();
+        let off = |(probe, wanted): &(Probe, f64)| probe.displacement(self.assembly, &coordinates) - wanted;
+        values[DISPLACEMENT] = displacement.map_or(f64::NAN, off);
+        let reaction = driven.reaction_of(state.conjugate[0], state.parameter);
+        values[REACTION] = self.stop.reaction.map_or(f64::NAN, |wanted| reaction - wanted);
         values
     }
 

@@ -83,8 +83,11 @@ impl PeriodicCell {
         Ok(Some(cell))
     }
 
-    /// Checks that all cells have the same elements.
+    /// Checks that all cells have the same elements, which are springs at rest.
     fn check_even(&self, assembly: &Assembly) -> Result<(), ResponseError> {
+        if let Some(element) = self.model.elements().find(|element| !element.is_spring_at_rest()) {
+            return Err(ResponseError::NoSpringAtRest { term: element.kind().name() });
+        }
         let edges = &assembly.tiling().edges;
         let close = |a: f64, b: f64| a == b || (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(1.0);
         let of_cell = |element: &Element<'_>| element.edge().map(|edge| edges[edge].edge);

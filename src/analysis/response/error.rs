@@ -22,6 +22,12 @@ pub enum ResponseError {
         /// Number of the edge in the cell.
         edge: usize,
     },
+    /// A law is not that of a spring at rest.
+    #[error("the linear response is that of springs at rest, where the law of the {term} has another stiffness")]
+    NoSpringAtRest {
+        /// Name of the term.
+        term: &'static str,
+    },
     /// The linear folding modes are not known.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),

@@ -109,6 +109,11 @@ impl DrivenModel {
         if matches!(self.effect, Effect::Compliance(_)) { parameter.recip() } else { parameter }
     }
 
+    /// Returns the parameter that belongs to a driven value.
+    pub fn parameter_at(&self, drive: f64) -> f64 {
+        if matches!(self.effect, Effect::Compliance(_)) { drive.recip() } else { drive }
+    }
+
     /// Returns the reaction for a value of [`ParametrizedProblem::conjugate`]: the derivative of the energy by the
     /// driven value; for loads, their displacement along themselves since the beginning.
     pub fn reaction_of(&self, conjugate: f64, parameter: f64) -> f64 {

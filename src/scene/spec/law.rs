@@ -1,13 +1,16 @@
 //! `law = { kind = "..", .. }` of bars and hinges: how their force grows with what they are off their rest values.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::path::PathBuf;
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, SeqAccess};
 
-use crate::model::{GreenLagrange, Law, Ogden, Stiffening};
 use crate::scene::values::{Exactly, ValueError};
+use crate::scene::written::{Written, read_as_written};
 use crate::sheet::angle::Angle;
 
 /// The law of the bars. `l` is the stretch of a bar, its length over its rest length.
@@ -22,6 +25,22 @@ pub enum BarLawSpec {
     },
     /// The force EA l (l^2 - 1) / 2.
     GreenLagrange {},
+    /// Of two stiffnesses: EA up to two strains, ratio EA beyond them.
+    Bilinear {
+        /// The stiffness beyond them over EA, at least 0.
+        ratio: Ratio,
+        /// The strains: a number on both sides, or [low, high], of which one may be infinite.
+        at: Yields,
+    },
+    /// Through measured points.
+    Table(CurveSpec),
+    /// A formula.
+    Formula {
+        /// The force, of the length `m`, the rest length `m0` and the spring constant `k` = EA / `m0`; as
+        /// "k*m0*ln(m/m0)".
+        #[serde(alias = "torque")]
+        force: String,
+    },
 }
 
 /// The law of the creases, or of the facets.
@@ -34,13 +53,109 @@ pub enum HingeLawSpec {
         /// The two angles, the first below 0 and the second above.
         limits: Limits,
     },
+    /// The torque k d^exponent of the angle d off rest, with its sign.
+    Power {
+        /// The exponent, at least 1.
+        exponent: Exponent,
+    },
+    /// Of two stiffnesses: k up to two angles off rest, ratio k beyond them.
+    Bilinear {
+        /// The stiffness beyond them over k, at least 0.
+        ratio: Ratio,
+        /// The angles off rest in radians: a number on both sides, or [low, high], of which one may be infinite.
+        at: Yields,
+    },
+    /// Through measured points.
+    Table(CurveSpec),
+    /// A formula.
+    Formula {
+        /// The torque, of the fold angle `m`, the rest angle `m0` and the spring constant `k`; as "k*sinh(m - m0)".
+        torque: String,
+    },
+}
+
+/// A curve through measured points: exactly one of `file` and `points`. A stiffness beside it scales the curve; left
+/// out, the slope at rest is the stiffness.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[schemars(rename = "Curve")]
+#[serde(deny_unknown_fields)]
+pub struct CurveSpec {
+    /// CSV: `angle,torque` of hinges, in radians off rest and torque per length; `strain,force` of bars.
+    pub file: Option<PathBuf>,
+    /// The same numbers in the scene, a pair for each point.
+    pub points: Option<Vec<[f64; 2]>>,
+}
+
+/// A ratio of stiffnesses.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("minimum" = 0))]
+pub struct Ratio(pub(crate) f64);
+
+impl TryFrom<f64> for Ratio {
+    type Error = ValueError;
+
+    fn try_from(ratio: f64) -> Result<Self, ValueError> {
+        if ratio >= 0.0 && ratio.is_finite() { Ok(Self(ratio)) } else { Err(ValueError::Ratio(ratio)) }
+    }
+}
+
+/// The exponent of a torque.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("minimum" = 1))]
+pub struct Exponent(pub(crate) f64);
+
+impl TryFrom<f64> for Exponent {
+    type Error = ValueError;
+
+    fn try_from(exponent: f64) -> Result<Self, ValueError> {
+        if (1.0..=100.0).contains(&exponent) { Ok(Self(exponent)) } else { Err(ValueError::Exponent(exponent)) }
+    }
+}
+
+/// The values off rest at which the stiffness of a bilinear law changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Yields(pub(crate) [f64; 2]);
+
+read_as_written!(Yields);
+
+impl Written for Yields {
+    const FORMS: &str = "a number above 0, or [low, high] with low <= 0 <= high";
+
+    fn from_number<E: Error>(size: f64) -> Result<Self, E> {
+        if size > 0.0 { Ok(Self([-size, size])) } else { Err(E::custom(ValueError::Yields(-size, size))) }
+    }
+
+    fn from_whole<E: Error>(size: i64) -> Result<Self, E> {
+        Self::from_number(size as f64)
+    }
+
+    fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let Exactly([low, high]) = Exactly::<f64, 2>::deserialize(SeqAccessDeserializer::new(list))?;
+        let valid = low <= 0.0 && 0.0 <= high && (low.is_finite() || high.is_finite());
+        if valid { Ok(Self([low, high])) } else { Err(A::Error::custom(ValueError::Yields(low, high))) }
+    }
+}
+
+impl JsonSchema for Yields {
+    fn schema_name() -> Cow<'static, str> {
+        "Yields".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [
+            { "type": "number", "exclusiveMinimum": 0, "description": "on both sides" },
+            generator.subschema_for::<[f64; 2]>(),
+        ] })
+    }
 }
 
 /// Two exponents that differ.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(try_from = "Exactly<f64, 2>")]
 #[schemars(with = "[f64; 2]")]
-pub struct Exponents([f64; 2]);
+pub struct Exponents(pub(crate) [f64; 2]);
 
 impl TryFrom<Exactly<f64, 2>> for Exponents {
     type Error = ValueError;
@@ -55,7 +170,7 @@ impl TryFrom<Exactly<f64, 2>> for Exponents {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(try_from = "Exactly<Angle, 2>")]
 #[schemars(with = "[Angle; 2]")]
-pub struct Limits([f64; 2]);
+pub struct Limits(pub(crate) [f64; 2]);
 
 impl TryFrom<Exactly<Angle, 2>> for Limits {
     type Error = ValueError;
@@ -68,19 +183,15 @@ impl TryFrom<Exactly<Angle, 2>> for Limits {
 }
 
 impl BarLawSpec {
-    /// Returns the law.
-    pub(crate) fn law(&self) -> Arc<dyn Law> {
-        match self {
-            Self::Ogden { exponents } => Arc::new(Ogden { exponents: exponents.0 }),
-            Self::GreenLagrange {} => Arc::new(GreenLagrange),
-        }
+    /// The curve, if the law is one.
+    pub(crate) fn curve(&self) -> Option<&CurveSpec> {
+        if let Self::Table(curve) = self { Some(curve) } else { None }
     }
 }
 
 impl HingeLawSpec {
-    /// Returns the law.
-    pub(crate) fn law(&self) -> Arc<dyn Law> {
-        let Self::Stiffening { limits } = self;
-        Arc::new(Stiffening { limits: limits.0 })
+    /// The curve, if the law is one.
+    pub(crate) fn curve(&self) -> Option<&CurveSpec> {
+        if let Self::Table(curve) = self { Some(curve) } else { None }
     }
 }

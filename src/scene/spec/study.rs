@@ -1,9 +1,9 @@
 //! `[[study]]` and the keys of each kind of study.
 
+use super::stop::{ProbeSpec, StopSpec};
 use crate::scene::Located;
 use crate::scene::forms::{BranchChoice, Mode, StartSpec};
-use crate::scene::values::{Cells, Count, EdgeName, Finite, Name, Pair, Positive, WellPair};
-use crate::sheet::angle::Angle;
+use crate::scene::values::{Cells, Count, Finite, Name, Pair, Positive, WellPair};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -154,30 +154,6 @@ pub enum Engine {
     Both,
 }
 
-/// `stop = { .. }`, with at least one condition.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct StopSpec {
-    /// Length of the trajectory in fold angles.
-    pub arc_length: Option<Located<Positive>>,
-    /// Magnitude of the curvature.
-    pub curvature: Option<Located<Positive>>,
-    /// A crease and the angle at which to stop.
-    pub crease_angle: Option<CreaseAngle>,
-    /// Whether to stop when faces first pass through each other.
-    pub self_intersection: Option<bool>,
-}
-
-/// `{ crease, angle }`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CreaseAngle {
-    /// The crease `[i, j, n1, n2]`.
-    pub crease: Located<EdgeName>,
-    /// Its fold angle.
-    pub angle: Located<Angle>,
-}
-
 /// `kind = "surface"`: all states without locks; `[[lock]]` does not apply to it.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -325,6 +301,13 @@ pub struct PathSpec {
     pub switch: bool,
     /// The first of these that is met ends a branch; `curvature` is one of `screw` and `tube`.
     pub stop: Option<Located<StopSpec>>,
+    /// Values of the drive of which the states are rows of their own, wherever the path passes them; of `fold` parts of
+    /// the way, from 0 to 1.
+    #[serde(default)]
+    pub at: Vec<Finite>,
+    /// Columns `probe_NAME` of the table: how far vertices of a patch have moved along an axis since they were drawn.
+    #[serde(default)]
+    pub probe: Vec<ProbeSpec>,
     /// Whether the table has columns with Poisson's ratios of every state, and of which modes; left out: none.
     pub response: Option<Located<RatioColumns>>,
 }

@@ -2,7 +2,7 @@
 
 use super::plot::event_word;
 use crate::analysis::intersections::Marks;
-use crate::analysis::path::{PathBranch, PathPoint};
+use crate::analysis::path::{PathBranch, PathPoint, Probe};
 use crate::analysis::state::{Cylinder, cylinder};
 use crate::output::table::{CYLINDER, RATIOS, Solution, Table, Value};
 use crate::scene::spec::PathSpec;
@@ -13,12 +13,13 @@ use crate::study::{energies, ratios, states};
 /// them, there are the columns of self-intersections and of Poisson's ratios.
 pub(crate) fn table(
     context: &Context<'_>,
-    spec: &PathSpec,
+    (spec, probes): (&PathSpec, &[(&str, Probe)]),
     branches: &[PathBranch],
     marks: Option<&[Vec<Marks>]>,
 ) -> Table {
     let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
     let solution = Solution::columns(context.assembly.terms().own_names());
+    let displacements: Vec<String> = probes.iter().map(|(name, _)| format!("probe_{name}")).collect();
     let columns = ["branch", "step", "arc_length", "drive", "reaction", "work"]
         .into_iter()
         .chain(solution.iter().map(String::as_str))
@@ -26,6 +27,7 @@ pub(crate) fn table(
         .chain(asked(marks.is_some(), &["self_intersecting"]))
         .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))
         .chain(asked(spec.response.is_some(), &RATIOS))
+        .chain(displacements.iter().map(String::as_str))
         .chain(["state"]);
     let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
     let mut table = Table::with_edges(columns, "fold", edges);
@@ -33,7 +35,7 @@ pub(crate) fn table(
         for (step, point) in branch.points.iter().enumerate() {
             let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
             let state = table.len();
-            table.push(row(context, spec, [number, step, state], point, crossing));
+            table.push(row(context, (spec, probes), [number, step, state], point, crossing));
         }
     }
     table
@@ -41,7 +43,7 @@ pub(crate) fn table(
 
 fn row(
     context: &Context<'_>,
-    spec: &PathSpec,
+    (spec, probes): (&PathSpec, &[(&str, Probe)]),
     [branch, step, number]: [usize; 3],
     point: &PathPoint,
     crossing: Option<Value>,
@@ -64,5 +66,6 @@ fn row(
     let own = own.chain([point.negative_eigenvalues.map(|count| count as i64).into(), event]);
     let shape = shape.into_iter().flatten().map(Value::Number);
     let asked = crossing.into_iter().chain(shape).chain(ratios.into_iter().flatten().map(Value::from));
-    own.chain(asked).chain([number]).chain(fold).collect()
+    let moved = probes.iter().map(|(_, probe)| probe.displacement(assembly, coordinates).into());
+    own.chain(asked).chain(moved).chain([number]).chain(fold).collect()
 }

@@ -199,7 +199,7 @@ const FAULTS: &[Fault] = &[
     fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected one of `vtk`, `svg`, `numbers`, `html`"),
     fault(38, "engine = \"fast\"", "38:10", "unknown word `fast`", "expected one of `kinematic`, `energy`, `both`"),
     fault(39, "branch = -2", "39:10", "invalid value: integer `-2`", "expected \"all\" or the number of a branch, counted from 0"),
-    fault(41, "stop = {}", "41:8", "no condition to stop at", "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true"),
+    fault(41, "stop = {}", "41:8", "no condition to stop at", "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true; a path also has drive, displacement = { probe, value }, reaction, states and limit_points"),
     fault(41, "stop = { curvature = 0 }", "41:22", "the number is 0", "expected a finite number above 0"),
     fault(45, "[[study]]\nname = \"late\"\nkind = \"relax\"\nstart = \"modes\"", "48:9", "`modes` is a study of kind modes, which ends in no state", "\"drawn\", the name of an earlier study with states (here \"first\", \"second\", \"third\", \"loop\"), { random, seed } or a .vtu file"),
     fault(45, "eigenvalues = 1.5", "45:15", "invalid type: floating point `1.5`", "expected a whole number, 0 or more"),

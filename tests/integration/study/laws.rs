@@ -4,12 +4,16 @@ use crate::common::Scene;
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::model::{
-    Assembly, Builder, Drive, Driven, GreenLagrange, Law, Length, Ogden, OwnTerm, Site, Spring, Stiffening,
+    Assembly, Bilinear, Builder, Drive, Driven, Formula, GreenLagrange, Law, Length, Measured, OfAngle, OfStrain,
+    Ogden, OwnTerm, Power, Site, Spring, Stiffening,
 };
 use foldwell::sheet::{EdgeKind, Sheet, fold};
 use foldwell::solver::Options;
 use foldwell::{Pattern, RIGID, Rest, generate, relax};
+use nalgebra::Vector3;
 use std::f64::consts::PI;
+
+type Vec3 = Vector3<f64>;
 
 /// Two triangles of sides of length 2 along x, joined there.
 fn hinge() -> Sheet {
@@ -37,7 +41,13 @@ type Force = fn(f64) -> f64;
 /// themselves where strains are above 1e-3, and strains to rounding below.
 #[test]
 fn bars_are_stretched_by_their_law() {
-    let forces: [(Given, Force); 3] = [
+    let forces: [(Given, Force); 6] = [
+        (|bars| bars.bar_law(Formula::of_length("k*m*((m/m0)^2 - 1)/2").unwrap()), |l| l * (l * l - 1.0) / 2.0),
+        (|bars| bars.bar_law(Formula::of_length("k*m0*ln(m/m0)").unwrap()), |l| l.ln()),
+        (
+            |bars| bars.bar_law(OfStrain(Bilinear { ratio: 0.5, at: [-0.01, 0.1] })),
+            |l| (l - 1.0).clamp(-0.01, 0.1) + 0.5 * ((l - 1.1).max(0.0) + (l - 0.99).min(0.0)),
+        ),
         (|bars| bars.bar_law(Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
         (|bars| bars.bar_law(Ogden { exponents: [2.0, 0.0] }), |l| (l - 1.0 / l) / 2.0),
         (|bars| bars.bar_law(GreenLagrange), |l| l * (l * l - 1.0) / 2.0),
@@ -83,6 +93,72 @@ fn hinges_do_not_fold_through() {
     }
 }
 
+/// Claim: a hinge whose wings a spring pulls together rests where the torque of its law, a formula, a power, two
+/// stiffnesses or measured points, balances the spring, be it soft or stiff. Source: virtual work of a turn about the
+/// crease; the torques in closed form. Tolerance: 1e-9, ten times that of the residual.
+#[test]
+fn hinges_have_the_torque_of_their_law() {
+    let measured =
+        Measured::new(&[[-2.0, -1.5], [-0.5, -1.0], [0.0, 0.0], [0.4, 1.0], [1.0, 0.8], [2.0, 3.0]]).unwrap();
+    type Case = (Box<dyn Fn(Builder) -> Builder>, Box<dyn Fn(f64) -> f64>);
+    let laws: [Case; 4] = [
+        (
+            Box::new(|hinges| hinges.crease_law(Formula::of_angle("k*sinh(3*(m - m0))/3").unwrap())),
+            Box::new(|off| (3.0 * off).sinh() / 3.0),
+        ),
+        (
+            Box::new(|hinges| hinges.crease_law(OfAngle(Power { exponent: 1.5 }))),
+            Box::new(|off| off * off.abs().sqrt()),
+        ),
+        (
+            Box::new(|hinges| hinges.crease_law(OfAngle(Bilinear { ratio: 0.1, at: [-0.2, 0.2] }))),
+            Box::new(|off| off.clamp(-0.2, 0.2) * 0.9 + 0.1 * off),
+        ),
+        (
+            Box::new({
+                let measured = measured.clone();
+                move |hinges| hinges.crease_law(OfAngle(measured.clone()))
+            }),
+            // harmonic means of the slopes on both sides: 2.5 and 2 at rest, 0 at the point where the torque turns
+            Box::new(|off| {
+                let rest = 3.0 * 0.9 / ((0.8 + 0.5) / 2.0 + (0.4 + 1.0) / 2.5);
+                let t = off / 0.4;
+                assert!((0.0..=1.0).contains(&t));
+                ((t * (1.0 - t).powi(2)) * 0.4 * rest + t * t * (3.0 - 2.0 * t)) / rest
+            }),
+        ),
+    ];
+    for (law, torque) in laws {
+        for (bars, creases) in [(RIGID, 1.0), (1e3, 1.0), (1.0, 1e5)] {
+            let hinge = Assembly::patch(hinge(), [1, 1]).bars(bars).creases(creases).rest(Rest::Angle(0.3));
+            let plain = law(hinge).build().unwrap();
+            // a spring between the wings, shorter at rest than they are apart, folds the hinge
+            let ends = [2, 3].map(|vertex| Site { vertex, shift: [0, 0] });
+            let pull = Spring { stiffness: 2.0 * creases.min(bars), rest: 2.0 };
+            let state = relax(&plain.with_own_term(OwnTerm::new("pull", Length, [(ends, pull)]))).unwrap().state;
+            let edge = plain.tiling().edges.iter().position(|edge| edge.kind == EdgeKind::Crease).unwrap();
+            let angle = state.fold_angle[edge];
+            let place = |k: usize| Vec3::from_column_slice(&state.coordinates[3 * k..3 * k + 3]);
+            let [wings, width] = [[2, 3].map(place), [0, 1].map(place)];
+            let across = wings[0] - wings[1];
+            // virtual work of a turn about the crease: how fast the wings come closer
+            let axis = (width[1] - width[0]).normalize();
+            let [a, b] = wings.map(|wing| {
+                let arm = wing - width[0];
+                (arm - arm.dot(&axis) * axis).norm()
+            });
+            let opening = a * b * (PI - angle).sin() / across.norm();
+            let found = 2.0 * torque(angle - 0.3);
+            let expected = pull.stiffness / creases * (across.norm() - pull.rest) * opening;
+            assert!(
+                (found - expected).abs() <= 1e-9 * expected.abs().max(0.1),
+                "bars {bars}, creases {creases}, off rest {}: {found} {expected}",
+                angle - 0.3
+            );
+        }
+    }
+}
+
 /// Claim: a rigid element cannot have a law, which would be left out without a word.
 #[test]
 #[should_panic(expected = "a rigid element has no law")]
@@ -115,6 +191,37 @@ fn rest_angles_do_work_against_laws() {
             energy > 0.01 * creases && (energy - work).abs() <= 1e-9 * energy,
             "creases {creases}: {energy} {work}"
         );
+    }
+}
+
+/// Claim: so it is with curves and formulas of bars and creases.
+#[test]
+fn rest_angles_do_work_against_curves() {
+    let curve = || Measured::new(&[[-2.0, -1.5], [-0.5, -1.0], [0.0, 0.0], [0.4, 1.0], [2.0, 1.5]]).unwrap();
+    let strains = Measured::new(&[[-0.1, -0.2], [0.0, 0.0], [0.1, 0.1]]).unwrap();
+    type Case = (&'static str, Box<dyn Fn(Builder) -> Builder>);
+    let laws: [Case; 3] = [
+        ("curves", Box::new(move |given| given.bar_law(OfStrain(strains.clone())).crease_law(OfAngle(curve())))),
+        ("power", Box::new(|given| given.crease_law(OfAngle(Power { exponent: 1.5 })))),
+        (
+            "formulas",
+            Box::new(|given| {
+                let bars = given.bar_law(Formula::of_length("k*m0*ln(m/m0)").unwrap());
+                bars.crease_law(Formula::of_angle("k*(m - m0)*(1 + 0.2*m0^2)/(1 + 0.2*m^2)").unwrap())
+            }),
+        ),
+    ];
+    for (name, law) in laws {
+        let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
+        let given = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).facets(3.0).rest(Rest::Assigned(0.3));
+        let drive = Drive { quantity: Driven::Rest, to: 1.0 };
+        let options = PathOptions { max_step: 0.02, ..PathOptions::default() };
+        let found = follow_path(&law(given).build().unwrap(), &drive, None, &options, &mut |_, _| true).unwrap();
+        let branch = &found[0];
+        assert!(branch.end == PathEnd::Arrived, "{name}: {:?}", branch.end);
+        let last = branch.points.last().unwrap();
+        let (energy, work) = (last.state.total(), last.work);
+        assert!(energy > 0.01 && (energy - work).abs() <= 1e-7 * energy, "{name}: {energy} {work}");
     }
 }
 
@@ -152,9 +259,76 @@ fn laws_are_refused_by_name() {
         (limits, "kind = \"wells\"\nbarriers = [[0, 1]]", "here is another: bars"),
         ("kind = \"stiffening\", limits = [0.5, 2.5]", "kind = \"relax\"", "the limits are 0.5 and 2.5 rad"),
         ("kind = \"stiff\"", "kind = \"relax\"", "unknown word `stiff`"),
+        ("kind = \"power\", exponent = 0.5", "kind = \"relax\"", "the exponent is 0.5"),
+        ("kind = \"bilinear\", ratio = -0.1, at = 0.2", "kind = \"relax\"", "the ratio is -0.1"),
+        ("kind = \"bilinear\", ratio = 0.1, at = [0.1, 0.2]", "kind = \"relax\"", "changes at 0.1 and 0.2 off rest"),
+        ("kind = \"table\", points = [[0, 0], [1, 1], [1, 2]]", "kind = \"relax\"", "point 2 is at 1.0"),
+        ("kind = \"table\"", "kind = \"relax\"", "has no curve"),
+        ("kind = \"formula\", torque = \"2*k*(m - m0)\"", "kind = \"relax\"", "with the slope 2"),
+        ("kind = \"formula\", torque = \"k*sin(m - rest)\"", "kind = \"relax\"", "`rest` at character 11"),
     ] {
         scene(law, &format!("[[study]]\nname = \"a\"\n{study}\n")).refused(said);
     }
+}
+
+/// Claim: a scene has the same states with the points of a curve in a file or in the scene, with or without the
+/// stiffness that is the slope at rest, and with a formula or two stiffnesses that are the same torque; twice the
+/// stiffness is twice the energy. Source: each other. Tolerance: rounding errors; that of relaxations for the last.
+#[test]
+fn curves_come_from_files_and_scenes() {
+    let energy = |given: &str, bars: &str| {
+        let text = format!(
+            "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ncells = [2, 2]\n[energy]\n\
+             bars = {{ stiffness = {bars} }}\ncreases = {{ rest = \"assigned\", fraction = 0.4, {given} }}\n\
+             [[study]]\nname = \"relaxed\"\nkind = \"relax\"\n"
+        );
+        let file = "angle,torque\n-2.0,-2.0\n\n-1.0, -1.0\n0,0\n1.0,1.0\n2.0,2.0\n";
+        Scene::new(text).with("torque.csv", file).converged().relaxed("relaxed").energy.total
+    };
+    let points = "points = [[-2, -2], [-1, -1], [0, 0], [1, 1], [2, 2]]";
+    let linear = energy("stiffness = 1.0", "1e3");
+    for law in [
+        "law = { kind = \"table\", file = \"torque.csv\" }".to_owned(),
+        format!("law = {{ kind = \"table\", {points} }}"),
+        format!("stiffness = 1.0, law = {{ kind = \"table\", {points} }}"),
+        "stiffness = 1.0, law = { kind = \"bilinear\", ratio = 1.0, at = 0.1 }".into(),
+        "stiffness = 1.0, law = { kind = \"power\", exponent = 1 }".into(),
+        "stiffness = 1.0, law = { kind = \"formula\", torque = \"k*(m - m0)\" }".into(),
+    ] {
+        let found = energy(&law, "1e3");
+        assert!((found - linear).abs() <= 1e-10 * linear, "{law}: {found}, {linear} with springs");
+        if law.contains("stiffness = 1.0") {
+            let twice = energy(&law.replace("stiffness = 1.0", "stiffness = 2.0"), "2e3");
+            assert!((twice - 2.0 * found).abs() <= 1e-9 * found, "{law}: {twice} is not twice {found}");
+        }
+    }
+    Scene::new(
+        "sheet = { generate = { pattern = \"miura\" } }\n[energy]\nbars = { stiffness = 1e3 }\n\
+         creases = { law = { kind = \"table\", file = \"torque.csv\" } }\n[[study]]\nname = \"a\"\nkind = \"relax\"\n",
+    )
+    .with("torque.csv", "angle,torque\n-1,-1\n0,0\n\n0,1\n")
+    .refused("torque.csv:5: point 2 is at 0.0");
+}
+
+/// Claim: a law that has no stiffness at rest has no moduli there, which are refused by its name; ratios of rigid
+/// foldings do not need it, and a law that is a spring at rest has the moduli of that spring.
+#[test]
+fn moduli_need_a_stiffness_at_rest() {
+    let found = |law: &str| {
+        let scene = Scene::new(format!(
+            "[sheet]\ngenerate = {{ pattern = \"miura\" }}\ndomain = \"torus\"\ncells = [1, 1]\n[energy]\n\
+             bars = {{ stiffness = 1e3 }}\ncreases = {{ stiffness = 1.0{law} }}\nfacets = {{ stiffness = 10.0 }}\n\
+             [[study]]\nname = \"a\"\nkind = \"response\"\n"
+        ));
+        let ran = scene.converged();
+        let response = ran.response("a");
+        (response.moduli.is_some(), response.no_moduli.clone().unwrap_or_default(), ran.json()[0]["moduli"].clone())
+    };
+    let (any, reason, _) = found(", law = { kind = \"power\", exponent = 1.5 }");
+    assert!(!any && reason.contains("the law of the creases has another stiffness"), "{reason}");
+    let (spring, law) = (found(""), found(", law = { kind = \"bilinear\", ratio = 2, at = 0.1 }"));
+    assert!(spring.0 && !spring.2.is_null());
+    assert_eq!(spring, law);
 }
 
 /// Claim: a spring between two vertices of a sheet that is rigid but for its creases pulls them together until its

@@ -4,7 +4,7 @@
 //! with `l^2 = w^2 + z^2`; the drum of Kresling's pattern, whose bars have the lengths `sqrt(h^2 + 2 - 2 cos t)` and
 //! `sqrt(h^2 + 2 - 2 cos(t - pi/3))` at height `h` and twist `t`, minimised over the twist.
 
-use crate::common::{Ran, Scene};
+use crate::common::{Ran, Scene, Table};
 use foldwell::study::path::PathBranchSummary;
 
 /// Returns the only branch of a path.
@@ -155,6 +155,66 @@ fn files_of_a_path() {
     for picture in ["pushed.svg", "pushed-reaction.svg"] {
         assert!(ran.out.has(picture), "{picture}");
     }
+}
+
+/// Claim: a path has a row of its own at each listed value that it passes, exactly there, as often as it passes it, and
+/// none at values that it does not reach; the other rows do not change. A probe follows the driven vertex, and the mean
+/// of both ends of a bar that stays is zero. Source: the path without the list. Tolerance: rounding errors.
+#[test]
+fn listed_values_are_rows_and_probes_columns() {
+    let plain = Scene::of("two-bars-push").converged().out.table("pushed.csv");
+    let keys = "kind = \"path\"\nat = [-0.25, -0.5, -2.0]\nprobe = [{ name = \"top\", vertices = \"apex\", axis = \"z\" }, \
+        { name = \"across\", vertices = \"apex\", axis = \"x\" }]";
+    let listed = Scene::of("two-bars-push").replaced("kind = \"path\"", keys).converged().out.table("pushed.csv");
+    let at = |value: f64| (0..listed.len()).filter(|&row| listed.at(row, "drive") == value).count();
+    assert_eq!([at(-0.25), at(-0.5), at(-2.0)], [1, 1, 0]);
+    let others = (0..listed.len()).filter(|&row| ![-0.25, -0.5].contains(&listed.at(row, "drive")));
+    let others: Vec<f64> = others.map(|row| listed.at(row, "drive")).collect();
+    assert_eq!(others, (0..plain.len()).map(|row| plain.at(row, "drive")).collect::<Vec<f64>>());
+    for row in 0..listed.len() {
+        assert!(listed.at(row, "residual_force") <= 1e-12 && listed.field(row, "event").len() != 1);
+        let [drive, top, across] = ["drive", "probe_top", "probe_across"].map(|column| listed.at(row, column));
+        assert!((top - drive).abs() <= 1e-14 && across.abs() <= 1e-12, "row {row}: {drive} {top} {across}");
+    }
+    let twice = keys.replace("across\"", "top\"");
+    Scene::of("two-bars-push").replaced("kind = \"path\"", &twice).refused("two probes have this name");
+    let nobody = keys.replace("\"apex\", axis = \"x\"", "\"apexx\", axis = \"x\"");
+    Scene::of("two-bars-push").replaced("kind = \"path\"", &nobody).refused("apexx");
+}
+
+/// Claim: a path ends exactly where its drive, a probe or its reaction has a value, with so many states, or at a limit
+/// point. Source: the rows of the whole path; the reaction between two of its rows. Tolerance: rounding errors.
+#[test]
+fn paths_stop_at_what_an_experiment_reads() {
+    let whole = Scene::of("two-bars-push").converged().out.table("pushed.csv");
+    let probe = "probe = [{ name = \"top\", vertices = \"apex\", axis = \"z\" }]";
+    let last = |stop: &str| {
+        let keys = format!("kind = \"path\"\n{probe}\nstop = {{ {stop} }}");
+        let ran = Scene::of("two-bars-push").replaced("kind = \"path\"", &keys).converged();
+        assert_eq!(branch(&ran, "pushed").end, "stop", "{stop}");
+        ran.out.table("pushed.csv")
+    };
+    assert!((last("drive = -0.21").last("drive") + 0.21).abs() <= 1e-12);
+    assert!((last("displacement = { probe = \"top\", value = -0.33 }").last("probe_top") + 0.33).abs() <= 1e-12);
+    let half = 0.5 * (whole.at(0, "reaction") + whole.at(2, "reaction"));
+    assert!((last(&format!("reaction = {half:e}")).last("reaction") - half).abs() <= 1e-12);
+    let few = last("states = 4");
+    assert!(few.len() == 4 && few.last("drive") == whole.at(3, "drive"));
+    let events = |table: &Table| (0..table.len()).filter(|&row| table.field(row, "event").starts_with("limit")).count();
+    assert_eq!(events(&whole), 2);
+    for count in [1, 2] {
+        let found = last(&format!("limit_points = {count}"));
+        assert!(events(&found) == count && found.field(found.len() - 1, "event").starts_with("limit"), "{count}");
+    }
+    let refused = |stop: &str, said: &str| {
+        let keys = format!("kind = \"path\"\n{probe}\nstop = {{ {stop} }}");
+        Scene::of("two-bars-push").replaced("kind = \"path\"", &keys).refused(said);
+    };
+    refused("displacement = { probe = \"tip\", value = -0.33 }", "no probe is called `tip`");
+    refused("", "no condition to stop at");
+    Scene::of("star-trace")
+        .replaced("name = \"loops\"", "name = \"loops\"\nstop = { drive = 1.0 }")
+        .refused("a trace does not stop there");
 }
 
 /// Claim: stiffness is driven to exactly rigid bars, where a state of the truss at rest stays as it is.

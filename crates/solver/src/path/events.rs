@@ -104,6 +104,14 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 found.push((state, PathMark::Watched(function)));
             }
         }
+        for parameter in self.settings.listed.clone() {
+            if changed(from.parameter - parameter, to.parameter - parameter)
+                && to.parameter != self.settings.target
+                && let Some(state) = self.at_parameter(from, to, parameter)?
+            {
+                found.push((state, PathMark::Listed));
+            }
+        }
         found.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
         Ok(found)
     }

@@ -15,8 +15,12 @@ pub struct PathSettings {
     pub max_step: f64,
     /// Largest number of states of a branch.
     pub steps: usize,
+    /// Largest number of limit points, extrema of the parameter or of its conjugate, of a branch.
+    pub limit_points: usize,
     /// Parameter at which the path ends.
     pub target: f64,
+    /// Parameters of which the states are listed.
+    pub listed: Vec<f64>,
     /// Arc length at which a branch ends.
     pub length: f64,
     /// Whether branches that leave at branch points are followed too.
@@ -31,7 +35,9 @@ impl Default for PathSettings {
             tolerance: 1e-12,
             max_step: 0.1,
             steps: 10_000,
+            limit_points: usize::MAX,
             target: f64::INFINITY,
+            listed: vec![],
             length: f64::INFINITY,
             switch: false,
             branches: 64,
@@ -50,6 +56,15 @@ pub enum PathMark {
     BranchPoint(usize),
     /// The function with this number that is watched along the path changes its sign.
     Watched(usize),
+    /// The parameter is one of those that are listed.
+    Listed,
+}
+
+impl PathMark {
+    /// Whether it is an extremum of the parameter or of its conjugate.
+    pub fn is_limit_point(self) -> bool {
+        matches!(self, Self::ParameterTurns | Self::ConjugateTurns)
+    }
 }
 
 /// The reason for which a branch ends.
@@ -67,6 +82,8 @@ pub enum BranchEnd {
     Watched(usize),
     /// The largest number of states was reached.
     Steps,
+    /// The largest number of limit points was reached.
+    LimitPoints,
     /// No step, however short, could be corrected onto the path.
     Failed,
     /// The observer asked to stop.

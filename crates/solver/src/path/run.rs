@@ -171,6 +171,11 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             {
                 return Ok(ended(states, BranchEnd::Watched(function)));
             }
+            let is_limit = |marked: &&MarkedState| marked.mark.is_some_and(PathMark::is_limit_point);
+            let before = self.branches[number].states.iter().chain(&states).filter(is_limit).count();
+            if mark.is_limit_point() && before >= self.follower.settings.limit_points {
+                return Ok(ended(states, BranchEnd::LimitPoints));
+            }
             from = state;
         }
         states.push(self.worked(number, &states, &from, to, None)?);
