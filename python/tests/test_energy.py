@@ -38,6 +38,9 @@ def assemblies():
     laws = {"bars": {"kind": "ogden", "exponents": [5.0, 1.0]}, "creases": {"kind": "stiffening", "limits": [-0.9, "40 deg"]}}
     springs = [{"vertices": [0, (3, 1, 1)], "stiffness": 2.0}, {"vertices": [1, 2], "stiffness": 3.0, "rest": 0.7}]
     yield "laws and springs", fw.Assembly.patch(miura, (2, 2), laws=laws, springs=springs, **terms)
+    curve = {"kind": "table", "points": [[-0.1, -0.2], [0.0, 0.0], [0.02, 0.02], [0.1, 0.12]]}
+    laws = {"bars": curve, "creases": {"kind": "formula", "torque": "k*sinh(2*(m - m0))/2"}}
+    yield "curves and formulas", fw.Assembly.patch(miura, (2, 2), laws=laws, **terms)
     yield "rigid bars", fw.Assembly.patch(miura, (2, 2), bars=fw.RIGID, creases=1.0, rest="flat")
 
 
@@ -166,3 +169,19 @@ def test_other_types_of_numbers_are_converted(soft):
     x = np.round(soft.start, 3).astype(np.float32)
     assert soft.energy(x) == soft.energy(x.astype(float)) == soft.energy(list(map(float, x)))
     assert soft.energy(np.asfortranarray(np.stack([x, x]))[0]) == soft.energy(x)
+
+
+def test_formulas_and_curves_have_their_energies():
+    """Source: the closed form of the energy, summed over the creases; a spring. Tolerance: rounding errors."""
+    sheet = fw.generate("miura")
+    formula = {"creases": {"kind": "formula", "torque": "k*sin(m - m0)"}}
+    curve = {"creases": {"kind": "table", "points": np.outer(np.linspace(-2.0, 2.0, 9), (1.0, 0.7))}}
+    bent = fw.Assembly.patch(sheet, (2, 2), creases=0.7, rest=0.3, laws=formula)
+    x = bent.start + 0.01 * np.sin(np.arange(len(bent.start)))
+    creases = bent.kinds == "crease"
+    off, lengths = bent.fold_angles(x)[creases] - 0.3, bent.lengths(bent.start)[creases]
+    assert abs(bent.energy(x) - 0.7 * lengths @ (1.0 - np.cos(off))) < 1e-13 * bent.energy(x)
+    measured = fw.Assembly.patch(sheet, (2, 2), rest=0.3, laws=curve)
+    assert abs(measured.energy(x) - 0.35 * lengths @ off**2) < 1e-13 * measured.energy(x)
+    with pytest.raises(fw.SceneError, match="(?s)laws.creases.*`x` at character 7"):
+        fw.Assembly.patch(sheet, creases=0.7, laws={"creases": {"kind": "formula", "torque": "k*sin(x)"}})
