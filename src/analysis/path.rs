@@ -210,6 +210,7 @@ pub fn resume_path(
         length: options.stop.arc_length.unwrap_or(f64::INFINITY),
         switch: options.switch,
         limit_points: options.stop.limit_points.unwrap_or(usize::MAX),
+        conjugate_limits: driven.has_conjugate_limits(),
         ..PathSettings::default()
     };
     let settings = PathSettings { steps: options.stop.states.unwrap_or(settings.steps), ..settings };

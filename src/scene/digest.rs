@@ -142,11 +142,14 @@ mod tests {
     #[test]
     fn all_tables_are_named() {
         let text = "[sheet]\nmesh = \"a.fold\"\n[energy]\n\
-                    bars = { stiffness = { file = \"b.csv\" }, rest = { file = \"c.csv\" } }\n\
+                    bars = { stiffness = { file = \"b.csv\" }, rest = { file = \"c.csv\" }, \
+                    law = { kind = \"table\", file = \"h.csv\" } }\n\
                     creases = { stiffness = { file = \"d.csv\" }, rest = { mode = { rates = \"e.csv\" }, amplitude = 1 } }\n\
-                    facets = { stiffness = { file = \"f.csv\" }, rest = { file = \"g.csv\" } }\n";
+                    facets = { stiffness = { file = \"f.csv\" }, rest = { file = \"g.csv\" }, \
+                    law = { kind = \"table\", file = \"i.csv\" } }\n";
         let found = named_files(&parse(text, "s.toml").unwrap());
-        let expected = ["a.fold", "b.csv", "c.csv", "d.csv", "e.csv", "f.csv", "g.csv"].map(PathBuf::from);
+        let expected =
+            ["a.fold", "b.csv", "c.csv", "d.csv", "e.csv", "f.csv", "g.csv", "h.csv", "i.csv"].map(PathBuf::from);
         assert_eq!(found, expected);
     }
 }

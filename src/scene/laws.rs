@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::TableFault;
+use super::rows::numbered_lines;
 use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{
@@ -102,8 +103,7 @@ fn measured(
 fn rows(path: &Path, columns: [&'static str; 2]) -> Result<Vec<Row>, SceneError> {
     let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     let fault = |line, fault| SceneError::Table { path: path.into(), line, fault };
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
+    let mut lines = numbered_lines(&text);
     let (at, header) = lines.next().ok_or_else(|| fault(1, TableFault::Empty))?;
     if header.split(',').map(str::trim).ne(columns) {
         let found = header.trim().into();

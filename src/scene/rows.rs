@@ -79,11 +79,16 @@ pub(crate) fn read(path: &Path, value: Column) -> Result<Vec<TableRow>, SceneErr
     parse(&text, value).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
 }
 
+/// Returns the lines of a table that are not empty, with their numbers, counted from 1.
+pub(super) fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, line)| !line.trim().is_empty())
+}
+
 type Fault = (usize, TableFault);
 
 fn parse(text: &str, value: Column) -> Result<Vec<TableRow>, Fault> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
+    let mut lines = numbered_lines(text);
     let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
     let all = value.names();
     let wrong = || (at, TableFault::Header { found: header.trim().into(), value: all[6] });

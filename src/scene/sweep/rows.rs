@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use super::super::error::{SceneError, TableFault};
+use super::super::rows::numbered_lines;
 
 /// The content of a table of points.
 #[derive(Debug, PartialEq, Eq)]
@@ -28,8 +29,7 @@ pub(super) fn read(path: &Path) -> Result<Rows, SceneError> {
 }
 
 fn parse(text: &str) -> Result<Rows, (usize, TableFault)> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
+    let mut lines = numbered_lines(text);
     let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
     let mut found = Rows { header: fields(header), rows: vec![], lines: vec![] };
     if found.header.iter().any(String::is_empty) {

@@ -15,8 +15,10 @@ pub struct PathSettings {
     pub max_step: f64,
     /// Largest number of states of a branch.
     pub steps: usize,
-    /// Largest number of limit points, extrema of the parameter or of its conjugate, of a branch.
+    /// Largest number of limit points of a branch: extrema of the parameter, and of its conjugate if these count.
     pub limit_points: usize,
+    /// Whether extrema of the conjugate are limit points.
+    pub conjugate_limits: bool,
     /// Parameter at which the path ends.
     pub target: f64,
     /// Parameters of which the states are listed.
@@ -36,6 +38,7 @@ impl Default for PathSettings {
             max_step: 0.1,
             steps: 10_000,
             limit_points: usize::MAX,
+            conjugate_limits: true,
             target: f64::INFINITY,
             listed: vec![],
             length: f64::INFINITY,
@@ -58,13 +61,6 @@ pub enum PathMark {
     Watched(usize),
     /// The parameter is one of those that are listed.
     Listed,
-}
-
-impl PathMark {
-    /// Whether it is an extremum of the parameter or of its conjugate.
-    pub fn is_limit_point(self) -> bool {
-        matches!(self, Self::ParameterTurns | Self::ConjugateTurns)
-    }
 }
 
 /// The reason for which a branch ends.

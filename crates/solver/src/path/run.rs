@@ -171,15 +171,23 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             {
                 return Ok(ended(states, BranchEnd::Watched(function)));
             }
-            let is_limit = |marked: &&MarkedState| marked.mark.is_some_and(PathMark::is_limit_point);
-            let before = self.branches[number].states.iter().chain(&states).filter(is_limit).count();
-            if mark.is_limit_point() && before >= self.follower.settings.limit_points {
+            if self.limit_points(number, &states) >= self.follower.settings.limit_points {
                 return Ok(ended(states, BranchEnd::LimitPoints));
             }
             from = state;
         }
         states.push(self.worked(number, &states, &from, to, None)?);
         Ok((PathEntry { branch: number, begins: false, states, next_step: longer, end }, values))
+    }
+
+    /// Number of limit points of a branch and of the states that are next.
+    fn limit_points(&self, number: usize, next: &[MarkedState]) -> usize {
+        let is_limit = |marked: &&MarkedState| match marked.mark {
+            Some(PathMark::ParameterTurns) => true,
+            Some(PathMark::ConjugateTurns) => self.follower.settings.conjugate_limits,
+            _ => false,
+        };
+        self.branches[number].states.iter().chain(next).filter(is_limit).count()
     }
 
     /// Whether a branch passed a state before, so that it goes on over its own states. Its last step is not asked.
