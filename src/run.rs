@@ -155,8 +155,8 @@ impl Wanted {
 }
 
 /// Reads the sheet of a mesh in the format of its ending; of a FOLD file the given frame, or the first with a mesh.
-/// With a distance `merge`, in units of the file, points of a drawing of lines or of a flat FOLD file within it are
-/// one.
+/// `merge` is a distance in units of the file: points of a drawing of lines, or of a flat FOLD file, that are nearer to
+/// each other become one.
 ///
 /// # Errors
 /// [`RunError`] if the file cannot be read, is wrong or has an unknown ending, if there is no such frame, and if points

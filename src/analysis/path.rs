@@ -209,12 +209,10 @@ pub fn resume_path(
         listed: options.at.iter().map(|value| driven.parameter_at(*value)).collect(),
         length: options.stop.arc_length.unwrap_or(f64::INFINITY),
         switch: options.switch,
-        limit_points: options.stop.limit_points.unwrap_or(usize::MAX),
-        conjugate_limits: driven.has_conjugate_limits(),
         ..PathSettings::default()
     };
     let settings = PathSettings { steps: options.stop.states.unwrap_or(settings.steps), ..settings };
-    let mut watch = Stops::new(assembly, &options.stop);
+    let mut watch = Stops::new(assembly, &options.stop, driven.has_conjugate_limits());
     let mut seen = Seen { measures, branches: vec![], callbacks };
     let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut seen, record)?;
     Ok(found.iter().zip(seen.branches).map(|(branch, points)| ended(branch, points, &options.stop)).collect())
@@ -333,7 +331,7 @@ fn ended(branch: &Branch, mut points: Vec<PathPoint>, stop: &PathStop) -> PathBr
         BranchEnd::Target => PathEnd::Arrived,
         BranchEnd::Returned => PathEnd::Returned,
         BranchEnd::Retraced => PathEnd::Retraced,
-        BranchEnd::Length | BranchEnd::Watched(_) | BranchEnd::LimitPoints => PathEnd::Stopped,
+        BranchEnd::Length | BranchEnd::Marked => PathEnd::Stopped,
         BranchEnd::Steps if stop.states.is_some() => PathEnd::Stopped,
         BranchEnd::Steps => PathEnd::TooManySteps,
         BranchEnd::Failed => PathEnd::Failed,

@@ -9,12 +9,12 @@ pub(crate) type Jet = [f64; 3];
 /// `a^b^c = a^(b^c)`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Expression {
-    /// What to do with a stack of values, one after the other.
-    steps: Vec<Step>,
+    /// Operations on a stack of values, in the order in which they are done.
+    operations: Vec<Operation>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Step {
+enum Operation {
     Number(f64),
     Variable(usize),
     Negate,
@@ -39,7 +39,7 @@ pub enum ExpressionError {
         /// The names that are known.
         known: String,
     },
-    /// Something else should be here.
+    /// A character cannot stand where it does.
     #[error("`{found}` at character {at} of `{text}`: expected {expected}")]
     Unexpected {
         /// The text.
@@ -48,7 +48,7 @@ pub enum ExpressionError {
         found: char,
         /// Its place.
         at: usize,
-        /// What should be there.
+        /// Description of what can stand there.
         expected: &'static str,
     },
     /// The text ends too early.
@@ -56,7 +56,7 @@ pub enum ExpressionError {
     End {
         /// The text.
         text: String,
-        /// What should be there.
+        /// Description of what can follow.
         expected: &'static str,
     },
     /// The text is too long.
@@ -68,10 +68,10 @@ pub enum ExpressionError {
 const LONGEST: usize = 500;
 
 /// A name, and the function with its first two derivatives.
-type Named = (&'static str, fn(f64) -> Jet);
+type NamedFunction = (&'static str, fn(f64) -> Jet);
 
 /// Functions by name.
-const FUNCTIONS: [Named; 13] = [
+const FUNCTIONS: [NamedFunction; 13] = [
     ("abs", |x| [x.abs(), sign(x), 0.0]),
     ("sign", |x| [sign(x), 0.0, 0.0]),
     ("sqrt", |x| [x.sqrt(), 0.5 / x.sqrt(), -0.25 / (x * x.sqrt())]),
@@ -97,10 +97,10 @@ impl Expression {
         if text.chars().count() > LONGEST {
             return Err(ExpressionError::TooLong);
         }
-        let mut parser = Parser { text: text.chars().collect(), at: 0, variables, steps: Vec::new() };
+        let mut parser = Parser { text: text.chars().collect(), at: 0, variables, operations: Vec::new() };
         parser.sum()?;
         match parser.next() {
-            None => Ok(Self { steps: parser.steps }),
+            None => Ok(Self { operations: parser.operations }),
             Some(_) => Err(parser.unexpected("an operator, or the end")),
         }
     }
@@ -108,12 +108,12 @@ impl Expression {
     /// Returns the value where the variables are these, and its derivatives while they move.
     pub(crate) fn at(&self, variables: &[Jet]) -> Jet {
         let mut stack: Vec<Jet> = Vec::with_capacity(8);
-        for step in &self.steps {
+        for step in &self.operations {
             let value = match *step {
-                Step::Number(number) => [number, 0.0, 0.0],
-                Step::Variable(which) => variables[which],
-                Step::Negate => pop(&mut stack).map(|part| -part),
-                Step::Apply(function) => {
+                Operation::Number(number) => [number, 0.0, 0.0],
+                Operation::Variable(which) => variables[which],
+                Operation::Negate => pop(&mut stack).map(|part| -part),
+                Operation::Apply(function) => {
                     let inner = pop(&mut stack);
                     chain(FUNCTIONS[function].1(inner[0]), inner)
                 }
@@ -141,14 +141,14 @@ fn chain([f, first, second]: Jet, [_, speed, change]: Jet) -> Jet {
     [f, first * speed, first * change + second * speed * speed]
 }
 
-fn of_two(step: Step, a: Jet, b: Jet) -> Jet {
+fn of_two(step: Operation, a: Jet, b: Jet) -> Jet {
     let product =
         |a: Jet, b: Jet| [a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2]];
     match step {
-        Step::Add => [0, 1, 2].map(|k| a[k] + b[k]),
-        Step::Subtract => [0, 1, 2].map(|k| a[k] - b[k]),
-        Step::Multiply => product(a, b),
-        Step::Divide => {
+        Operation::Add => [0, 1, 2].map(|k| a[k] + b[k]),
+        Operation::Subtract => [0, 1, 2].map(|k| a[k] - b[k]),
+        Operation::Multiply => product(a, b),
+        Operation::Divide => {
             let value = a[0] / b[0];
             let speed = (a[1] - value * b[1]) / b[0];
             [value, speed, (a[2] - 2.0 * speed * b[1] - value * b[2]) / b[0]]
@@ -168,13 +168,13 @@ fn power(x: f64, exponent: f64) -> Jet {
     [x.powf(exponent), term(exponent, exponent - 1.0), term(exponent * (exponent - 1.0), exponent - 2.0)]
 }
 
-/// Reads an expression from left to right, and writes its steps in the order in which they are done.
+/// Reads an expression from left to right, and writes its operations in the order in which they are done.
 struct Parser<'a> {
     text: Vec<char>,
     /// Number of the next character.
     at: usize,
     variables: &'a [&'a str],
-    steps: Vec<Step>,
+    operations: Vec<Operation>,
 }
 
 impl Parser<'_> {
@@ -202,37 +202,32 @@ impl Parser<'_> {
     }
 
     fn sum(&mut self) -> Result<(), ExpressionError> {
-        self.product()?;
-        loop {
-            let step = match self.next() {
-                Some('+') => Step::Add,
-                Some('-') => Step::Subtract,
-                _ => return Ok(()),
-            };
-            self.at += 1;
-            self.product()?;
-            self.steps.push(step);
-        }
+        self.joined(&[('+', Operation::Add), ('-', Operation::Subtract)], Self::product)
     }
 
     fn product(&mut self) -> Result<(), ExpressionError> {
-        self.signed()?;
-        loop {
-            let step = match self.next() {
-                Some('*') => Step::Multiply,
-                Some('/') => Step::Divide,
-                _ => return Ok(()),
-            };
-            self.at += 1;
-            self.signed()?;
-            self.steps.push(step);
+        self.joined(&[('*', Operation::Multiply), ('/', Operation::Divide)], Self::signed)
+    }
+
+    /// Reads operands that are joined by these operators, from left to right.
+    fn joined(
+        &mut self,
+        operators: &[(char, Operation)],
+        operand: fn(&mut Self) -> Result<(), ExpressionError>,
+    ) -> Result<(), ExpressionError> {
+        operand(self)?;
+        while let Some((sign, operation)) = operators.iter().find(|(sign, _)| self.next() == Some(*sign)) {
+            self.take(*sign);
+            operand(self)?;
+            self.operations.push(*operation);
         }
+        Ok(())
     }
 
     fn signed(&mut self) -> Result<(), ExpressionError> {
         if self.take('-') {
             self.signed()?;
-            self.steps.push(Step::Negate);
+            self.operations.push(Operation::Negate);
             return Ok(());
         }
         self.take('+');
@@ -245,7 +240,7 @@ impl Parser<'_> {
         if doubled || self.next() == Some('^') {
             self.at += if doubled { 2 } else { 1 };
             self.signed()?;
-            self.steps.push(Step::Power);
+            self.operations.push(Operation::Power);
         }
         Ok(())
     }
@@ -285,7 +280,7 @@ impl Parser<'_> {
             self.at = start;
             return Err(self.unexpected("a number"));
         };
-        self.steps.push(Step::Number(number));
+        self.operations.push(Operation::Number(number));
         Ok(())
     }
 
@@ -293,12 +288,12 @@ impl Parser<'_> {
         let at = self.at + 1;
         let name = self.word(|c, _| c.is_alphanumeric() || c == '_');
         if let Some(which) = self.variables.iter().position(|variable| *variable == name) {
-            self.steps.push(Step::Variable(which));
+            self.operations.push(Operation::Variable(which));
         } else if name == "pi" {
-            self.steps.push(Step::Number(std::f64::consts::PI));
+            self.operations.push(Operation::Number(std::f64::consts::PI));
         } else if let Some(function) = FUNCTIONS.iter().position(|(known, _)| *known == name) {
             self.parenthesis()?;
-            self.steps.push(Step::Apply(function));
+            self.operations.push(Operation::Apply(function));
         } else {
             let functions = FUNCTIONS.iter().map(|(known, _)| *known);
             let known: Vec<&str> = self.variables.iter().copied().chain(["pi"]).chain(functions).collect();

@@ -60,8 +60,8 @@ mod tests {
     /// Claim: integrals are right to the last digits, backwards and across kinks too. Source: closed forms.
     #[test]
     fn integrals_are_right() {
-        type Case = (fn(f64) -> f64, f64, f64, f64);
-        let cases: [Case; 5] = [
+        type Integral = (fn(f64) -> f64, f64, f64, f64);
+        let cases: [Integral; 5] = [
             (|x| x.exp(), 0.0, 2.0, 2f64.exp() - 1.0),
             (|x| x.tan(), 0.0, 1.5, -1.5f64.cos().ln()),
             (|x| 1.0 / (1.0 + 25.0 * x * x), -1.0, 1.0, 0.4 * 5f64.atan()),

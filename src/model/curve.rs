@@ -5,7 +5,7 @@ use std::fmt;
 
 /// The energy of a hinge by the angle, or of a bar by the strain, that it is off rest; both in units of the spring
 /// constant at rest.
-pub trait Curve: fmt::Debug + Send + Sync {
+pub trait ForceCurve: fmt::Debug + Send + Sync {
     /// Returns the energy and its first two derivatives, that is torque and stiffness. The energy is 0 at 0.
     fn at(&self, off: f64) -> [f64; 3];
 }
@@ -14,7 +14,7 @@ pub trait Curve: fmt::Debug + Send + Sync {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfAngle<C>(pub C);
 
-impl<C: Curve> Law for OfAngle<C> {
+impl<C: ForceCurve> Law for OfAngle<C> {
     fn at(&self, angle: f64, rest: f64) -> [f64; 3] {
         self.0.at(angle - rest)
     }
@@ -24,7 +24,7 @@ impl<C: Curve> Law for OfAngle<C> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfStrain<C>(pub C);
 
-impl<C: Curve> Law for OfStrain<C> {
+impl<C: ForceCurve> Law for OfStrain<C> {
     fn at(&self, length: f64, rest: f64) -> [f64; 3] {
         of_stretch(rest, self.0.at((length - rest) / rest))
     }
@@ -55,7 +55,7 @@ pub struct Power {
     pub exponent: f64,
 }
 
-impl Curve for Power {
+impl ForceCurve for Power {
     fn at(&self, off: f64) -> [f64; 3] {
         let (p, size) = (self.exponent, off.abs());
         let torque = size.powf(p);
@@ -74,7 +74,7 @@ pub struct Bilinear {
     pub at: [f64; 2],
 }
 
-impl Curve for Bilinear {
+impl ForceCurve for Bilinear {
     fn at(&self, off: f64) -> [f64; 3] {
         let limit = off.clamp(self.at[0], self.at[1]);
         let (beyond, inside) = (off - limit, 0.5 * limit * limit);
@@ -86,7 +86,7 @@ impl Curve for Bilinear {
 /// The reason for which points are no curve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CurveError {
-    /// There are too few points.
+    /// Fewer than three points are given.
     #[error("a curve has at least three points, one of them 0, 0")]
     TooFew,
     /// A number is infinite or NaN.
@@ -175,7 +175,7 @@ impl Measured {
     }
 }
 
-impl Curve for Measured {
+impl ForceCurve for Measured {
     fn at(&self, off: f64) -> [f64; 3] {
         let after = self.knots.partition_point(|knot| knot[0] <= off);
         if after == 0 || after == self.knots.len() {

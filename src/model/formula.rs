@@ -27,25 +27,25 @@ pub struct Formula {
 /// The reasons for which a text is no formula of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FormulaError {
-    /// It is no expression.
+    /// The text is no expression.
     #[error(transparent)]
     Expression(#[from] ExpressionError),
-    /// It is not a number somewhere.
+    /// The formula has no finite value somewhere.
     #[error("the formula is {value} at m = {measure}, m0 = {rest}, k = 1")]
     Undefined {
         /// Value of the measure.
         measure: f64,
         /// Value at rest.
         rest: f64,
-        /// What the formula gives.
+        /// Value of the formula.
         value: f64,
     },
-    /// It is not that of a spring at rest.
+    /// The formula is not that of a spring at rest.
     #[error("at m = m0 = {rest}, k = 1 the formula is {force} with the slope {slope}; it has to be 0 with the slope k")]
     NoSpring {
         /// Value at rest.
         rest: f64,
-        /// What the formula gives there.
+        /// Value of the formula there.
         force: f64,
         /// Its derivative by the measure.
         slope: f64,

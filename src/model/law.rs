@@ -16,8 +16,8 @@ pub struct Spring {
 /// A law `phi` of an element: its energy is `k phi(m, rest)`, `k` the spring constant, `m` the value of its measure, a
 /// length or an angle in radians.
 ///
-/// Every law is a spring of constant `k` near rest: `phi = phi' = 0` and `phi'' = 1` at `m = rest`, unless rest is
-/// beyond a limit. Derivatives are by `m`. Where a value cannot be reached, as a fold angle beyond pi, the energy is
+/// Near rest a law is a spring of constant `k`: `phi = phi' = 0` and `phi'' = 1` at `m = rest`, unless rest is beyond
+/// a limit; powers have no stiffness there. Derivatives are by `m`. Where a value cannot be reached, as a fold angle beyond pi, the energy is
 /// infinite. A law is one file of a user's own: a type with this trait, given to
 /// [`Builder::bar_law`](super::Builder::bar_law).
 ///

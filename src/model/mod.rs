@@ -56,7 +56,7 @@ pub use assembly_error::AssemblyError;
 pub use boundary::{Boundary, Drawn};
 pub use builder::{Builder, Rest};
 pub use configuration::Configuration;
-pub use curve::{Bilinear, Curve, CurveError, Measured, OfAngle, OfStrain, Power};
+pub use curve::{Bilinear, CurveError, ForceCurve, Measured, OfAngle, OfStrain, Power};
 pub(crate) use domain::Turns;
 pub use domain::{Affine, CellMap, CellMaps, Domain, OwnDomain, Site};
 pub use drive::{Drive, DriveError, Driven};

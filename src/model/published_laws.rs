@@ -96,9 +96,9 @@ mod tests {
     const POINTS: [[f64; 2]; 5] = [[-2.0, -3.0], [-0.45, -1.0], [0.0, 0.0], [0.2, 0.5], [0.9, 0.4]];
 
     /// A law, values of its measure, a rest value, and whether it has the stiffness of a spring there.
-    type Case = (Box<dyn Law>, [f64; 4], f64, bool);
+    type LawAtValues = (Box<dyn Law>, [f64; 4], f64, bool);
 
-    fn laws() -> Vec<Case> {
+    fn laws() -> Vec<LawAtValues> {
         let bilinear = Bilinear { ratio: 0.2, at: [-0.9, 0.3] };
         let measured = Measured::new(&POINTS).unwrap();
         let torque = "k*(sinh(2*(m - m0))/2 + 0.1*(m - m0)^3 + 0.3*m0*(m - m0)^2)";

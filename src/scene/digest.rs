@@ -77,10 +77,7 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     found.extend(bars.iter().flat_map(|spec| [stiffness_table(&spec.stiffness), length_table(spec)]).flatten());
     found.extend(creases.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
     found.extend(facets.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
-    let of_hinges = [creases.as_ref().map(|spec| &spec.law), facets.as_ref().map(|spec| &spec.law)];
-    let curves = of_hinges.into_iter().flatten().flatten().filter_map(|law| law.curve());
-    let curves = bars.iter().filter_map(|spec| spec.law.as_ref()?.curve()).chain(curves);
-    found.extend(curves.filter_map(|curve| curve.file.clone()));
+    found.extend(scene.energy.curves().into_iter().flatten().filter_map(|curve| curve.file.clone()));
     for study in &scene.studies {
         if let Some(StartSpec::File(path)) = study.kind.start().map(|start| &**start) {
             found.push(path.clone());

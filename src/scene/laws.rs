@@ -33,19 +33,13 @@ impl<L: Law + 'static> From<L> for GivenLaw {
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
 pub(super) fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<GivenLaw, SceneError> {
-    Ok(match &**spec {
-        BarLawSpec::Ogden { exponents } => Ogden { exponents: exponents.0 }.into(),
-        BarLawSpec::GreenLagrange {} => GreenLagrange.into(),
-        BarLawSpec::Bilinear { ratio, at } => OfStrain(Bilinear { ratio: ratio.0, at: at.0 }).into(),
-        BarLawSpec::Table(curve) => {
-            let curve = measured(file, (curve, spec.span()), ["strain", "force"])?;
-            GivenLaw { stiffness: Some(curve.slope()), ..OfStrain(curve).into() }
-        }
-        BarLawSpec::Formula { force } => {
-            let wrong = |fault: FormulaError| file.error_at(spec.span(), fault.to_string(), formula_help("length"));
-            Formula::of_length(force).map_err(wrong)?.into()
-        }
-    })
+    match &**spec {
+        BarLawSpec::Ogden { exponents } => Ok(Ogden { exponents: exponents.0 }.into()),
+        BarLawSpec::GreenLagrange {} => Ok(GreenLagrange.into()),
+        BarLawSpec::Bilinear { ratio, at } => Ok(OfStrain(Bilinear { ratio: ratio.0, at: at.0 }).into()),
+        BarLawSpec::Table(curve) => table(file, (curve, spec.span()), ["strain", "force"], OfStrain),
+        BarLawSpec::Formula { force } => formula(file, spec.span(), Formula::of_length(force), "length"),
+    }
 }
 
 /// Returns the law of creases or facets.
@@ -53,27 +47,40 @@ pub(super) fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<Gi
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
 pub(super) fn of_hinges(file: &SceneFile, spec: &Located<HingeLawSpec>) -> Result<GivenLaw, SceneError> {
-    Ok(match &**spec {
-        HingeLawSpec::Stiffening { limits } => Stiffening { limits: limits.0 }.into(),
-        HingeLawSpec::Power { exponent } => OfAngle(Power { exponent: exponent.0 }).into(),
-        HingeLawSpec::Bilinear { ratio, at } => OfAngle(Bilinear { ratio: ratio.0, at: at.0 }).into(),
-        HingeLawSpec::Table(curve) => {
-            let curve = measured(file, (curve, spec.span()), ["angle", "torque"])?;
-            GivenLaw { stiffness: Some(curve.slope()), ..OfAngle(curve).into() }
-        }
-        HingeLawSpec::Formula { torque } => {
-            let wrong = |fault: FormulaError| file.error_at(spec.span(), fault.to_string(), formula_help("angle"));
-            Formula::of_angle(torque).map_err(wrong)?.into()
-        }
-    })
+    match &**spec {
+        HingeLawSpec::Stiffening { limits } => Ok(Stiffening { limits: limits.0 }.into()),
+        HingeLawSpec::Power { exponent } => Ok(OfAngle(Power { exponent: exponent.0 }).into()),
+        HingeLawSpec::Bilinear { ratio, at } => Ok(OfAngle(Bilinear { ratio: ratio.0, at: at.0 }).into()),
+        HingeLawSpec::Table(curve) => table(file, (curve, spec.span()), ["angle", "torque"], OfAngle),
+        HingeLawSpec::Formula { torque } => formula(file, spec.span(), Formula::of_angle(torque), "angle"),
+    }
 }
 
-fn formula_help(measure: &str) -> String {
-    format!("m is the {measure}, m0 the {measure} at rest, k the spring constant; near rest it is k*(m - m0)")
+/// Returns the law of a curve, which says the stiffness at rest too.
+fn table<L: Law + 'static>(
+    file: &SceneFile,
+    spec: (&CurveSpec, Range<usize>),
+    columns: [&'static str; 2],
+    law: fn(Measured) -> L,
+) -> Result<GivenLaw, SceneError> {
+    let curve = measured(file, spec, columns)?;
+    Ok(GivenLaw { stiffness: Some(curve.slope()), ..law(curve).into() })
+}
+
+/// Returns the law of a formula.
+fn formula(
+    file: &SceneFile,
+    span: Range<usize>,
+    read: Result<Formula, FormulaError>,
+    measure: &str,
+) -> Result<GivenLaw, SceneError> {
+    let help =
+        format!("m is the {measure}, m0 the {measure} at rest, k the spring constant; near rest it is k*(m - m0)");
+    read.map(GivenLaw::from).map_err(|fault| file.error_at(span, fault.to_string(), help))
 }
 
 /// The line of a row, and its two numbers.
-type Row = (usize, [f64; 2]);
+type CurveRow = (usize, [f64; 2]);
 
 /// Returns the curve through the points of a table or of the scene itself.
 fn measured(
@@ -100,7 +107,7 @@ fn measured(
 }
 
 /// Returns the rows of a table with these two columns, each with its line.
-fn rows(path: &Path, columns: [&'static str; 2]) -> Result<Vec<Row>, SceneError> {
+fn rows(path: &Path, columns: [&'static str; 2]) -> Result<Vec<CurveRow>, SceneError> {
     let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     let fault = |line, fault| SceneError::Table { path: path.into(), line, fault };
     let mut lines = numbered_lines(&text);

@@ -193,6 +193,23 @@ pub struct EnergySpec {
     pub facets: Option<Located<FacetsSpec>>,
 }
 
+impl EnergySpec {
+    /// The measured curves of bars, creases and facets.
+    pub(crate) fn curves(&self) -> [Option<&CurveSpec>; 3] {
+        let bars = match self.bars.as_ref().and_then(|bars| bars.law.as_deref()) {
+            Some(BarLawSpec::Table(curve)) => Some(curve),
+            _ => None,
+        };
+        let creases = self.creases.as_ref().and_then(|creases| creases.law.as_deref());
+        let facets = self.facets.as_ref().and_then(|facets| facets.law.as_deref());
+        let [creases, facets] = [creases, facets].map(|law| match law {
+            Some(HingeLawSpec::Table(curve)) => Some(curve),
+            _ => None,
+        });
+        [bars, creases, facets]
+    }
+}
+
 /// `bars = { stiffness, rest, law }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -72,23 +72,6 @@ pub enum ValueError {
     /// A barrier is between a well and itself.
     #[error("the barrier is sought from well {0} to itself, expected two different wells in [a, b]")]
     OneWell(usize),
-    /// Two exponents of a law are equal, or none.
-    #[error("the exponents are {0} and {1}, expected two finite numbers that differ")]
-    Exponents(f64, f64),
-    /// An exponent of a torque leaves no state without force, or is none.
-    #[error("the exponent is {0}, expected a number from 1 to 100")]
-    Exponent(f64),
-    /// A ratio of stiffnesses is negative, infinite or NaN.
-    #[error("the ratio is {0}, expected a finite number that is not negative")]
-    Ratio(f64),
-    /// The values at which the stiffness of a law changes do not lie on both sides of rest.
-    #[error(
-        "the stiffness changes at {0} and {1} off rest, expected one at most 0, one at least 0, and one of them finite"
-    )]
-    Yields(f64, f64),
-    /// Two limits of a law are not on both sides of flat.
-    #[error("the limits are {0} and {1} rad, expected one between -pi and 0, and one between 0 and pi")]
-    Limits(f64, f64),
     /// An edge runs from a vertex to itself.
     #[error("the edge runs from vertex {0} to itself, expected two different ends in [i, j, n1, n2]")]
     Loop(usize),

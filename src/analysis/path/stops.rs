@@ -4,7 +4,7 @@ use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::{State, cylinder};
 use crate::math::fold_angle::fold_angle;
 use crate::model::{Assembly, DrivenModel, Model};
-use crate::solver::path::{PathState, Watch};
+use crate::solver::path::{PathMark, PathState, Watch};
 use std::f64::consts::TAU;
 
 /// Numbers of the watched functions.
@@ -60,16 +60,18 @@ impl Probe {
 pub(super) struct Stops<'a> {
     assembly: &'a Assembly,
     stop: &'a PathStop,
+    /// Whether extrema of the reaction are limit points.
+    has_conjugate_limits: bool,
     /// The crease's angle in the last state that was asked for, from which angles continue.
     last_angle: f64,
     crossing: Option<SelfIntersection>,
 }
 
 impl<'a> Stops<'a> {
-    pub(super) fn new(assembly: &'a Assembly, stop: &'a PathStop) -> Self {
+    pub(super) fn new(assembly: &'a Assembly, stop: &'a PathStop, has_conjugate_limits: bool) -> Self {
         let crossing = stop.self_intersection.then(|| SelfIntersection::new(assembly));
         let last_angle = stop.crease_angle.map_or(0.0, |(edge, _)| assembly.drawn_angles()[edge]);
-        Self { assembly, stop, last_angle, crossing }
+        Self { assembly, stop, has_conjugate_limits, last_angle, crossing }
     }
 
     /// The watched crease's angle less the one at which to stop.
@@ -112,7 +114,15 @@ impl Watch<DrivenModel> for Stops<'_> {
         values
     }
 
-    fn ends(&self, _function: usize) -> bool {
-        true
+    fn ends(&self, marks: &[PathMark]) -> bool {
+        let is_limit = |mark: &PathMark| match mark {
+            PathMark::ParameterTurns => true,
+            PathMark::ConjugateTurns => self.has_conjugate_limits,
+            _ => false,
+        };
+        let Some(last) = marks.last() else { return false };
+        let enough =
+            || self.stop.limit_points.is_some_and(|most| marks.iter().filter(|mark| is_limit(mark)).count() >= most);
+        matches!(last, PathMark::Watched(_)) || (is_limit(last) && enough())
     }
 }

@@ -7,11 +7,34 @@ use std::path::PathBuf;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
-use serde::de::{Error, SeqAccess};
+use serde::de::{Error as _, SeqAccess};
+use thiserror::Error;
 
-use crate::scene::values::{Exactly, ValueError};
+use crate::scene::values::Exactly;
 use crate::scene::written::{Written, read_as_written};
 use crate::sheet::angle::Angle;
+
+/// The reasons for which a number of a law is refused.
+#[derive(Debug, Error)]
+pub enum LawFault {
+    /// Two exponents of a law are equal, or none.
+    #[error("the exponents are {0} and {1}, expected two finite numbers that differ")]
+    Exponents(f64, f64),
+    /// An exponent of a torque leaves no state without force, or is none.
+    #[error("the exponent is {0}, expected a number from 1 to 100")]
+    Exponent(f64),
+    /// A ratio of stiffnesses is negative, infinite or NaN.
+    #[error("the ratio is {0}, expected a finite number that is not negative")]
+    Ratio(f64),
+    /// The values at which the stiffness of a law changes do not lie on both sides of rest.
+    #[error(
+        "the stiffness changes at {0} and {1} off rest, expected one at most 0, one at least 0, and one of them finite"
+    )]
+    Yields(f64, f64),
+    /// Two limits of a law are not on both sides of flat.
+    #[error("the limits are {0} and {1} rad, expected one between -pi and 0, and one between 0 and pi")]
+    Limits(f64, f64),
+}
 
 /// The law of the bars. `l` is the stretch of a bar, its length over its rest length.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -25,14 +48,14 @@ pub enum BarLawSpec {
     },
     /// The force EA l (l^2 - 1) / 2.
     GreenLagrange {},
-    /// Of two stiffnesses: EA up to two strains, ratio EA beyond them.
+    /// Two stiffnesses: EA up to two strains, ratio EA beyond them.
     Bilinear {
         /// The stiffness beyond them over EA, at least 0.
         ratio: Ratio,
         /// The strains: a number on both sides, or [low, high], of which one may be infinite.
         at: Yields,
     },
-    /// Through measured points.
+    /// A curve through measured points.
     Table(CurveSpec),
     /// A formula.
     Formula {
@@ -58,14 +81,14 @@ pub enum HingeLawSpec {
         /// The exponent, at least 1.
         exponent: Exponent,
     },
-    /// Of two stiffnesses: k up to two angles off rest, ratio k beyond them.
+    /// Two stiffnesses: k up to two angles off rest, ratio k beyond them.
     Bilinear {
         /// The stiffness beyond them over k, at least 0.
         ratio: Ratio,
         /// The angles off rest in radians: a number on both sides, or [low, high], of which one may be infinite.
         at: Yields,
     },
-    /// Through measured points.
+    /// A curve through measured points.
     Table(CurveSpec),
     /// A formula.
     Formula {
@@ -93,10 +116,10 @@ pub struct CurveSpec {
 pub struct Ratio(pub(crate) f64);
 
 impl TryFrom<f64> for Ratio {
-    type Error = ValueError;
+    type Error = LawFault;
 
-    fn try_from(ratio: f64) -> Result<Self, ValueError> {
-        if ratio >= 0.0 && ratio.is_finite() { Ok(Self(ratio)) } else { Err(ValueError::Ratio(ratio)) }
+    fn try_from(ratio: f64) -> Result<Self, LawFault> {
+        if ratio >= 0.0 && ratio.is_finite() { Ok(Self(ratio)) } else { Err(LawFault::Ratio(ratio)) }
     }
 }
 
@@ -107,10 +130,10 @@ impl TryFrom<f64> for Ratio {
 pub struct Exponent(pub(crate) f64);
 
 impl TryFrom<f64> for Exponent {
-    type Error = ValueError;
+    type Error = LawFault;
 
-    fn try_from(exponent: f64) -> Result<Self, ValueError> {
-        if (1.0..=100.0).contains(&exponent) { Ok(Self(exponent)) } else { Err(ValueError::Exponent(exponent)) }
+    fn try_from(exponent: f64) -> Result<Self, LawFault> {
+        if (1.0..=100.0).contains(&exponent) { Ok(Self(exponent)) } else { Err(LawFault::Exponent(exponent)) }
     }
 }
 
@@ -123,18 +146,18 @@ read_as_written!(Yields);
 impl Written for Yields {
     const FORMS: &str = "a number above 0, or [low, high] with low <= 0 <= high";
 
-    fn from_number<E: Error>(size: f64) -> Result<Self, E> {
-        if size > 0.0 { Ok(Self([-size, size])) } else { Err(E::custom(ValueError::Yields(-size, size))) }
+    fn from_number<E: serde::de::Error>(size: f64) -> Result<Self, E> {
+        if size > 0.0 { Ok(Self([-size, size])) } else { Err(E::custom(LawFault::Yields(-size, size))) }
     }
 
-    fn from_whole<E: Error>(size: i64) -> Result<Self, E> {
+    fn from_whole<E: serde::de::Error>(size: i64) -> Result<Self, E> {
         Self::from_number(size as f64)
     }
 
     fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
         let Exactly([low, high]) = Exactly::<f64, 2>::deserialize(SeqAccessDeserializer::new(list))?;
         let valid = low <= 0.0 && 0.0 <= high && (low.is_finite() || high.is_finite());
-        if valid { Ok(Self([low, high])) } else { Err(A::Error::custom(ValueError::Yields(low, high))) }
+        if valid { Ok(Self([low, high])) } else { Err(A::Error::custom(LawFault::Yields(low, high))) }
     }
 }
 
@@ -158,11 +181,11 @@ impl JsonSchema for Yields {
 pub struct Exponents(pub(crate) [f64; 2]);
 
 impl TryFrom<Exactly<f64, 2>> for Exponents {
-    type Error = ValueError;
+    type Error = LawFault;
 
-    fn try_from(Exactly([a, b]): Exactly<f64, 2>) -> Result<Self, ValueError> {
+    fn try_from(Exactly([a, b]): Exactly<f64, 2>) -> Result<Self, LawFault> {
         let valid = a.is_finite() && b.is_finite() && a != b;
-        if valid { Ok(Self([a, b])) } else { Err(ValueError::Exponents(a, b)) }
+        if valid { Ok(Self([a, b])) } else { Err(LawFault::Exponents(a, b)) }
     }
 }
 
@@ -173,25 +196,11 @@ impl TryFrom<Exactly<f64, 2>> for Exponents {
 pub struct Limits(pub(crate) [f64; 2]);
 
 impl TryFrom<Exactly<Angle, 2>> for Limits {
-    type Error = ValueError;
+    type Error = LawFault;
 
-    fn try_from(Exactly(limits): Exactly<Angle, 2>) -> Result<Self, ValueError> {
+    fn try_from(Exactly(limits): Exactly<Angle, 2>) -> Result<Self, LawFault> {
         let [low, high] = limits.map(|angle| angle.radians);
         let valid = -PI < low && low < 0.0 && 0.0 < high && high < PI;
-        if valid { Ok(Self([low, high])) } else { Err(ValueError::Limits(low, high)) }
-    }
-}
-
-impl BarLawSpec {
-    /// The curve, if the law is one.
-    pub(crate) fn curve(&self) -> Option<&CurveSpec> {
-        if let Self::Table(curve) = self { Some(curve) } else { None }
-    }
-}
-
-impl HingeLawSpec {
-    /// The curve, if the law is one.
-    pub(crate) fn curve(&self) -> Option<&CurveSpec> {
-        if let Self::Table(curve) = self { Some(curve) } else { None }
+        if valid { Ok(Self([low, high])) } else { Err(LawFault::Limits(low, high)) }
     }
 }

@@ -81,13 +81,13 @@ pub struct ProbeSpec {
     /// The vertices.
     pub vertices: Located<VertexSet>,
     /// The axis along which they move.
-    pub axis: Axis,
+    pub axis: ProbeAxis,
 }
 
 /// An axis of the drawn state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Axis {
+pub enum ProbeAxis {
     /// x.
     X,
     /// y.

@@ -163,11 +163,12 @@ fn files_of_a_path() {
 #[test]
 fn listed_values_are_rows_and_probes_columns() {
     let plain = Scene::of("two-bars-push").converged().out.table("pushed.csv");
-    let keys = "kind = \"path\"\nat = [-0.25, -0.5, -2.0]\nprobe = [{ name = \"top\", vertices = \"apex\", axis = \"z\" }, \
+    let keys = "kind = \"path\"\nat = [0.0, -0.25, -0.5, -0.7, -2.0]\nprobe = [{ name = \"top\", vertices = \"apex\", axis = \"z\" }, \
         { name = \"across\", vertices = \"apex\", axis = \"x\" }]";
     let listed = Scene::of("two-bars-push").replaced("kind = \"path\"", keys).converged().out.table("pushed.csv");
     let at = |value: f64| (0..listed.len()).filter(|&row| listed.at(row, "drive") == value).count();
-    assert_eq!([at(-0.25), at(-0.5), at(-2.0)], [1, 1, 0]);
+    // the first and the last state are rows in any case
+    assert_eq!([0.0, -0.25, -0.5, -0.7, -2.0].map(at), [1, 1, 1, 1, 0]);
     let others = (0..listed.len()).filter(|&row| ![-0.25, -0.5].contains(&listed.at(row, "drive")));
     let others: Vec<f64> = others.map(|row| listed.at(row, "drive")).collect();
     assert_eq!(others, (0..plain.len()).map(|row| plain.at(row, "drive")).collect::<Vec<f64>>());
@@ -206,6 +207,9 @@ fn paths_stop_at_what_an_experiment_reads() {
         let found = last(&format!("limit_points = {count}"));
         assert!(events(&found) == count && found.field(found.len() - 1, "event").starts_with("limit"), "{count}");
     }
+    // a path of rest angles has no events where its reaction is extreme, and these do not count
+    let folding = Scene::of("resch-fold").replaced("kind = \"fold\"", "kind = \"fold\"\nstop = { limit_points = 1 }");
+    assert_eq!(branch(&folding.converged(), "folding").end, "arrived");
     let refused = |stop: &str, said: &str| {
         let keys = format!("kind = \"path\"\n{probe}\nstop = {{ {stop} }}");
         Scene::of("two-bars-push").replaced("kind = \"path\"", &keys).refused(said);

@@ -25,8 +25,8 @@ const MOST_BRANCH_POINTS: usize = 16;
 pub trait Watch<P> {
     /// Returns the values at a state, as many at every state, NaN where there is none.
     fn values(&mut self, problem: &P, state: &PathState) -> Vec<f64>;
-    /// Whether a sign change of the function with this number ends a branch.
-    fn ends(&self, function: usize) -> bool;
+    /// Whether a branch with these marks ends at the last of them.
+    fn ends(&self, marks: &[PathMark]) -> bool;
 }
 
 /// Whether a function changed its sign, or became zero.
@@ -105,8 +105,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             }
         }
         for parameter in self.settings.listed.clone() {
+            // the state at the end of the step is one of its own in any case
             if changed(from.parameter - parameter, to.parameter - parameter)
-                && to.parameter != self.settings.target
+                && to.parameter != parameter
                 && let Some(state) = self.at_parameter(from, to, parameter)?
             {
                 found.push((state, PathMark::Listed));

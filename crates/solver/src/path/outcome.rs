@@ -15,10 +15,6 @@ pub struct PathSettings {
     pub max_step: f64,
     /// Largest number of states of a branch.
     pub steps: usize,
-    /// Largest number of limit points of a branch: extrema of the parameter, and of its conjugate if these count.
-    pub limit_points: usize,
-    /// Whether extrema of the conjugate are limit points.
-    pub conjugate_limits: bool,
     /// Parameter at which the path ends.
     pub target: f64,
     /// Parameters of which the states are listed.
@@ -37,8 +33,6 @@ impl Default for PathSettings {
             tolerance: 1e-12,
             max_step: 0.1,
             steps: 10_000,
-            limit_points: usize::MAX,
-            conjugate_limits: true,
             target: f64::INFINITY,
             listed: vec![],
             length: f64::INFINITY,
@@ -74,12 +68,10 @@ pub enum BranchEnd {
     Retraced,
     /// The branch has the wanted length.
     Length,
-    /// A watched function whose sign change ends the branch changed its sign.
-    Watched(usize),
+    /// The observer wanted the branch to end at its last mark.
+    Marked,
     /// The largest number of states was reached.
     Steps,
-    /// The largest number of limit points was reached.
-    LimitPoints,
     /// No step, however short, could be corrected onto the path.
     Failed,
     /// The observer asked to stop.

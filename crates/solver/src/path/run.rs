@@ -166,28 +166,14 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let (mut states, mut from) = (vec![], last.clone());
         for (state, mark) in marks {
             states.push(self.worked(number, &states, &from, state.clone(), Some(mark))?);
-            if let PathMark::Watched(function) = mark
-                && self.watch.ends(function)
-            {
-                return Ok(ended(states, BranchEnd::Watched(function)));
-            }
-            if self.limit_points(number, &states) >= self.follower.settings.limit_points {
-                return Ok(ended(states, BranchEnd::LimitPoints));
+            let before = self.branches[number].states.iter().chain(&states);
+            if self.watch.ends(&before.filter_map(|marked| marked.mark).collect::<Vec<_>>()) {
+                return Ok(ended(states, BranchEnd::Marked));
             }
             from = state;
         }
         states.push(self.worked(number, &states, &from, to, None)?);
         Ok((PathEntry { branch: number, begins: false, states, next_step: longer, end }, values))
-    }
-
-    /// Number of limit points of a branch and of the states that are next.
-    fn limit_points(&self, number: usize, next: &[MarkedState]) -> usize {
-        let is_limit = |marked: &&MarkedState| match marked.mark {
-            Some(PathMark::ParameterTurns) => true,
-            Some(PathMark::ConjugateTurns) => self.follower.settings.conjugate_limits,
-            _ => false,
-        };
-        self.branches[number].states.iter().chain(next).filter(is_limit).count()
     }
 
     /// Whether a branch passed a state before, so that it goes on over its own states. Its last step is not asked.

@@ -108,7 +108,7 @@ impl<P> Watch<P> for Nothing {
     fn values(&mut self, _problem: &P, _state: &PathState) -> Vec<f64> {
         vec![]
     }
-    fn ends(&self, _function: usize) -> bool {
+    fn ends(&self, _marks: &[PathMark]) -> bool {
         false
     }
 }
