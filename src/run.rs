@@ -85,7 +85,7 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
 /// # Errors
 /// [`RunError`] if a parameter is wrong, the ending is unknown or the file cannot be written.
 pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<Vec<String>, RunError> {
-    meshes::write(&new_sheet(table)?, out)
+    meshes::write(&new_sheet(table)?, out, None)
 }
 
 /// Generates the sheet of a pattern from the table `{ pattern = "miura", .. }`.
@@ -169,22 +169,23 @@ pub fn read_sheet(path: &Path, frame: Option<usize>, merge: Option<f64>) -> Resu
 }
 
 /// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.ply`, `.obj`, `.fold` or `.glb`.
+/// With a thickness the file has the solid of the sheet ([`thickened`](crate::sheet::thickened)).
 ///
 /// # Errors
-/// [`RunError`] if the ending is another one, if the file cannot be written, and if the state is no sheet for STL, PLY,
-/// OBJ and FOLD: a face has no area, for instance.
-pub fn write_state(picture: &Picture, path: &Path) -> Result<(), RunError> {
-    meshes::write_state(picture, path)
+/// [`RunError`] if the ending is another one, if the file cannot be written, if the state is no sheet for STL, PLY, OBJ
+/// and FOLD: a face has no area, for instance; and if the thickness is not above 0.
+pub fn write_state(picture: &Picture, path: &Path, thickness: Option<f64>) -> Result<(), RunError> {
+    meshes::write_state(picture, path, thickness)
 }
 
-/// Writes a sheet into a file of the format of its ending. Returns a sentence for each part of the sheet that the file
-/// does not keep.
+/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a sentence
+/// for each part of the sheet that the file does not keep.
 ///
 /// # Errors
-/// [`RunError`] if the ending is unknown, if the file cannot be written, and if it is for flat sheets and the sheet is
-/// not flat.
-pub fn write_sheet(sheet: &Sheet, path: &Path) -> Result<Vec<String>, RunError> {
-    meshes::write(sheet, path)
+/// [`RunError`] if the ending is unknown, if the file cannot be written, if it is for flat sheets and the sheet is not
+/// flat, and if the thickness is not above 0.
+pub fn write_sheet(sheet: &Sheet, path: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
+    meshes::write(sheet, path, thickness)
 }
 
 /// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given
@@ -194,7 +195,7 @@ pub fn write_sheet(sheet: &Sheet, path: &Path) -> Result<Vec<String>, RunError> 
 /// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, if there is no such
 /// frame, and if the new file is for flat sheets and the sheet is not flat.
 pub fn convert(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
-    meshes::write(&read_mesh(from, frame, meshes::READ)?, to)
+    meshes::write(&read_mesh(from, frame, meshes::READ)?, to, None)
 }
 
 /// Does the same as [`convert`] with a flat crease pattern whose vertices are merged, and whose edges are split where
@@ -209,7 +210,7 @@ pub fn convert_cleaned(
     frame: Option<usize>,
     cleanup: &Cleanup,
 ) -> Result<Vec<String>, RunError> {
-    meshes::write(&meshes::read_cleaned(from, frame, cleanup)?, to)
+    meshes::write(&meshes::read_cleaned(from, frame, cleanup)?, to, None)
 }
 
 /// Does the same as [`convert`] with the crease pattern of a folded sheet: the sheet unfolded into the plane, with its
@@ -220,7 +221,21 @@ pub fn convert_cleaned(
 pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
     let folded = read_mesh(from, frame, meshes::READ)?;
     let pattern = flatten(&folded).map_err(|reason| RunError::NotDevelopable { path: from.into(), reason })?;
-    meshes::write(&pattern, to)
+    meshes::write(&pattern, to, None)
+}
+
+/// Does the same as [`convert`] with the solid that the sheet is with a thickness, for printers
+/// ([`thickened`](crate::sheet::thickened)).
+///
+/// # Errors
+/// As [`convert`]; also if the thickness is not above 0.
+pub fn convert_thickened(
+    from: &Path,
+    to: &Path,
+    frame: Option<usize>,
+    thickness: f64,
+) -> Result<Vec<String>, RunError> {
+    meshes::write(&read_mesh(from, frame, meshes::READ)?, to, Some(thickness))
 }
 
 #[cfg(test)]

@@ -63,6 +63,11 @@ EVENTS = {"limit-load": "o", "limit-displacement": "s", "branch-point": "D", "se
 WORDS = {"energy_total": "energy", "arc_length": "arc length (rad)"}
 
 
+def _with_unit(words: str, unit: str | None) -> str:
+    """Returns the name of an axis with its unit, unless it says one."""
+    return f"{words} ({unit})" if unit and "(" not in words else words
+
+
 def draw_result(result: Result, ax: Axes | None) -> Axes:
     """Draws a result; see `Result.plot`."""
     table = result.table
@@ -85,7 +90,8 @@ def draw_result(result: Result, ax: Axes | None) -> Axes:
         driven = dict(zip(("drive", "reaction"), DRIVEN[result.summary["driven"]], strict=True))
         words = [driven.get(name, word) for name, word in zip(columns, words, strict=True)]
         title = f"{result.summary['drive']}: {words[1]} against {words[0]}"
-    axes.set(xlabel=words[0], ylabel=words[1], title=title)
+    units = [result._unit(name) for name in columns]
+    axes.set(xlabel=_with_unit(words[0], units[0]), ylabel=_with_unit(words[1], units[1]), title=title)
     if axes.get_legend_handles_labels()[0]:
         axes.legend()
     drawn: Axes = axes

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _foldwell
-from .names import PLACES, described
+from .names import PLACES, described, unit
 from .state import State
 
 if TYPE_CHECKING:
@@ -142,8 +142,8 @@ class Result:
             angles = np.stack([self.table[name] for name in folds], axis=1)
             data["fold_angle"] = (("row", "edge"), angles, described("fold_angle"))
         for name, (_, _, attributes) in data.items():
-            if unit := self._unit(name):
-                attributes["units"] = unit
+            if named := self._unit(name):
+                attributes["units"] = named
         places = {name: data.pop(name) for name in PLACES if name in data}
         edges = {"edge": list(folds.values())} if folds else {}
         found = xarray.Dataset(data, {**places, **edges}, {"name": self.name, "kind": self.kind})
@@ -151,15 +151,7 @@ class Result:
 
     def _unit(self, column: str) -> str | None:
         """The unit of a column; None if it has none, or none that is named."""
-        length, force = self._units.get("length"), self._units.get("force")
-        energy = f"{force} {length}" if force and length else None
-        if column.startswith(("energy", "work")):
-            return energy
-        if column == "curvature":
-            return f"1/{length}" if length else None
-        driven = {"displacement": (length, force), "rotation": ("rad", energy), "lock": ("rad", energy)}
-        drive, reaction = driven.get(self.summary.get("driven", ""), (None, energy))
-        return {"drive": drive, "reaction": reaction}.get(column)
+        return unit(column, self._units, self.summary.get("driven"))
 
     def to_pyvista(self) -> Any:
         """Returns the final state, or else the last one that was kept, as a `pyvista.UnstructuredGrid`. Needs PyVista.

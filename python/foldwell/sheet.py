@@ -181,11 +181,16 @@ class Sheet:
         found: dict[str, Any] = json.loads(self._inner.info())
         return found
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the sheet in the format of the ending: .fold, .obj, .vtu, .stl, .svg or .cp. Warns of what the file does not keep.
+    def save(self, path: str | os.PathLike[str], *, thickness: float | None = None) -> None:
+        """Writes the sheet in the format of the ending: .fold, .obj, .vtu, .stl, .ply, .glb, .svg, .cp or .dxf. Warns of what the file
+        does not keep.
+
+        Args:
+            path: The file.
+            thickness: As in `State.save`.
 
         Raises:
-            SceneError: the ending is unknown, or a flat format is asked for and the sheet is not flat.
+            SceneError: the ending is unknown, a flat format is asked for and the sheet is not flat, or the thickness is not above 0.
             OutputError: the file cannot be written.
 
         Example:
@@ -194,7 +199,7 @@ class Sheet:
             >>> fw.Sheet.read("miura.fold").vertices.shape
             (4, 3)
         """
-        for note in self._inner.write(Path(path)):
+        for note in self._inner.write(Path(path), thickness):
             warnings.warn(note, stacklevel=2)
 
     def to_fold(self) -> dict[str, Any]:

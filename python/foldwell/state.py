@@ -112,14 +112,19 @@ class State:
         """Torque of the hinge of each edge, the derivative of its energy by the fold angle, shape (m,)."""
         return self._inner.torques
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, thickness: float | None = None) -> None:
         """Writes the state in the format of the ending.
 
         `.vtu` has everything, for ParaView, PyVista, meshio and `start`; `.glb` (binary glTF) faces and coloured edges, for viewers and
-        slides; `.stl` triangles, for printers; `.obj` and `.fold` the sheet as this state draws it, with its polygons and letters.
+        slides; `.stl` and `.ply` triangles, for printers; `.obj` and `.fold` the sheet as this state draws it, with its polygons and letters.
+
+        Args:
+            path: The file.
+            thickness: Thickness of the sheet: the file has the closed surface of the solid, which can be printed. Left out: the faces alone.
 
         Raises:
-            SceneError: the ending is another one, or the faces are no sheet: one has no area. Nothing is written.
+            SceneError: the ending is another one, the faces are no sheet: one has no area; or the thickness is not above 0. Nothing is
+                written.
             OutputError: the file cannot be written.
 
         Example:
@@ -130,7 +135,7 @@ class State:
             >>> Path("drawn.vtu").exists()
             True
         """
-        self._inner.save(Path(path))
+        self._inner.save(Path(path), thickness)
 
     def to_pyvista(self) -> Any:
         """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files, coloured by the fold angle.

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from . import _foldwell
 from .errors import FoldwellError
+from .names import unit
 from .progress import Callback, Progress, listener
 
 if TYPE_CHECKING:
@@ -192,6 +193,8 @@ def _dataset(table: Iterable[str], shape: list[int], summary: dict[str, Any]) ->
     for column, name in names.items():
         if name in found:
             found[name].attrs |= {"key": column, "long_name": column.replace("_", " ").replace(".", " ")}
+            if named := unit(column, summary.get("units", {})):
+                found[name].attrs["units"] = named
     return found
 
 

@@ -92,9 +92,9 @@ impl Sheet {
     }
 
     /// Writes the sheet; returns what the file does not keep.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
+    fn write(&self, py: Python<'_>, path: PathBuf, thickness: Option<f64>) -> PyResult<Vec<String>> {
         let sheet = self.sheet.clone();
-        watched(py, None, move |_| run::write_sheet(&sheet, &path))?.map_err(|error| raise(py, &error))
+        watched(py, None, move |_| run::write_sheet(&sheet, &path, thickness))?.map_err(|error| raise(py, &error))
     }
 
     /// Returns the text of a FOLD file of the sheet.

@@ -117,7 +117,7 @@ impl State {
         drawn.map_err(|fault| bug(py, fault.to_string()))
     }
 
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        run::write_state(&self.picture, &path).map_err(|error| raise(py, &error))
+    fn save(&self, py: Python<'_>, path: PathBuf, thickness: Option<f64>) -> PyResult<()> {
+        run::write_state(&self.picture, &path, thickness).map_err(|error| raise(py, &error))
     }
 }

@@ -87,6 +87,14 @@ pub enum RunError {
         /// The reason for which it cannot be unfolded.
         reason: NotDevelopable,
     },
+    /// A sheet is to be written as a solid without a thickness.
+    #[error("{}: the thickness is {thickness}, expected a number above 0", path.display())]
+    Thickness {
+        /// The file.
+        path: PathBuf,
+        /// The thickness.
+        thickness: f64,
+    },
     /// A study has no states of which a film could be made.
     #[error("{}: no study with two states or more to film", path.display())]
     #[diagnostic(help("states are the files NAME/NAME_0000.vtu, ...: draw = [\"vtk\"] in a study writes them"))]

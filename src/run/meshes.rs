@@ -8,7 +8,7 @@ use super::error::RunError;
 use crate::output::picture::Picture;
 use crate::output::{files, glb, vtk};
 use crate::sheet::pattern::{self, Cleanup, Format};
-use crate::sheet::{Sheet, build, fold, obj, ply, stl};
+use crate::sheet::{Sheet, build, fold, obj, ply, stl, thickened};
 
 /// Endings of meshes that are read.
 pub(super) const READ: &str = ".fold, .obj, .stl, .vtu, .svg, .cp, .opx, .ori or .dxf";
@@ -79,9 +79,18 @@ pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup)
     }
 }
 
-/// Writes a sheet into a file of the format of its ending. Returns a sentence for each part that the file does not
-/// keep.
-pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
+/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a sentence
+/// for each part that the file does not keep.
+pub(super) fn write(sheet: &Sheet, to: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
+    let Some(thickness) = thickness else { return write_thin(sheet, to) };
+    if !(thickness > 0.0 && thickness.is_finite()) {
+        return Err(RunError::Thickness { path: to.into(), thickness });
+    }
+    let solid = thickened(sheet, thickness).map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;
+    write_thin(&solid, to)
+}
+
+fn write_thin(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
     let refused = |reason| RunError::NotFlat { path: to.into(), reason };
     let mut changed = 0;
     match ending(to).as_str() {
@@ -108,17 +117,17 @@ pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
 }
 
 /// Writes a state into a file of the format of its ending; STL, PLY, OBJ and FOLD files have the sheet as it is drawn
-/// in this state.
-pub(super) fn write_state(picture: &Picture, to: &Path) -> Result<(), RunError> {
-    match ending(to).as_str() {
-        "vtu" => Ok(vtk::write_vtu(to, picture)?),
-        "glb" => Ok(files::write(to, glb::bytes(picture))?),
-        "stl" | "ply" | "obj" | "fold" => {
+/// in this state, and with a thickness all files the solid.
+pub(super) fn write_state(picture: &Picture, to: &Path, thickness: Option<f64>) -> Result<(), RunError> {
+    match (ending(to).as_str(), thickness) {
+        ("vtu", None) => Ok(vtk::write_vtu(to, picture)?),
+        ("glb", None) => Ok(files::write(to, glb::bytes(picture))?),
+        ("vtu" | "glb" | "stl" | "ply" | "obj" | "fold", _) => {
             let title = to.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let sheet = build::build(&convert::drawing(convert::mesh(picture.clone()), title));
             let sheet = sheet.map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;
-            write(&sheet, to).map(|_| ())
+            write(&sheet, to, thickness).map(|_| ())
         }
-        ending => Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: STATES }),
+        (ending, _) => Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: STATES }),
     }
 }

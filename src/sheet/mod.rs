@@ -43,6 +43,7 @@ pub mod similar;
 pub mod stl;
 pub mod symmetry;
 pub(crate) mod text;
+mod thicken;
 pub(crate) mod tiling;
 
 pub use assignment::Assignment;
@@ -56,4 +57,5 @@ pub use record::FileRecord;
 pub use redrawing::{Gap, Redrawing};
 pub use screws::ScrewLattice;
 pub use seam::{Seam, SeamKept};
+pub use thicken::thickened;
 pub use tiling::{Site, TiledEdge, TiledTriangle, Tiling, tile};

@@ -7,7 +7,7 @@ use crate::model::Configuration;
 use crate::output::OutputError;
 use crate::output::figure::Caption;
 use crate::output::figure::surface::PathPoint;
-use crate::scene::spec::{Check, Draw, StudySpec};
+use crate::scene::spec::{Check, Draw, StudySpec, UnitsSpec};
 use crate::scene::{SceneError, SceneFile};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -85,6 +85,11 @@ impl Context<'_> {
     /// Returns the caption of a picture: the title of the scene, and the given description of the state.
     pub fn caption(&self, state: impl Into<String>) -> Caption {
         Caption { title: self.file.title(), state: state.into() }
+    }
+
+    /// Returns the names of units that the scene gives.
+    pub fn units(&self) -> UnitsSpec {
+        self.file.scene.units.clone().unwrap_or_default()
     }
 
     /// Returns an error that points at the kind of this study in the scene.

@@ -103,7 +103,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Ans
     let mut answer = Answer::empty(context.study);
     answer.add(format!("{}.csv", context.name()), table(context.assembly, &found));
     if context.draws(Draw::Svg) {
-        answer.add(format!("{}.svg", context.name()), chart::svg(&energies(&context.file.title(), &found)));
+        answer.add(format!("{}.svg", context.name()), chart::svg(&energies(context, &found)));
     }
     let map = spec.map.as_ref().map(|map| map::compute(context, map, &mut answer)).transpose()?;
     let of_map = map.as_ref().and_then(|map| map.reason.clone());
@@ -241,7 +241,7 @@ impl Along {
 }
 
 /// Returns the chart of energies against amplitudes, with a line for each mode and its fitted slope if there is one.
-fn energies(title: &str, found: &[Along]) -> Chart {
+fn energies(context: &Context<'_>, found: &[Along]) -> Chart {
     let point = |sample: &Sample| Point { x: sample.amplitude, y: sample.relaxed.state.total(), label: String::new() };
     let series = |along: &Along| {
         let above = along.samples().iter().filter(|sample| !sample.below_rounding());
@@ -250,9 +250,9 @@ fn energies(title: &str, found: &[Along]) -> Chart {
     };
     let below = found.iter().flat_map(Along::samples).filter(|sample| sample.below_rounding());
     Chart {
-        title: title.to_owned(),
+        title: context.file.title(),
         x: "amplitude of the mode".to_owned(),
-        y: "energy (unit of the scene)".to_owned(),
+        y: context.units().energy(),
         series: found.iter().map(series).collect(),
         rounding: below.map(point).collect(),
         ..Chart::default()

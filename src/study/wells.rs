@@ -327,7 +327,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     }
     if !passes.is_empty() {
         let state = "energies along the paths down from passes to wells; a dashed line marks the pass";
-        let charts: Vec<Chart> = passes.iter().map(|barrier| path_chart(found, barrier)).collect();
+        let charts: Vec<Chart> = passes.iter().map(|barrier| path_chart(context, found, barrier)).collect();
         answer.add(format!("{name}.svg"), chart::panels(&charts, &context.caption(state)));
     } else if let Some(lowest) = all.first() {
         let state = format!("well 0, energy {}", rounded(found.wells[0].settled.energy, 5));
@@ -350,7 +350,7 @@ fn heights(passes: &[&Barrier]) -> Table {
 
 /// Returns the chart of energies along the descents from a pass to the wells that it joins, in the sheet's own bars,
 /// and of the energy of the pass.
-fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
+fn path_chart(context: &Context<'_>, found: &FoundWells, barrier: &Barrier) -> Chart {
     let ([from, to], last) = (barrier.joins, barrier.path.len() - 1);
     let label = |at: usize| match at {
         0 => format!("well {from}"),
@@ -382,7 +382,7 @@ fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
     Chart {
         title: format!("well {from} to well {to}{sought}"),
         x: format!("length of the path over the pass{bars}"),
-        y: "energy (unit of the scene)".to_owned(),
+        y: context.units().energy(),
         series: vec![Series { name: String::new(), points }],
         levels: summary.energy.map(level).into_iter().collect(),
         ..Chart::default()

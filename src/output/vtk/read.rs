@@ -11,9 +11,6 @@ use crate::output::fault::VtuFault;
 use crate::output::picture::Picture;
 use crate::sheet::{Assignment, EdgeKind, text};
 
-/// The name of a compression that is not read.
-const LZMA: &[u8] = b"vtkLZMADataCompressor";
-
 /// The mesh of a sheet read from a VTU file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtuMesh {
@@ -35,7 +32,7 @@ pub struct VtuMesh {
     pub torque: Option<Vec<f64>>,
 }
 
-/// Reads a VTU file of triangles, polygons and lines, uncompressed or compressed with zlib. The points of all its
+/// Reads a VTU file of triangles, polygons and lines, uncompressed or compressed with zlib or LZMA. The points of all its
 /// pieces are numbered one piece after the other, and arrays are read that all pieces have.
 ///
 /// # Errors
@@ -169,9 +166,6 @@ fn guarded_pieces(bytes: &[u8]) -> Result<Vec<UnstructuredGridPiece>, VtuFault> 
     // vtkio panics on a grid without points, which is therefore excluded first; other panics are caught below
     if !bytes.windows(7).any(|tag| tag == b"<Points") {
         return Err(VtuFault::Format("it has no points".into()));
-    }
-    if bytes.windows(LZMA.len()).any(|part| part == LZMA) {
-        return Err(VtuFault::Format("it is compressed with LZMA; save it with zlib or without compression".into()));
     }
     let whole = inlined(bytes)?;
     let pieces = std::panic::catch_unwind(|| parse_pieces(&whole));

@@ -190,6 +190,7 @@ fn summary(sweep: &Sweep, rows: &[Row]) -> Result<SweepSummary, RunError> {
         scene: file.path().display().to_string(),
         settings: file.settings().to_vec(),
         title: file.title(),
+        units: file.scene.units.clone(),
         digest: digest(file)?,
         keys: sweep.keys().map(str::to_owned).collect(),
         points: rows.len(),

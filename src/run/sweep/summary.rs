@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::output::json::to_json;
+use crate::scene::spec::UnitsSpec;
 
 /// What a sweep of `foldwell` found: `sweep.json`. The results of its points are in `sweep.csv`, a row for each.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -18,6 +19,9 @@ pub struct SweepSummary {
     pub settings: Vec<String>,
     /// The title of the scene; the name of its file where it has none.
     pub title: String,
+    /// The names of units that the scene gives; left out where it gives none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsSpec>,
     /// A fingerprint of the scene and of every file that it names.
     pub digest: String,
     /// The paths of the keys that the points set, in the order of the columns.

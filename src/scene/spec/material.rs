@@ -30,6 +30,12 @@ impl UnitsSpec {
         }
         if names.is_empty() { quantity.to_owned() } else { format!("{quantity} ({})", names.join(" ")) }
     }
+
+    /// Returns the name of an axis of energies.
+    pub(crate) fn energy(&self) -> String {
+        let unnamed = self.force.is_none() || self.length.is_none();
+        if unnamed { "energy (unit of the scene)".to_owned() } else { self.label("energy", true, true) }
+    }
 }
 
 /// `[material]`: an elastic sheet of uniform thickness.

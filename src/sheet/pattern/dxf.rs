@@ -1,4 +1,4 @@
-//! DXF drawings of CAD programs and laser cutters: lines, polylines, arcs and circles as text.
+//! DXF drawings of CAD programs and laser cutters: lines, polylines, arcs, ellipses and splines as text.
 //!
 //! A layer whose name says what its lines are gives their letters, as the layers `MountainLine`, `ValleyLine`,
 //! `CutLine` and `AuxiliaryLine` of ORIPA and Oriedita do; other layers have the letters of their colours, which are
@@ -7,9 +7,11 @@
 //! The file is pairs of lines, a number that says what follows and a value (Autodesk, "DXF Reference", 2012).
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
 use kurbo::{Arc, BezPath, Circle, Point, Shape, Vec2};
 
+use super::bspline::BSpline;
 use super::colour;
 use super::cp::{number, value};
 use super::line::{DrawnLines, Line, Lines, Misread, offset, place};
@@ -47,6 +49,10 @@ const FLAGS: i32 = 70;
 const BULGE: i32 = 42;
 const RADIUS: i32 = 40;
 const ANGLES: [i32; 2] = [50, 51];
+const PARAMETERS: [i32; 2] = [41, 42];
+const DEGREE: i32 = 71;
+const KNOT: i32 = 40;
+const WEIGHT: i32 = 41;
 const FIRST: [i32; 2] = [10, 20];
 const SECOND: [i32; 2] = [11, 21];
 
@@ -187,10 +193,40 @@ impl<'t> Entity<'t> {
                 let arc = Arc::new(self.point(FIRST)?, (radius, radius), from.to_radians(), sweep, 0.0);
                 Ok(arc.to_path(ROUND * radius.abs()))
             }
+            "ELLIPSE" => self.ellipse(),
+            "SPLINE" => self.spline(),
             name => {
-                let right = "LINE, LWPOLYLINE, POLYLINE, ARC and CIRCLE are read; explode blocks and splines to these";
+                let right = "LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and SPLINE are read; explode blocks";
                 Err(PatternFault::Element { element: format!("an entity `{name}`"), right })
             }
+        }
+    }
+
+    /// Returns an arc of an ellipse; its parameters count from the end of the long half axis.
+    fn ellipse(&self) -> Result<BezPath, PatternFault> {
+        let long = self.point(SECOND)?.to_vec2();
+        let [from, to] = [self.number(PARAMETERS[0])?, self.number(PARAMETERS[1])?];
+        let sweep = (to - from).rem_euclid(TAU);
+        let radii = (long.hypot(), self.number(RADIUS)? * long.hypot());
+        // a whole ellipse goes from 0 to 2 pi, whose remainder may be a rounding error
+        let sweep = if sweep < ROUND { TAU } else { sweep };
+        Ok(Arc::new(self.point(FIRST)?, radii, from, sweep, long.atan2()).to_path(ROUND * long.hypot()))
+    }
+
+    /// Returns the curve of control points, which have no weights or equal ones.
+    fn spline(&self) -> Result<BezPath, PatternFault> {
+        let all = |code: i32| -> Result<Vec<f64>, PatternFault> {
+            self.parts.iter().filter(|(known, _)| *known == code).map(|(_, part)| number(part)).collect()
+        };
+        let weights = all(WEIGHT)?;
+        let control = self.corners()?.into_iter().map(|(point, _)| point).collect();
+        let spline = BSpline::new(self.number(DEGREE)? as usize, all(KNOT)?, control);
+        match spline.filter(|_| weights.iter().all(|weight| *weight == weights[0])) {
+            Some(spline) => Ok(spline.path()),
+            None => Err(PatternFault::Element {
+                element: "this SPLINE".into(),
+                right: "splines of degree 1 to 3 with control points and equal weights are read; explode others",
+            }),
         }
     }
 

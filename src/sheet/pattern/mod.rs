@@ -36,6 +36,7 @@
 
 mod arrangement;
 mod auxiliary;
+mod bspline;
 mod cleanup;
 mod colour;
 mod cp;

@@ -18,7 +18,7 @@ pub(crate) struct Words {
 impl Words {
     /// Returns the words for a drive of this scene.
     pub(crate) fn new(context: &Context<'_>, drive: &Drive) -> Self {
-        let units = context.file.scene.units.clone().unwrap_or_default();
+        let units = context.units();
         let words = |driven, quantity, reaction| Self { driven, quantity, reaction };
         let moved = |quantity: String| {
             words("displacement", units.label(&quantity, false, true), units.label("force", true, false))

@@ -1,7 +1,8 @@
 //! Files of meshes that are drawn with an error, come from other programs in an unusual form, or are made to do harm;
 //! and the names of files that are written.
 
-use crate::common::{Folder, Numbers, Scene, mesh_folder};
+use crate::common::{Folder, Numbers, Scene, case_folder, mesh_folder};
+use foldwell::math::Vec3;
 use foldwell::sheet::pattern::{self, Cleanup, Format};
 use foldwell::sheet::{Assignment, Info, Sheet};
 use std::fmt::Write;
@@ -202,6 +203,29 @@ fn vtu_files_of_raw_arrays_and_polygons() {
     here.foldwell("info cut.vtu").refused("an array is beyond its end");
 }
 
+/// Claim: files that VTK 9.7.2 wrote with its LZMA compressor are read, with blocks of 32 bytes: in the elements, as
+/// base64 behind them with lengths of eight bytes, and as raw bytes; one that is damaged or cut off is refused. Source:
+/// counted by hand, the sheet of the test before.
+#[test]
+fn vtu_files_compressed_with_lzma() {
+    let here = &Folder::new();
+    for file in ["lzma-binary.vtu", "lzma-appended.vtu", "lzma-raw.vtu"] {
+        let path = case_folder().join(file);
+        let info = here.foldwell(&format!("info {} --json", path.display())).well().json();
+        let counts = ["vertices", "polygons", "creases", "facets"].map(|key| info[key].as_u64().unwrap());
+        assert_eq!(counts, [7, 2, 1, 3], "{file}");
+        assert_eq!([&info["shortest_edge"], &info["longest_edge"]], [1.0, 5f64.sqrt()], "{file}");
+    }
+    let raw = fs::read(case_folder().join("lzma-raw.vtu")).unwrap();
+    let streams: Vec<usize> = (0..raw.len() - 6).filter(|&at| &raw[at..at + 6] == b"\xfd7zXZ\0").collect();
+    let mut damaged = raw.clone();
+    damaged[streams[1] + 30] ^= 0x55;
+    here.write("a.vtu", damaged);
+    here.foldwell("info a.vtu").refused("an array is no LZMA data");
+    here.write("a.vtu", &raw[..streams[streams.len() - 1] + 20]);
+    here.foldwell("info a.vtu").refused("an array is beyond its end");
+}
+
 /// Claim: a sheet goes to PLY and GLB, and to STL and back with its vertices and triangles, whatever its title says.
 /// Source: counts.
 #[test]
@@ -317,4 +341,58 @@ fn help_needs_a_place_too() {
         let status = Folder::new().command(&words.split(' ').collect::<Vec<_>>()).stdout(full).status().unwrap();
         assert_eq!(status.code(), Some(3), "{words}");
     }
+}
+
+/// Claim: a sheet with a thickness is written as a closed surface with both sides and walls, in every format of faces;
+/// a thickness that is none is refused, and nothing is written. Source: counts of two triangles' sides and four walls.
+#[test]
+fn sheets_with_a_thickness_are_closed() {
+    let fold = r#"{"vertices_coords": [[0,0],[2,0],[2,1],[0,1]], "faces_vertices": [[0,1,2,3]]}"#;
+    let here = &Folder::new().with("a.fold", fold);
+    for to in ["b.stl", "b.ply", "b.obj", "b.vtu", "b.fold"] {
+        here.foldwell(&format!("convert a.fold {to} --thickness 0.1")).well();
+    }
+    for from in ["b.stl", "b.obj", "b.fold"] {
+        let info = here.foldwell(&format!("info {from} --json")).well().json();
+        let counts = ["vertices", "faces", "boundary"].map(|key| info[key].as_u64().unwrap());
+        assert_eq!(counts, [8, 12, 0], "{from}");
+    }
+    for none in ["0", "-1", "nan"] {
+        here.foldwell(&format!("convert a.fold c.stl --thickness={none}")).refused("expected a number above 0");
+    }
+    assert!(!here.path().join("c.stl").exists());
+}
+
+/// Claim: ellipses and splines of a DXF drawing are curves of the sheet: an ellipse encloses its area, a spline that is
+/// closed and one from edge to edge divide a square into faces, and rational splines are refused by name. Source: area
+/// `pi a b`. Tolerance: 1%, for polylines within 1e-3 of the extent.
+#[test]
+fn curves_of_cad_programs_are_creases() {
+    let line =
+        |[a, b]: [[f64; 2]; 2]| format!("0\nLINE\n8\nCut\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n", a[0], a[1], b[0], b[1]);
+    let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+    let square: String = (0..4).map(|k| line([corners[k], corners[(k + 1) % 4]])).collect();
+    let ellipse = "0\nELLIPSE\n8\nValley\n10\n2\n20\n2\n11\n0.6\n21\n0.8\n40\n0.5\n41\n0\n42\n6.283185307179586\n";
+    let spline = |weight: &str| {
+        let control = [[0.0, 2.0], [1.0, 3.5], [3.0, 0.5], [4.0, 2.0]];
+        let knots = [0, 0, 0, 0, 1, 1, 1, 1].map(|knot| format!("40\n{knot}\n")).concat();
+        let points: String = control.iter().map(|[x, y]| format!("10\n{x}\n20\n{y}\n")).collect();
+        format!("0\nSPLINE\n8\nMountain\n70\n8\n71\n3\n{knots}41\n1\n41\n{weight}\n42\n1e-7\n{points}")
+    };
+    let file = |entities: &str| format!("0\nSECTION\n2\nENTITIES\n{square}{entities}0\nENDSEC\n0\nEOF\n");
+    let parse = |entities: &str| pattern::parse(&file(entities), "a", Format::Dxf);
+    let oval = parse(ellipse).unwrap();
+    let area = |polygon: usize| -> f64 {
+        let triangles = oval.triangles.iter().filter(|triangle| triangle.polygon == polygon);
+        let corners = triangles.map(|triangle| triangle.corners.map(|corner| oval.vertices[corner.vertex]));
+        corners.map(|[a, b, c]| (b - a).cross(&(c - a)).norm() / 2.0).sum()
+    };
+    let inner = (0..oval.polygons.len()).map(area).fold(f64::INFINITY, f64::min);
+    assert!((inner / (0.5 * std::f64::consts::PI) - 1.0).abs() < 0.01, "{inner}");
+    let divided = parse(&spline("1")).unwrap();
+    assert_eq!(divided.polygons.len(), 2);
+    let middle = Vec3::new(2.0, 2.0, 0.0);
+    assert!(divided.vertices.iter().any(|vertex| (vertex - middle).norm() < 0.3), "the curve goes through the middle");
+    let rational = parse(&spline("2")).unwrap_err().to_string();
+    assert!(rational.contains("this SPLINE") && rational.contains("equal weights"), "{rational}");
 }
