@@ -178,8 +178,8 @@ pub fn write_state(picture: &Picture, path: &Path, thickness: Option<f64>) -> Re
     meshes::write_state(picture, path, thickness)
 }
 
-/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a sentence
-/// for each part of the sheet that the file does not keep.
+/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a
+/// sentence for each part of the sheet that the file does not keep.
 ///
 /// # Errors
 /// [`RunError`] if the ending is unknown, if the file cannot be written, if it is for flat sheets and the sheet is not

@@ -79,8 +79,8 @@ pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup)
     }
 }
 
-/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a sentence
-/// for each part that the file does not keep.
+/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a
+/// sentence for each part that the file does not keep.
 pub(super) fn write(sheet: &Sheet, to: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
     let Some(thickness) = thickness else { return write_thin(sheet, to) };
     if !(thickness > 0.0 && thickness.is_finite()) {

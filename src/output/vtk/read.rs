@@ -32,8 +32,8 @@ pub struct VtuMesh {
     pub torque: Option<Vec<f64>>,
 }
 
-/// Reads a VTU file of triangles, polygons and lines, uncompressed or compressed with zlib or LZMA. The points of all its
-/// pieces are numbered one piece after the other, and arrays are read that all pieces have.
+/// Reads a VTU file of triangles, polygons and lines, uncompressed or compressed with zlib or LZMA. The points of all
+/// its pieces are numbered one piece after the other, and arrays are read that all pieces have.
 ///
 /// # Errors
 /// [`OutputError::Read`] if the file cannot be read, [`OutputError::Vtu`] if its content is not valid.

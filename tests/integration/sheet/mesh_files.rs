@@ -381,7 +381,8 @@ fn curves_of_cad_programs_are_creases() {
     };
     let file = |entities: &str| format!("0\nSECTION\n2\nENTITIES\n{square}{entities}0\nENDSEC\n0\nEOF\n");
     let parse = |entities: &str| pattern::parse(&file(entities), "a", Format::Dxf);
-    let oval = parse(ellipse).unwrap();
+    let spokes = [[[2.6, 2.8], [4.0, 4.0]], [[1.4, 1.2], [0.0, 0.0]]].map(line).concat().replace("Cut", "Mountain");
+    let oval = parse(&format!("{ellipse}{spokes}")).unwrap();
     let area = |polygon: usize| -> f64 {
         let triangles = oval.triangles.iter().filter(|triangle| triangle.polygon == polygon);
         let corners = triangles.map(|triangle| triangle.corners.map(|corner| oval.vertices[corner.vertex]));
