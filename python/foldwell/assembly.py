@@ -71,7 +71,8 @@ class Assembly:
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
         laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
         material: Table | None = None, units: Table | None = None,
-        pins: Tables | None = None, loads: Tables | ArrayLike | None = None, parts: Tables | None = None, springs: Tables | None = None,
+        pins: Tables | None = None, loads: Tables | ArrayLike | None = None, pressures: Tables | None = None,
+        parts: Tables | None = None, springs: Tables | None = None,
     ) -> Assembly:
         """Makes a patch: `cells[0]` times `cells[1]` cells with free edges, or a finite sheet.
 
@@ -91,7 +92,8 @@ class Assembly:
                 or names alone.
             pins: Vertices that are held, each a dict as `[[pin]]`: `{"vertex": 3, "cell": (0, 0), "axes": "xyz"}`.
             loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`; or an array with
-                a force for each vertex, cell by cell, shape (n, 3).
+                a force for each vertex, cell by cell, shape (n, 3); or the weight of the sheet, `{"weight": (0, 0, -9.81)}`.
+            pressures: Pressures on faces, each a dict as `[[pressure]]`: `{"value": 0.1}` on all, positive along their normals.
             parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
             springs: Springs between two vertices, each a dict as `[[spring]]`: `{"vertices": [3, (7, 0, 1)], "stiffness": 2.0}`.
             drives: Quantities that `path` drives, each a dict as `[[drive]]`.
@@ -99,7 +101,7 @@ class Assembly:
                 "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`; a formula, `{"kind": "formula", "torque":
                 "k*sinh(m - m0)"}`; a measured curve, `{"kind": "table", "points": np.column_stack([angle, torque])}`, angles in
                 radians off rest.
-            mass: Mass, from which frequencies follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
+            mass: Mass, from which frequencies and weight follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
             material: The elastic sheet from which stiffnesses follow that are not given: `{"young": 1400.0, "poisson": 0.4,
                 "thickness": 0.3, "crease_length": 20.0}`; without `crease_length` there are no creases. Left out: none.
             units: Names of units for axes and xarray, `{"length": "mm", "force": "N"}`; they change no number.
@@ -131,7 +133,7 @@ class Assembly:
     ) -> Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
-        Terms as in `patch`, without pins, loads, parts and springs.
+        Terms as in `patch`, without pins, loads, pressures, parts and springs.
 
         Example:
             >>> import foldwell as fw
@@ -156,7 +158,7 @@ class Assembly:
         Args:
             sheet: The sheet.
             cells: Cells of pictures; they have no influence on numbers.
-            bars, ...: Terms as in `patch`, without pins, loads, parts and springs.
+            bars, ...: Terms as in `patch`, without pins, loads, pressures, parts and springs.
 
         Example:
             >>> import foldwell as fw
@@ -190,7 +192,7 @@ class Assembly:
             closing: The closing conditions that hold: "both", "turn" (the seam slips) or "rise" (the tube opens or overlaps).
             inwards: Whether the sheet is rolled up towards its face normals, which it is if this is left out. Not for a sheet that is
                 drawn as a tube.
-            bars, ...: Terms as in `patch`, without pins, loads, parts and springs.
+            bars, ...: Terms as in `patch`, without pins, loads, pressures, parts and springs.
 
         Raises:
             SceneError: the sheet cannot be rolled up until it closes, or is drawn as a tube that does not close there.
@@ -484,7 +486,7 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     place = {"mesh": title, "domain": domain, **{key: given[key] for key in PLACE if key in given}}
     scene: dict[str, Any] = {"title": title, "sheet": place, "energy": energy, "lock": _locks(given.get("locks", ()))}
     scene |= {name: given.get(name) for name in ("mass", "material", "units")}
-    scene |= {name: given.get(f"{name}s") for name in ("pin", "load", "part", "spring", "drive")}
+    scene |= {name: given.get(f"{name}s") for name in ("pin", "load", "pressure", "part", "spring", "drive")}
     return cls(_foldwell.Assembly.of_arguments(scene, sheet._inner))
 
 

@@ -110,6 +110,9 @@ impl State {
 
     /// Adds an element whose measure has this value and which has this force and this energy.
     fn add(&mut self, element: &Element<'_>, value: f64, [force, energy]: [f64; 2]) {
+        if element.is_load() {
+            return;
+        }
         let Some(edge) = element.edge() else { return self.add_own(element.name(), energy) };
         let rest = element.spring.rest;
         if element.is_angle() {
@@ -124,7 +127,7 @@ impl State {
             TermKind::Bars => self.energy_bars += energy,
             TermKind::Creases => self.energy_creases += energy,
             TermKind::Facets => self.energy_facets += energy,
-            TermKind::Locks | TermKind::Own => debug_assert!(energy == 0.0, "locks are rigid"),
+            TermKind::Locks | TermKind::Own | TermKind::Pressure => debug_assert!(energy == 0.0, "locks are rigid"),
         }
     }
 
@@ -144,13 +147,13 @@ impl State {
         own.or_else(|| kind.map(|kind| self.energy_of(kind))).unwrap_or(0.0)
     }
 
-    /// Energy of the terms of a kind; locks are rigid and have none, and terms of one's own are taken together.
+    /// Energy of the terms of a kind; locks are rigid and loads have none, and terms of one's own are taken together.
     pub(crate) fn energy_of(&self, kind: TermKind) -> f64 {
         match kind {
             TermKind::Bars => self.energy_bars,
             TermKind::Creases => self.energy_creases,
             TermKind::Facets => self.energy_facets,
-            TermKind::Locks => 0.0,
+            TermKind::Locks | TermKind::Pressure => 0.0,
             TermKind::Own => self.energy_own.iter().map(|(_, energy)| energy).sum(),
         }
     }

@@ -90,6 +90,18 @@ pub enum AssemblyError {
         /// The cell, counted along the two lattice vectors.
         cell: [usize; 2],
     },
+    /// The sheet has weight and no mass.
+    #[error("the sheet has weight and no mass")]
+    WeightWithoutMass,
+    /// Faces are under pressure and enclose nothing.
+    #[error("faces are under pressure and do not close: the side between vertices {} and {} belongs to one of them only", vertices[0], vertices[1])]
+    Open {
+        /// The ends of the side, vertices of the tiling.
+        vertices: [usize; 2],
+    },
+    /// Faces of another domain than a patch are under pressure.
+    #[error("only faces of a patch have a pressure")]
+    NoPatch,
     /// The loads have a resultant force along an axis on which no vertex is pinned.
     #[error("the loads push the whole sheet along {} with a force of {force}", ["x", "y", "z"][*axis])]
     Unbalanced {

@@ -108,6 +108,7 @@ struct Given {
     locks: Vec<(EdgeKey, Option<f64>)>,
     pins: Vec<(NamedVertex, [bool; 3])>,
     loads: Vec<(NamedVertex, Vec3)>,
+    gravity: Option<Vec3>,
     guides: Vec<(NamedVertex, Vec3)>,
     parts: Vec<(Vec<NamedVertex>, [bool; 6])>,
     mass: Option<Mass>,
@@ -209,7 +210,14 @@ impl Builder {
         self
     }
 
-    /// Gives the sheet a mass, from which frequencies follow; it has no weight.
+    /// Lets the mass of the sheet weigh: `gravity` is the acceleration (x, y, z).
+    #[must_use]
+    pub fn weight(mut self, gravity: [f64; 3]) -> Self {
+        self.given.gravity = Some(Vec3::from(gravity));
+        self
+    }
+
+    /// Gives the sheet a mass, from which frequencies follow; it weighs nothing without [`Builder::weight`].
     #[must_use]
     pub fn mass(mut self, mass: Mass) -> Self {
         self.given.mass = Some(mass);
@@ -241,7 +249,7 @@ impl Builder {
     ///
     /// # Errors
     /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness, a rest length or the mass is
-    /// not a positive number, rest values are given without a stiffness, the length of a list does not match the
+    /// not a positive number, rest values are given without a stiffness or weight without mass, the length of a list does not match the
     /// tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, place, mut given } = self;
@@ -277,6 +285,12 @@ impl Builder {
         terms.pins = on_vertices(&bare, given.pins)?;
         terms.guides = on_vertices(&bare, given.guides)?;
         terms.loads = on_vertices(&bare, given.loads)?;
+        if let Some(gravity) = given.gravity {
+            let mass = mass.ok_or(AssemblyError::WeightWithoutMass)?;
+            terms
+                .loads
+                .extend(mass.of_tiling(bare.drawn(), bare.tiling()).into_iter().map(|m| gravity * m).enumerate());
+        }
         for (vertices, free) in given.parts {
             let numbers = vertices.into_iter().map(|vertex| numbered(&bare, vertex));
             terms.parts.push(Part { vertices: numbers.collect::<Result<_, _>>()?, free });

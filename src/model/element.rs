@@ -21,11 +21,13 @@ pub enum TermKind {
     Locks,
     /// Elements of a term of one's own.
     Own,
+    /// Faces under pressure, which are loaded and store nothing.
+    Pressure,
 }
 
 impl TermKind {
     /// All kinds, in the order in which a scene lists them.
-    pub(crate) const ALL: [Self; 5] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks, Self::Own];
+    pub(crate) const ALL: [Self; 6] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks, Self::Own, Self::Pressure];
 
     /// Returns the name of this kind in a scene.
     pub fn name(self) -> &'static str {
@@ -35,6 +37,7 @@ impl TermKind {
             Self::Facets => "facets",
             Self::Locks => "locks",
             Self::Own => "own terms",
+            Self::Pressure => "pressure",
         }
     }
 }
@@ -252,12 +255,17 @@ impl<'a> Element<'a> {
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
     pub(super) fn metric(&self) -> f64 {
-        if self.is_beyond_spring() { 0.0 } else { self.spring.stiffness }
+        if self.is_beyond_spring() || self.is_load() { 0.0 } else { self.spring.stiffness }
     }
 
     /// Whether it stores what a law has beyond a spring, which is another element.
     pub(crate) fn is_beyond_spring(&self) -> bool {
         matches!(self.term.stored(), Stored::BeyondSpring(_))
+    }
+
+    /// Whether it is a load, whose potential is no energy of the sheet.
+    pub(crate) fn is_load(&self) -> bool {
+        self.kind() == TermKind::Pressure
     }
 
     /// Whether it has another law than a spring.

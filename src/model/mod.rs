@@ -40,6 +40,7 @@ mod material;
 pub mod measure;
 mod own_term;
 mod part;
+mod pressure;
 mod problem;
 mod published_laws;
 mod roll;

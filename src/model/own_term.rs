@@ -72,6 +72,11 @@ impl OwnTerm {
         self.elements.name()
     }
 
+    /// Whether it is a load and no energy: the pressure on faces.
+    pub fn is_load(&self) -> bool {
+        self.elements.kind() == TermKind::Pressure
+    }
+
     /// Whether its elements have tensions as unknowns: one of them is rigid.
     pub(super) fn is_stiff(&self) -> bool {
         self.springs.iter().any(|spring| spring.stiffness.is_infinite())

@@ -84,11 +84,11 @@ pub struct Terms {
     pub guides: Vec<(usize, Vec3)>,
     /// Vertices that move as rigid bodies; a vertex belongs to one part at most.
     pub parts: Vec<Part>,
-    /// The mass of the sheet, which gives frequencies; it has no weight.
+    /// The mass of the sheet, which gives frequencies; its weight is a load.
     pub mass: Option<Mass>,
     /// Laws of bars, creases and facets other than that of a spring.
     pub laws: Laws,
-    /// Terms of one's own.
+    /// Terms of one's own, and the pressure on faces.
     pub own: Vec<OwnTerm>,
 }
 
@@ -132,13 +132,24 @@ impl Terms {
 
     /// Returns the names of the terms of one's own, in the order in which tables and summaries list them.
     pub fn own_names(&self) -> BTreeSet<&str> {
-        self.own.iter().map(OwnTerm::name).collect()
+        self.own.iter().filter(|term| !term.is_load()).map(OwnTerm::name).collect()
     }
 
     /// Returns the name of the first term that is not made of linear springs along edges: one with a law, or one of
     /// one's own; `None` if there is none.
     pub fn first_not_linear(&self) -> Option<&str> {
         self.laws.first().or_else(|| self.own.first().map(OwnTerm::name))
+    }
+
+    /// Whether there are loads, forces or pressures.
+    pub fn is_loaded(&self) -> bool {
+        !self.loads.is_empty() || self.own.iter().any(OwnTerm::is_load)
+    }
+
+    /// Returns the same terms without loads.
+    pub fn unloaded(&self) -> Self {
+        let own = self.own.iter().filter(|term| !term.is_load()).cloned().collect();
+        Self { loads: vec![], own, ..self.clone() }
     }
 
     /// Whether there is any bar, crease, facet, lock or load. Pins and mass give no energy.

@@ -259,7 +259,7 @@ fn built_terms(assembly: &Assembly) -> (Vec<String>, Vec<String>) {
         ("facets", terms.facets.is_some(), no_facets),
         ("locks", !terms.locks.is_empty(), "locks: none given"),
         ("pins", !terms.pins.is_empty(), "pins: none given"),
-        ("loads", !terms.loads.is_empty(), "loads: none given"),
+        ("loads", terms.is_loaded(), "loads: none given"),
     ];
     let (there, missing): (Vec<_>, Vec<_>) = table.into_iter().partition(|(_, there, _)| *there);
     let terms = there.into_iter().map(|(term, ..)| term.to_owned()).collect();

@@ -12,9 +12,9 @@ use super::rows::Column;
 use super::spec::{DomainSpec, EnergySpec, HingeLawSpec, Lattice, VertexSet};
 use super::stiffness::StiffnessSpec;
 use super::values::{EdgeName, Fraction};
-use super::{Located, SceneError, SceneFile, drives, laws};
+use super::{Located, SceneError, SceneFile, drives, laws, loads};
 use crate::kinematics::folding_modes_with_locked;
-use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, Laws, RIGID, Stiffness, Terms};
+use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, Laws, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Cleanup, Format};
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj, stl};
 use std::ops::Range;
@@ -42,10 +42,9 @@ pub fn assembly_of(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneErro
     };
     let bare = bare.map_err(|error| file.error_at(0..0, error.to_string(), "see [sheet]"))?;
     let reader = Reader::new(file, &bare);
-    let assembly = bare.with_terms(reader.terms()?).with_best_axis();
+    let assembly = loads::loaded(file, &bare.with_terms(reader.terms()?).with_best_axis())?;
     super::rolled::polygons_bend(file, &assembly)?;
     drives::check_all(file, &assembly)?;
-    reader.balance(&assembly)?;
     Ok(assembly)
 }
 
@@ -369,23 +368,11 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Adds what holds, loads and joins vertices to the terms.
+    /// Adds what holds and joins vertices to the terms.
     fn placed(&self, terms: Terms) -> Result<Terms, SceneError> {
         let places = Places::new(self.file, self.assembly);
         let held = places.held()?;
-        let (parts, loads, springs) = (places.parts(&held)?, places.loads()?, places.springs()?);
-        Ok(Terms { parts, loads, pins: held.pins, guides: held.guides, own: springs.into_iter().collect(), ..terms })
-    }
-
-    /// Checks that the loads balance along every direction in which nothing holds or drives the sheet: otherwise there
-    /// is no equilibrium.
-    fn balance(&self, assembly: &Assembly) -> Result<(), SceneError> {
-        let driven = drives::supported(self.file, assembly)?;
-        let Some((axis, force)) = assembly.terms().unbalanced_axis_beside(&driven) else { return Ok(()) };
-        let span = self.file.scene.loads.first().map_or(0..0, |load| load.force.span());
-        let message = AssemblyError::Unbalanced { axis, force }.to_string();
-        let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
-                    still turns as a whole, until its loads pull straight";
-        Err(self.file.error_at(span, message, help))
+        let (parts, springs) = (places.parts(&held)?, places.springs()?);
+        Ok(Terms { parts, pins: held.pins, guides: held.guides, own: springs.into_iter().collect(), ..terms })
     }
 }

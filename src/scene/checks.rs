@@ -151,7 +151,7 @@ fn fractions(file: &SceneFile) -> Checked {
 
 fn places(file: &SceneFile) -> Checked {
     let scene = &file.scene;
-    for load in &scene.loads {
+    for load in scene.loads.iter().filter(|load| load.weight.is_none()) {
         place(file, "a load", (load.vertex.as_ref(), load.vertices.as_ref()), load.cell.as_ref())?;
     }
     for pin in &scene.pins {

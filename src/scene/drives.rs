@@ -78,8 +78,8 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
     let quantity = match quantity(file, spec)? {
         Quantity::Part(name, axis) => part(file, name, axis)?,
         Quantity::Vertices(set, axis) => vertices(file, assembly, set, axis)?,
-        Quantity::Loads(span) if terms.loads.is_empty() => {
-            return nothing(span, "the scene has no loads to drive", "add a [[load]]");
+        Quantity::Loads(span) if !terms.is_loaded() => {
+            return nothing(span, "the scene has no loads to drive", "add a [[load]] or [[pressure]]");
         }
         Quantity::Loads(_) => Driven::Loads,
         Quantity::Lock(crease) => lock(file, assembly, spec, crease)?,

@@ -29,11 +29,12 @@ pub(super) fn mass(file: &SceneFile) -> Option<Mass> {
 /// [`SceneError`] at the mass if none does.
 pub(crate) fn is_read(file: &SceneFile) -> Result<(), SceneError> {
     let span = file.scene.mass.as_ref().map(Located::span);
-    match span.filter(|_| !file.scene.studies.iter().any(|study| study.kind.reads_mass())) {
+    let weighs = file.scene.loads.iter().any(|load| load.weight.is_some());
+    match span.filter(|_| !weighs && !file.scene.studies.iter().any(|study| study.kind.reads_mass())) {
         None => Ok(()),
         Some(span) => {
             let help = "frequencies are those of kind = \"modes\" with `eigenvalues` and kind = \"bloch\" with `path` or \
-                        `density`; leave `mass` out otherwise";
+                        `density`, weight is that of [[load]]; leave `mass` out otherwise";
             Err(file.error_at(span, "no study of this scene reads the mass", help))
         }
     }

@@ -12,6 +12,7 @@ pub(crate) mod error;
 mod file;
 pub(crate) mod forms;
 mod laws;
+mod loads;
 mod located;
 pub(crate) mod mass;
 mod material;

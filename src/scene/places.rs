@@ -1,11 +1,10 @@
-//! The vertices that a scene names, by number, by the names of the mesh or by their drawn positions; and the loads,
-//! pins and parts on them.
+//! The vertices that a scene names, by number, by the names of the mesh or by their drawn positions; and the pins,
+//! parts and springs on them.
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::path::Path;
 
-use super::spec::{Coordinate, LoadSpec, PartSpec, PinSpec, SpringSpec, VertexName, VertexSet};
+use super::spec::{Coordinate, PartSpec, PinSpec, SpringSpec, VertexName, VertexSet};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
@@ -15,8 +14,6 @@ use crate::sheet::{Sheet, Tiling};
 
 /// Distance, relative to the mean edge, up to which a drawn coordinate has a given value.
 const SAME_COORDINATE: f64 = 1e-6;
-/// Name of an array with the forces on all vertices.
-const LOADS: &str = "loads";
 /// Part of a direction outside a space, relative to its length, up to which it lies in the space.
 const DEPENDENT: f64 = 1e-9;
 
@@ -150,7 +147,7 @@ impl<'a> Places<'a> {
     }
 
     /// Returns the vertices of a load or a pin, which `vertex` and `cell`, or `vertices`, names.
-    fn of_entry(
+    pub(super) fn of_entry(
         &self,
         (what, span): (&str, Range<usize>),
         vertex: Option<&Located<usize>>,
@@ -174,39 +171,6 @@ impl<'a> Places<'a> {
             }
             (None, None, _) => Err(self.file.error_at(span, format!("{what} names no vertex"), help)),
         }
-    }
-
-    /// Returns the loads: vertices and forces.
-    pub(super) fn loads(&self) -> Result<Vec<(usize, Vec3)>, SceneError> {
-        let mut loads = Vec::new();
-        for load in &self.file.scene.loads {
-            let LoadSpec { vertex, cell, vertices, force } = &**load;
-            let what = ("the load", load.span());
-            let on = self.of_entry(what, vertex.as_ref(), cell.as_ref(), vertices.as_ref())?;
-            loads.extend(on.into_iter().map(|vertex| (vertex, Vec3::from(force.0))));
-        }
-        if let Some(array) = self.file.array(Path::new(LOADS)) {
-            loads.extend(self.loads_of(array)?);
-        }
-        Ok(loads)
-    }
-
-    /// Returns the loads of an array: three numbers for each vertex of the patch.
-    fn loads_of(&self, array: &[f64]) -> Result<Vec<(usize, Vec3)>, SceneError> {
-        let (forces, vertices) = (array.len() / 3, self.tiling.positions.len());
-        let refused = |message: String, help: &str| Err(self.file.error_at(0..0, message, help));
-        if self.tiling.periodic {
-            return refused("loads are on the vertices of a patch".into(), "leave them out");
-        }
-        if forces != vertices {
-            let message = format!("{LOADS} has shape ({forces}, 3), expected ({vertices}, 3)");
-            return refused(message, "give a force for each vertex, cell by cell");
-        }
-        if let Some(k) = array.iter().position(|component| !component.is_finite()) {
-            return refused(format!("{LOADS}[{}] is not finite", k / 3), "give finite forces, 0 where there is none");
-        }
-        let loads = array.chunks_exact(3).map(Vec3::from_column_slice).enumerate();
-        Ok(loads.filter(|(_, force)| *force != Vec3::zeros()).collect())
     }
 
     /// Returns the springs as one term; none if there are none.

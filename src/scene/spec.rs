@@ -15,7 +15,7 @@ mod vertices;
 use super::Located;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, Positive, SeamCell, Stiffness, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Fraction, Positive, SeamCell, Stiffness, Triple};
 use crate::sheet::SeamKept;
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
@@ -46,14 +46,17 @@ pub struct Scene {
     /// The terms of the energy; a term that is absent is not built.
     #[serde(default)]
     pub energy: EnergySpec,
-    /// The mass of the sheet, from which frequencies follow; left out: none.
+    /// The mass of the sheet, from which frequencies and weight follow; left out: none.
     pub mass: Option<Located<MassSpec>>,
     /// Creases that keep their fold angle in every cell.
     #[serde(default, rename = "lock")]
     pub locks: Vec<LockSpec>,
-    /// Forces on vertices of a patch.
+    /// Forces on vertices of a patch, and its weight.
     #[serde(default, rename = "load")]
     pub loads: Vec<Located<LoadSpec>>,
+    /// Pressure on faces of a patch.
+    #[serde(default, rename = "pressure")]
+    pub pressures: Vec<Located<PressureSpec>>,
     /// Vertices of a patch that are held.
     #[serde(default, rename = "pin")]
     pub pins: Vec<Located<PinSpec>>,
@@ -287,7 +290,8 @@ pub struct SpringSpec {
     pub rest: Option<Positive>,
 }
 
-/// `[[load]]`: a force on one or more vertices of a patch: `vertex`, with or without `cell`, or `vertices`.
+/// `[[load]]`: a force on one or more vertices of a patch: `vertex`, with or without `cell`, or `vertices`. Or the
+/// weight of the whole sheet.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadSpec {
@@ -298,7 +302,20 @@ pub struct LoadSpec {
     /// The vertices, each of which has the force.
     pub vertices: Option<Located<VertexSet>>,
     /// The force `[x, y, z]`.
-    pub force: Located<Triple>,
+    pub force: Option<Located<Triple>>,
+    /// Instead of vertices and force: the acceleration `[x, y, z]` of gravity, on the `mass` of every vertex.
+    pub weight: Option<Located<Triple>>,
+}
+
+/// `[[pressure]]`: a force per area on faces of a patch, which stays normal to them. The faces close, or their rim is
+/// pinned.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PressureSpec {
+    /// The pressure, positive along the face normals.
+    pub value: Finite,
+    /// Numbers of the polygons of the mesh that are under pressure, in all cells; left out: all.
+    pub faces: Option<Located<Vec<usize>>>,
 }
 
 /// `[[pin]]`: vertices of a patch that are held: `vertex`, with or without `cell`, or `vertices`.

@@ -44,7 +44,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), S
         let help = "give bars a finite stiffness";
         return refuse("modes of a torus stretch bars beyond linear order, rigid bars forbid them", help);
     }
-    if !(terms.locks.is_empty() && terms.pins.is_empty() && terms.loads.is_empty()) {
+    if !(terms.locks.is_empty() && terms.pins.is_empty() && !terms.is_loaded()) {
         let help = "leave out [[lock]], [[pin]] and [[load]]";
         return refuse("a landscape holds nothing but the amplitude of a mode", help);
     }

@@ -56,7 +56,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
         let help = "pin three vertices that do not lie on a line, or leave out [[load]]";
         return refuse("wells under loads are those of a sheet that pins hold in place", help);
     }
-    let free = [terms.pins.is_empty(), terms.guides.is_empty(), terms.parts.is_empty(), terms.loads.is_empty()];
+    let free = [terms.pins.is_empty(), terms.guides.is_empty(), terms.parts.is_empty(), !terms.is_loaded()];
     if spec.rigid && !free.into_iter().all(|free| free) {
         let help = "leave out `rigid`, or [[pin]], [[part]] and [[load]]";
         return refuse("with `rigid` wells are sought in fold angles, which pins, parts and loads do not know", help);

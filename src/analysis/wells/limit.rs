@@ -61,7 +61,7 @@ fn law(three: &[&Height]) -> Option<RigidLimit> {
 pub(super) fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Option<f64> {
     let flat = singular.rho.iter().all(|angle| angle.abs() <= NEARLY_FLAT_RAD);
     let limit = rigid_limit(heights).filter(|_| flat)?;
-    if !assembly.terms().loads.is_empty() || flatten(assembly.sheet()).is_err() {
+    if assembly.terms().is_loaded() || flatten(assembly.sheet()).is_err() {
         return None;
     }
     let energy = assembly.model(Gauge::Held).elastic_hinges().map(|hinge| hinge.response(0.0)[0]).sum::<f64>();

@@ -34,7 +34,7 @@ impl Placement {
     pub(crate) fn new(assembly: &Assembly) -> Option<Self> {
         let model = assembly.model(Gauge::Free);
         let kept = kept(&model);
-        let shapes = kept == 0 || (only_against_motions(&model, kept) && assembly.terms().loads.is_empty());
+        let shapes = kept == 0 || (only_against_motions(&model, kept) && !assembly.terms().is_loaded());
         (!shapes).then(|| Self(assembly.clone()))
     }
 

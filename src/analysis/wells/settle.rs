@@ -112,7 +112,7 @@ impl MinimumTracker {
     /// Stiff elements other than hinges store it in their tensions.
     fn elastic_energy(&self, held: &Model, state: &Configuration) -> f64 {
         let of_value = |(held, own): (Element<'_>, Element<'_>)| own.response(held.value(&state.coordinates))[0];
-        let soft = held.soft().zip(self.model.soft()).map(of_value);
+        let soft = held.soft().zip(self.model.soft()).filter(|(held, _)| !held.is_load()).map(of_value);
         let stiff = held.stiff().zip(self.model.stiff()).zip(state.tensions().iter().zip(held.compliance()));
         let stiff = stiff.map(|(elements, (tension, compliance))| {
             if elements.1.is_elastic_hinge() { of_value(elements) } else { 0.5 * compliance * tension * tension }

@@ -187,7 +187,8 @@ fn crumpled(
     within: &mut dyn FnMut(f64) -> f64,
 ) -> Result<Configuration, Failure> {
     let angles = centre.map_or(assembly.drawn_angles(), |centre| &centre.angles);
-    let mut terms = assembly.terms().clone();
+    // loads that the sheet bears could fold soft bars over
+    let mut terms = assembly.terms().unloaded();
     if let Some(creases) = &mut terms.creases {
         let random = angles.iter().map(|angle| angle + within(spread));
         let rigid = |edge: usize| creases.stiffness.of(edge).is_infinite();
@@ -197,8 +198,6 @@ fn crumpled(
         if let Some(bars) = &mut terms.bars {
             bars.stiffness = bars.stiffness.at_most(softness * creases.stiffness.median());
         }
-        // loads that the sheet bears could fold soft bars over
-        terms.loads.clear();
     }
     let settler = MinimumTracker::new(&assembly.with_terms(terms), 1.0);
     let mut from = match centre {

@@ -50,11 +50,14 @@ impl DrivenModel {
                 model.support_moved(vertices.iter().map(along).collect(), false);
                 (Effect::prescribed(&model, first..first + vertices.len()), 0.0, drive.to)
             }
-            Driven::Loads if model.loads.is_empty() => return Err(DriveError::NoLoads),
+            Driven::Loads if model.loads.is_empty() && model.pressures().is_empty() => {
+                return Err(DriveError::NoLoads);
+            }
             Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
             Driven::Loads => {
-                let origin = model.load_displacement(&model.base);
-                (Effect::Loads { origin }, begin, drive.to)
+                let pressures = model.pressures();
+                let origin = model.load_displacement(&model.base) + model.work_of(&pressures, &model.base);
+                (Effect::Loads { origin, pressures }, begin, drive.to)
             }
             Driven::Lock(edges) => {
                 let locks = model
@@ -228,7 +231,10 @@ impl ParametrizedProblem for DrivenModel {
         let model = &mut self.model;
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, offset)| model.prescribe(*k, value + offset)),
-            Effect::Loads { .. } => model.load_factor = value,
+            Effect::Loads { pressures, .. } => {
+                model.load_factor = value;
+                pressures.iter().for_each(|(k, unit)| model.springs[*k].stiffness = value * unit);
+            }
             Effect::Rest { drawn, given } => model.set_rests(drawn, given, value),
             Effect::Compliance(units) => units.iter().for_each(|(k, unit)| model.compliance[*k] = value * unit),
             Effect::Stiffness(units) => units.iter().for_each(|(k, unit)| model.springs[*k].stiffness = value * unit),
@@ -243,7 +249,12 @@ impl ParametrizedProblem for DrivenModel {
         let (mut force, mut gap) = (vec![0.0; at.gradient.len()], vec![0.0; tension.len()]);
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, _)| gap[*k] = -1.0),
-            Effect::Loads { .. } => force = self.model.load_rates(x),
+            Effect::Loads { pressures, .. } => {
+                force = self.model.load_rates(x);
+                let mut forces = vec![0.0; at.soft_stiffness.len()];
+                pressures.iter().for_each(|(k, unit)| forces[*k] = -unit);
+                at.soft_rows().add_transpose_product(&forces, &mut force);
+            }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
                 let count = self.model.soft_elements();
@@ -268,7 +279,10 @@ impl ParametrizedProblem for DrivenModel {
     fn conjugate(&self, _: &Linearization, x: &[f64], tension: &[f64]) -> f64 {
         match &self.effect {
             Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| tension[*k]).sum::<f64>(),
-            Effect::Loads { origin } => self.model.load_displacement(&self.model.coordinates(x)) - origin,
+            Effect::Loads { origin, pressures } => {
+                let all = self.model.coordinates(x);
+                self.model.load_displacement(&all) + self.model.work_of(pressures, &all) - origin
+            }
             Effect::Rest { drawn, given } => {
                 let of_soft = self.model.soft_by_rest(x).into_iter().map(|[energy, ..]| energy);
                 let rates = of_soft.chain(tension.iter().map(|force| -force));
@@ -289,7 +303,10 @@ impl ParametrizedProblem for DrivenModel {
         at.soft_rows().product(&rates.x, &mut changes);
         match &self.effect {
             Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| rates.tension[*k]).sum::<f64>(),
-            Effect::Loads { .. } => -dot(&self.model.load_rates(x), &rates.x),
+            Effect::Loads { pressures, .. } => {
+                let of_pressure = pressures.iter().map(|(k, unit)| unit * changes[*k]).sum::<f64>();
+                of_pressure - dot(&self.model.load_rates(x), &rates.x)
+            }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
                 let soft = self.model.soft_by_rest(x).into_iter().zip(&changes).zip(&moved);

@@ -2,7 +2,7 @@
 
 use super::{Model, POSE};
 use crate::model::Site;
-use crate::model::element::{Elements, Local, continued};
+use crate::model::element::{Element, Elements, Local, TermKind, continued};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -138,6 +138,23 @@ impl Model {
         self.loads.iter().zip(all).map(|(f, x)| f * x).sum()
     }
 
+    /// Returns the soft elements that are faces under pressure, by number, and their pressures.
+    pub(super) fn pressures(&self) -> Vec<(usize, f64)> {
+        self.soft().filter(Element::is_load).map(|face| (face.number, face.spring.stiffness)).collect()
+    }
+
+    /// Returns the work of pressures, one for each face that has one, from the state without volume to that with these
+    /// coordinates.
+    pub(super) fn work_of(&self, pressures: &[(usize, f64)], all: &[f64]) -> f64 {
+        let faces = self.soft().filter(Element::is_load).map(|face| face.value(&all[..self.points()]));
+        faces.zip(pressures).map(|(volume, (_, pressure))| pressure * volume).sum()
+    }
+
+    /// Returns the work of the pressures on faces, from the state without volume to that with these coordinates.
+    pub(crate) fn work_of_pressure(&self, coordinates: &[f64]) -> f64 {
+        self.work_of(&self.pressures(), coordinates)
+    }
+
     fn linearize_loads(&self, all: &[f64], out: &mut Linearization) {
         if self.loads.is_empty() {
             return;
@@ -177,7 +194,11 @@ impl Model {
         let full = kind == HessianKind::Full;
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
-            let size = if term.is_angle() { 1.0 } else { self.equations.mean_edge };
+            let size = match term.kind() {
+                TermKind::Pressure => f64::INFINITY,
+                _ if term.is_angle() => 1.0,
+                _ => self.equations.mean_edge,
+            };
             let add = |k: usize, local: &Local| {
                 let element = self.element(term, k, first + k);
                 let [energy, force, second] = element.response(local.value);

@@ -17,6 +17,8 @@ pub(super) enum Effect {
     Loads {
         /// Displacement of the loads at the beginning.
         origin: f64,
+        /// Soft elements that are faces under pressure, by number, with that for a factor of 1.
+        pressures: Vec<(usize, f64)>,
     },
     /// Rest values between those of the drawn state and the given ones, for soft and stiff elements by number.
     Rest { drawn: Vec<f64>, given: Vec<f64> },
@@ -35,7 +37,7 @@ impl Effect {
     /// Rest values as given, and those of the drawn state, from which some differ; locks and supports keep theirs.
     pub(super) fn rest(model: &Model, mut drawn: Vec<f64>) -> Result<Self, DriveError> {
         let given = model.rests();
-        let locked = model.elements().map(|element| element.kind() == TermKind::Locks);
+        let locked = model.elements().map(|element| element.kind() == TermKind::Locks || element.is_load());
         let kept = locked.chain(model.supports.iter().map(|_| true));
         drawn.resize(given.len(), 0.0);
         kept.enumerate().filter(|(_, kept)| *kept).for_each(|(k, _)| drawn[k] = given[k]);

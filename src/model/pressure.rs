@@ -1,0 +1,148 @@
+//! Pressure on faces: a force that stays normal to them.
+//!
+//! A pressure `p` pushes every triangle of area `A` along its normal with the force `p A`, a third of it at each corner.
+//! Its potential is `-p V`, `V` the volume that the faces enclose with their normals outwards, a sum over triangles of
+//! the volumes between them and one point, whichever it is. There is a potential only where the faces close, or their
+//! rim is held. Source: J. Bonet, R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008),
+//! section 8.6, the enclosed boundary case.
+
+use super::assembly::Assembly;
+use super::assembly_error::AssemblyError;
+use super::boundary::Boundary;
+use super::element::{Term, TermKind};
+use super::law::{Law, Spring, Stored};
+use super::measure::Measure;
+use super::own_term::OwnTerm;
+use crate::math::Vec3;
+use nalgebra::{Matrix3, SVector};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// The volume between a triangle and a point, positive where the triangle turns its back to the point.
+#[derive(Clone, Copy, Debug)]
+struct VolumeFrom(Vec3);
+
+impl VolumeFrom {
+    fn spokes(&self, points: &[Vec3; 3]) -> [Vec3; 3] {
+        points.map(|point| point - self.0)
+    }
+}
+
+impl Measure<3, 9> for VolumeFrom {
+    fn value(&self, points: &[Vec3; 3]) -> f64 {
+        let [a, b, c] = self.spokes(points);
+        a.dot(&b.cross(&c)) / 6.0
+    }
+
+    fn gradient(&self, points: &[Vec3; 3]) -> (f64, SVector<f64, 9>) {
+        let [a, b, c] = self.spokes(points);
+        let mut gradient = SVector::<f64, 9>::zeros();
+        for (k, normal) in [b.cross(&c), c.cross(&a), a.cross(&b)].into_iter().enumerate() {
+            gradient.fixed_rows_mut::<3>(3 * k).copy_from(&(normal / 6.0));
+        }
+        (self.value(points), gradient)
+    }
+
+    /// The Hessian has zero blocks of each corner with itself: the volume is linear in each.
+    fn hessian(&self, points: &[Vec3; 3], lower: &mut Vec<f64>) -> (f64, SVector<f64, 9>) {
+        let [of_a, of_b, of_c] = self.spokes(points).map(|spoke| spoke.cross_matrix() / 6.0);
+        let nothing = Matrix3::zeros();
+        // d2V = dc . (da x b) + .. : rows are the later corner, columns the earlier one
+        let rows = [[nothing; 3], [of_c, nothing, nothing], [-of_b, of_a, nothing]];
+        lower.clear();
+        for row in 0..9 {
+            lower.extend((0..=row).map(|column| rows[row / 3][column / 3][(row % 3, column % 3)]));
+        }
+        self.gradient(points)
+    }
+}
+
+/// The law of a constant force, the spring constant, that lets the measure grow.
+#[derive(Debug)]
+struct Push;
+
+impl Law for Push {
+    fn at(&self, value: f64, _rest: f64) -> [f64; 3] {
+        [-value, -1.0, 0.0]
+    }
+
+    fn by_rest(&self, _value: f64, _rest: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+}
+
+impl OwnTerm {
+    /// Makes the pressure on the polygons of a patch whose numbers in the sheet `on` accepts, in all cells: a force per
+    /// area, positive along the face normals. As a load it has no energy in tables, and a drive of the loads drives it.
+    ///
+    /// ```
+    /// use foldwell::model::OwnTerm;
+    /// use foldwell::sheet::{Pattern, generate};
+    /// use foldwell::{Assembly, relax};
+    ///
+    /// // a drum with both ends, stretched by the air in it
+    /// let drum = generate(&Pattern::of(&"pattern = \"kresling\"\nclosed = true".parse()?)?)?;
+    /// let assembly = Assembly::patch(drum, [1, 1]).bars(100.0).creases(0.1).build()?;
+    /// let blown_up = assembly.with_own_term(OwnTerm::pressure(&assembly, 0.5, |_| true)?);
+    /// assert!(relax(&blown_up)?.state.energy_bars > 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`AssemblyError::Open`] if a side of these faces belongs to one of them only, and its ends are not both pinned:
+    /// no volume is enclosed. [`AssemblyError::NoPatch`] for other boundary conditions.
+    pub fn pressure(assembly: &Assembly, value: f64, on: impl Fn(usize) -> bool) -> Result<Self, AssemblyError> {
+        let tiling = assembly.tiling();
+        if assembly.boundary() != Boundary::Patch {
+            return Err(AssemblyError::NoPatch);
+        }
+        let polygon = |triangle: usize| assembly.sheet().triangles[triangle].polygon;
+        let faces = tiling.triangles.iter().filter(|triangle| on(polygon(triangle.triangle)));
+        let faces: Vec<_> = faces.map(|triangle| triangle.corners).collect();
+        let sides = faces.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let sides: BTreeSet<[usize; 2]> = sides.map(|side| side.map(|site| site.vertex)).collect();
+        let held =
+            |vertex: usize| assembly.terms().pins.iter().any(|(pinned, axes)| *pinned == vertex && *axes == [true; 3]);
+        let open = sides.iter().find(|&&[a, b]| !(sides.contains(&[b, a]) || held(a) && held(b)));
+        if let Some(&vertices) = open {
+            return Err(AssemblyError::Open { vertices });
+        }
+        let centre = tiling.positions.iter().sum::<Vec3>() / tiling.positions.len().max(1) as f64;
+        let springs = vec![Spring { stiffness: value, rest: 0.0 }; faces.len()];
+        let elements = faces.into_iter().map(|corners| (corners, None)).collect();
+        let kind = TermKind::Pressure;
+        let term = Term::new((kind, kind.name()), VolumeFrom(centre), elements, Stored::Law(Arc::new(Push)));
+        Ok(Self { elements: Arc::new(term), springs })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: the six tetrahedra between the faces of a cube, as twelve triangles, and any point sum to its volume, and
+    /// gradient and Hessian of the volume are its central differences. Tolerance: 1e-8, differences of a cubic with
+    /// steps of 1e-4.
+    #[test]
+    fn volumes_have_their_derivatives() {
+        let measure = VolumeFrom(Vec3::new(0.3, -0.2, 0.7));
+        let points = [Vec3::new(1.0, 0.1, 0.2), Vec3::new(-0.3, 1.2, 0.4), Vec3::new(0.2, -0.5, 1.9)];
+        let mut lower = Vec::new();
+        let (value, gradient) = measure.hessian(&points, &mut lower);
+        assert_eq!((value, gradient), measure.gradient(&points));
+        let moved = |k: usize, by: f64| {
+            let mut points = points;
+            points[k / 3][k % 3] += by;
+            points
+        };
+        let step = 1e-4;
+        for row in 0..9 {
+            let [more, less] = [step, -step].map(|by| measure.gradient(&moved(row, by)));
+            assert!(((more.0 - less.0) / (2.0 * step) - gradient[row]).abs() < 1e-8);
+            for column in 0..=row {
+                let found = lower[row * (row + 1) / 2 + column];
+                assert!(((more.1[column] - less.1[column]) / (2.0 * step) - found).abs() < 1e-8, "{row} {column}");
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What pushes a sheet: forces on vertices, its weight, and pressure on faces.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::places::Places;
+use super::spec::{LoadSpec, PressureSpec};
+use super::{Located, SceneError, SceneFile, drives};
+use crate::math::Vec3;
+use crate::model::{Assembly, AssemblyError, Boundary, OwnTerm, Terms};
+
+/// Name of an array with the forces on all vertices.
+const LOADS: &str = "loads";
+
+/// Returns the assembly with the loads of the scene.
+///
+/// # Errors
+/// [`SceneError`] if a load acts on a vertex or a face that does not exist, or on another domain than a patch, if there
+/// is weight without mass, if faces under pressure enclose nothing, or if nothing holds the sheet against the loads.
+pub(super) fn loaded(file: &SceneFile, assembly: &Assembly) -> Result<Assembly, SceneError> {
+    let mut terms = assembly.terms().clone();
+    terms.loads = forces(file, assembly)?;
+    for spec in &file.scene.pressures {
+        terms.own.push(pressure(file, assembly, spec)?);
+    }
+    balance(file, assembly, &terms)?;
+    Ok(assembly.with_terms(terms))
+}
+
+/// Returns vertices and the forces on them.
+fn forces(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, SceneError> {
+    let places = Places::new(file, assembly);
+    let mut loads = Vec::new();
+    for load in &file.scene.loads {
+        let LoadSpec { vertex, cell, vertices, force, weight } = &**load;
+        if let Some(gravity) = weight {
+            loads.extend(weights(file, assembly, load, gravity.span(), Vec3::from(gravity.0))?);
+            continue;
+        }
+        let Some(force) = force else {
+            let help =
+                "give force = [x, y, z] with vertex or vertices, or weight = [x, y, z], the acceleration of gravity";
+            return Err(file.error_at(load.span(), "the load has neither `force` nor `weight`", help));
+        };
+        let on = places.of_entry(("the load", load.span()), vertex.as_ref(), cell.as_ref(), vertices.as_ref())?;
+        loads.extend(on.into_iter().map(|vertex| (vertex, Vec3::from(force.0))));
+    }
+    if let Some(array) = file.array(Path::new(LOADS)) {
+        loads.extend(of_array(file, assembly, array)?);
+    }
+    Ok(loads)
+}
+
+/// Returns the weight of every vertex.
+fn weights(
+    file: &SceneFile,
+    assembly: &Assembly,
+    load: &LoadSpec,
+    span: Range<usize>,
+    gravity: Vec3,
+) -> Result<Vec<(usize, Vec3)>, SceneError> {
+    let LoadSpec { vertex, cell, vertices, force, weight: _ } = load;
+    let others = [vertex.is_some(), cell.is_some(), vertices.is_some(), force.is_some()];
+    if others.contains(&true) {
+        let help = "it is that of the whole sheet; give forces on vertices in a [[load]] of their own";
+        return Err(file.error_at(span, "`weight` stands alone in its load", help));
+    }
+    if assembly.boundary() != Boundary::Patch {
+        return Err(file.error_at(span, "only a patch has weight", "give domain = \"patch\""));
+    }
+    let Some(masses) = assembly.masses() else {
+        let help = "give mass = { area = 1.0 }, a mass per area, or { vertex = 1.0 }";
+        return Err(file.error_at(span, "the sheet has weight and no mass", help));
+    };
+    Ok(masses.into_iter().map(|mass| gravity * mass).enumerate().collect())
+}
+
+/// Returns the loads of an array: three numbers for each vertex of the patch.
+fn of_array(file: &SceneFile, assembly: &Assembly, array: &[f64]) -> Result<Vec<(usize, Vec3)>, SceneError> {
+    let (forces, vertices) = (array.len() / 3, assembly.tiling().positions.len());
+    let refused = |message: String, help: &str| Err(file.error_at(0..0, message, help));
+    if assembly.tiling().periodic {
+        return refused("loads are on the vertices of a patch".into(), "leave them out");
+    }
+    if forces != vertices {
+        let message = format!("{LOADS} has shape ({forces}, 3), expected ({vertices}, 3)");
+        return refused(message, "give a force for each vertex, cell by cell");
+    }
+    if let Some(k) = array.iter().position(|component| !component.is_finite()) {
+        return refused(format!("{LOADS}[{}] is not finite", k / 3), "give finite forces, 0 where there is none");
+    }
+    let loads = array.chunks_exact(3).map(Vec3::from_column_slice).enumerate();
+    Ok(loads.filter(|(_, force)| *force != Vec3::zeros()).collect())
+}
+
+/// Returns the pressure on the faces of an entry.
+fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>) -> Result<OwnTerm, SceneError> {
+    let count = assembly.sheet().polygons.len();
+    let span = || spec.faces.as_ref().map_or(spec.span(), Located::span);
+    if let Some(face) = spec.faces.as_ref().and_then(|faces| faces.iter().find(|face| **face >= count)) {
+        let help = format!("the faces of the mesh are 0 to {}", count - 1);
+        return Err(file.error_at(span(), format!("there is no face {face}"), help));
+    }
+    let on = |polygon: usize| spec.faces.as_ref().is_none_or(|faces| faces.contains(&polygon));
+    OwnTerm::pressure(assembly, spec.value.0, on).map_err(|error| {
+        let help = match error {
+            AssemblyError::NoPatch => "give domain = \"patch\"",
+            _ => "a pressure has a potential where its faces enclose a volume: name faces that close, or pin their rim",
+        };
+        file.error_at(span(), error.to_string(), help)
+    })
+}
+
+/// Checks that the loads balance along every direction in which nothing holds or drives the sheet: otherwise there is no
+/// equilibrium.
+fn balance(file: &SceneFile, assembly: &Assembly, terms: &Terms) -> Result<(), SceneError> {
+    let driven = drives::supported(file, assembly)?;
+    let Some((axis, force)) = terms.unbalanced_axis_beside(&driven) else { return Ok(()) };
+    let place = |load: &Located<LoadSpec>| load.force.as_ref().or(load.weight.as_ref()).map_or(0..0, Located::span);
+    let span = file.scene.loads.first().map_or(0..0, place);
+    let message = AssemblyError::Unbalanced { axis, force }.to_string();
+    let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
+                still turns as a whole, until its loads pull straight";
+    Err(file.error_at(span, message, help))
+}
