@@ -7,7 +7,7 @@ use super::places::Places;
 use super::spec::{LoadSpec, PressureSpec};
 use super::{Located, SceneError, SceneFile, drives};
 use crate::math::Vec3;
-use crate::model::{Assembly, AssemblyError, Boundary, OwnTerm, Terms};
+use crate::model::{Assembly, AssemblyError, Boundary, OwnTerm};
 
 /// Name of an array with the forces on all vertices.
 const LOADS: &str = "loads";
@@ -23,8 +23,9 @@ pub(super) fn loaded(file: &SceneFile, assembly: &Assembly) -> Result<Assembly, 
     for spec in &file.scene.pressures {
         terms.own.push(pressure(file, assembly, spec)?);
     }
-    balance(file, assembly, &terms)?;
-    Ok(assembly.with_terms(terms))
+    let loaded = assembly.with_terms(terms);
+    balance(file, &loaded)?;
+    Ok(loaded)
 }
 
 /// Returns vertices and the forces on them.
@@ -113,9 +114,9 @@ fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>)
 
 /// Checks that the loads balance along every direction in which nothing holds or drives the sheet: otherwise there is no
 /// equilibrium.
-fn balance(file: &SceneFile, assembly: &Assembly, terms: &Terms) -> Result<(), SceneError> {
+fn balance(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
     let driven = drives::supported(file, assembly)?;
-    let Some((axis, force)) = terms.unbalanced_axis_beside(&driven) else { return Ok(()) };
+    let Some((axis, force)) = assembly.terms().unbalanced_axis_beside(&driven) else { return Ok(()) };
     let place = |load: &Located<LoadSpec>| load.force.as_ref().or(load.weight.as_ref()).map_or(0..0, Located::span);
     let span = file.scene.loads.first().map_or(0..0, place);
     let message = AssemblyError::Unbalanced { axis, force }.to_string();

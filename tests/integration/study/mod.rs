@@ -11,6 +11,7 @@ mod laws;
 mod paths;
 mod periodic_paths;
 mod pinned_wells;
+mod pressure;
 mod reasons;
 mod response_runs;
 mod touching;
