@@ -150,6 +150,9 @@ impl Model {
     /// Returns the gradient of the potential of the loads, for a factor of 1.
     fn load_rates(&self, x: &[f64]) -> Vec<f64> {
         let mut rates = vec![0.0; self.free.len()];
+        if self.loads.is_empty() {
+            return rates;
+        }
         let all = self.generalised(x);
         let points = self.points();
         let mut of_poses = vec![0.0; self.equations.bodies.coordinates()];
