@@ -13,7 +13,9 @@ use super::element::{Term, TermKind};
 use super::law::{Law, Spring, Stored};
 use super::measure::Measure;
 use super::own_term::OwnTerm;
+use super::part::Part;
 use crate::math::Vec3;
+use crate::sheet::tiling::Site;
 use nalgebra::{Matrix3, SVector};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -73,7 +75,8 @@ impl Law for Push {
 
 impl OwnTerm {
     /// Makes the pressure on the polygons of a patch whose numbers in the sheet `on` accepts, in all cells: a force per
-    /// area, positive along the face normals. As a load it has no energy in tables, and a drive of the loads drives it.
+    /// area, positive along the face normals. A rim whose vertices are one rigid part is that of a plate, which has the
+    /// pressure too. As a load it has no energy in tables, and a drive of the loads drives it.
     ///
     /// ```
     /// use foldwell::model::OwnTerm;
@@ -98,22 +101,39 @@ impl OwnTerm {
         }
         let polygon = |triangle: usize| assembly.sheet().triangles[triangle].polygon;
         let faces = tiling.triangles.iter().filter(|triangle| on(polygon(triangle.triangle)));
-        let faces: Vec<_> = faces.map(|triangle| triangle.corners).collect();
-        let sides = faces.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let sides: BTreeSet<[usize; 2]> = sides.map(|side| side.map(|site| site.vertex)).collect();
-        let held =
-            |vertex: usize| assembly.terms().pins.iter().any(|(pinned, axes)| *pinned == vertex && *axes == [true; 3]);
-        let open = sides.iter().find(|&&[a, b]| !(sides.contains(&[b, a]) || held(a) && held(b)));
-        if let Some(&vertices) = open {
+        let mut faces: Vec<[usize; 3]> = faces.map(|triangle| triangle.corners.map(|site| site.vertex)).collect();
+        faces.extend(lids(&open_sides(&faces), &assembly.terms().parts));
+        let pins = &assembly.terms().pins;
+        let held = |vertex: &usize| pins.iter().any(|(pinned, axes)| pinned == vertex && *axes == [true; 3]);
+        if let Some(&vertices) = open_sides(&faces).iter().find(|ends| !ends.iter().all(held)) {
             return Err(AssemblyError::Open { vertices });
         }
         let centre = tiling.positions.iter().sum::<Vec3>() / tiling.positions.len().max(1) as f64;
         let springs = vec![Spring { stiffness: value, rest: 0.0 }; faces.len()];
-        let elements = faces.into_iter().map(|corners| (corners, None)).collect();
+        let site = |vertex: usize| Site { vertex, shift: [0, 0] };
+        let elements = faces.into_iter().map(|corners| (corners.map(site), None)).collect();
         let kind = TermKind::Pressure;
         let term = Term::new((kind, kind.name()), VolumeFrom(centre), elements, Stored::Law(Arc::new(Push)));
         Ok(Self { elements: Arc::new(term), springs })
     }
+}
+
+/// Returns the sides of triangles, in their direction, that belong to one of them only.
+fn open_sides(faces: &[[usize; 3]]) -> Vec<[usize; 2]> {
+    let sides: BTreeSet<[usize; 2]> = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    sides.iter().copied().filter(|&[a, b]| !sides.contains(&[b, a])).collect()
+}
+
+/// Returns triangles that close the rims of rigid parts, one over each open side between two vertices of a part: whatever
+/// the shape of a plate, the pressure on it is the same.
+fn lids(open: &[[usize; 2]], parts: &[Part]) -> Vec<[usize; 3]> {
+    let mut lids = Vec::new();
+    for part in parts {
+        let rim: Vec<_> = open.iter().filter(|side| side.iter().all(|end| part.vertices.contains(end))).collect();
+        let Some([top, _]) = rim.first() else { continue };
+        lids.extend(rim.iter().filter(|side| !side.contains(top)).map(|[a, b]| [*b, *a, *top]));
+    }
+    lids
 }
 
 #[cfg(test)]
