@@ -1,8 +1,8 @@
 //! Pressure on faces: a force that stays normal to them.
 //!
-//! A pressure `p` pushes every triangle of area `A` along its normal with the force `p A`, a third of it at each corner.
-//! Its potential is `-p V`, `V` the volume that the faces enclose with their normals outwards, a sum over triangles of
-//! the volumes between them and one point, whichever it is. There is a potential only where the faces close, or their
+//! A pressure `p` pushes every triangle of area `A` along its normal with the force `p A`, a third of it at each
+//! corner. Its potential is `-p V`, `V` the volume that the faces enclose with their normals outwards, a sum over
+//! triangles of the volumes between them and one point, whichever it is. There is a potential only where the faces close, or their
 //! rim is held. Source: J. Bonet, R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008),
 //! section 8.6, the enclosed boundary case.
 
@@ -124,8 +124,8 @@ fn open_sides(faces: &[[usize; 3]]) -> Vec<[usize; 2]> {
     sides.iter().copied().filter(|&[a, b]| !sides.contains(&[b, a])).collect()
 }
 
-/// Returns triangles that close the rims of rigid parts, one over each open side between two vertices of a part: whatever
-/// the shape of a plate, the pressure on it is the same.
+/// Returns triangles that close the rims of rigid parts, one over each open side between two vertices of a part:
+/// whatever the shape of a plate, the pressure on it is the same.
 fn lids(open: &[[usize; 2]], parts: &[Part]) -> Vec<[usize; 3]> {
     let mut lids = Vec::new();
     for part in parts {

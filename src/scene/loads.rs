@@ -112,8 +112,8 @@ fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>)
     })
 }
 
-/// Checks that the loads balance along every direction in which nothing holds or drives the sheet: otherwise there is no
-/// equilibrium.
+/// Checks that the loads balance along every direction in which nothing holds or drives the sheet: otherwise there is
+/// no equilibrium.
 fn balance(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
     let driven = drives::supported(file, assembly)?;
     let Some((axis, force)) = assembly.terms().unbalanced_axis_beside(&driven) else { return Ok(()) };

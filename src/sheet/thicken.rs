@@ -99,8 +99,8 @@ mod tests {
         sheet.triangles.iter().map(|triangle| part(triangle.corners.map(|corner| sheet.position(corner)))).sum()
     }
 
-    /// Claim: every face of the solid of a folded sheet lies at half of the thickness from its own, no edge of the solid
-    /// has one face only, and the solid of a flat sheet has the volume area times thickness. Tolerance: 1e-8, since
+    /// Claim: every face of the solid of a folded sheet lies at half of the thickness from its own, no edge of the
+    /// solid has one face only, and the solid of a flat sheet has the volume area times thickness. Tolerance: 1e-8, since
     /// 1e-9 of the weights hold the offset.
     #[test]
     fn faces_lie_at_half_of_the_thickness() {

@@ -98,7 +98,7 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
     fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "duplicate key", ""),
     fault(1, "title = 3", "1:9", "invalid type: integer `3`", "expected a string"),
-    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "did you mean `title`? the keys here are `title`, `sheet`, `units`, `material`, `energy`, `mass`, `lock`, `load`, `pin`, `part`, `spring`, `drive`, `study`, `sweep`"),
+    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "did you mean `title`? the keys here are `title`, `sheet`, `units`, `material`, `energy`, `mass`, `lock`, `load`, `pressure`, `pin`, `part`, `spring`, `drive`, `study`, `sweep`"),
     // the sheet
     fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
@@ -172,7 +172,7 @@ const FAULTS: &[Fault] = &[
     fault(16, "force = [0.0, 0.0, inf]", "16:9", "the number is inf", "expected a finite number"),
     fault(15, "cell = [1, 2, 3]", "15:8", "the list has 3 values", "expected 2 values"),
     fault(16, "force = [0.0, 0.0, 1.0, 2.0]", "16:9", "the list has 4 values", "expected 3 values"),
-    fault(16, "", "13:1", "missing key `force`", "`force` has to be given here"),
+    fault(16, "", "13:1", "the load has neither `force` nor `weight`", "give force = [x, y, z] with vertex or vertices, or weight = [x, y, z], the acceleration of gravity"),
     fault(19, "axes = \"xw\"", "19:8", "`xw` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
     fault(19, "axes = \"xx\"", "19:8", "`xx` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
     fault(19, "axes = \"\"", "19:8", "`` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
@@ -300,6 +300,12 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"star.fold\"\ncells = [2, 2]\n[[load]]\nvertex = 7\nforce = [0, 0, 1]", "5:10", "there is no vertex 7", "the vertices of a cell are 0 to 3"),
     misfit("[sheet]\nmesh = \"finite.fold\"\ncells = [2, 2]\n[[pin]]\nvertex = 4\ncell = [1, 0]", "6:8", "there is no cell [1, 0]", "the cells are [0, 0] to [0, 0]"),
     // loads
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[load]]\nvertex = 0\nweight = [0, 0, -1]", "5:10", "`weight` stands alone in its load", "it is that of the whole sheet; give forces on vertices in a [[load]] of their own"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[load]]\nweight = [0, 0, -1]", "4:10", "the sheet has weight and no mass", "give mass = { area = 1.0 }, a mass per area, or { vertex = 1.0 }"),
+    misfit("mass = { vertex = 1.0 }\n[sheet]\nmesh = \"star.fold\"\ndomain = \"torus\"\n[[load]]\nweight = [0, 0, -1]", "6:10", "only a patch has weight", "give domain = \"patch\""),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[pressure]]\nvalue = 1.0", "3:1", "faces are under pressure and do not close: the side between vertices 0 and 1 belongs to one of them only", "a pressure has a potential where its faces enclose a volume: name faces that close, or pin their rim"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[pressure]]\nvalue = 1.0\nfaces = [0, 9]", "5:9", "there is no face 9", "the faces of the mesh are 0 to 1"),
+    misfit("[sheet]\nmesh = \"star.fold\"\ndomain = \"torus\"\n[[pressure]]\nvalue = 1.0", "4:1", "only faces of a patch have a pressure", "give domain = \"patch\""),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[load]]\nvertex = 0\nforce = [0.0, 0.5, 0.0]", "5:9", "the loads push the whole sheet along y with a force of 0.5", "balance the loads, or pin a vertex along that axis"),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[pin]]\nvertex = 0\naxes = \"xy\"\n[[load]]\nvertex = 1\nforce = [1, 1, 1]", "8:9", "the loads push the whole sheet along z with a force of 1", "balance the loads, or pin a vertex along that axis"),
     // rest angles
