@@ -35,6 +35,8 @@ def assemblies():
     loads = [{"vertex": 3, "cell": (1, 1), "force": (0.0, 0.1, -0.2)}]
     held = [*pins, {"vertex": 2, "axes": "z"}]
     yield "pins and loads", fw.Assembly.patch(miura, (2, 2), pins=held, loads=loads, **terms)
+    drum = fw.generate("kresling", closed=True)
+    yield "pressure", fw.Assembly.patch(drum, pressures=[{"value": 0.3}], loads=[{"weight": (0, 0.02, -0.1)}], mass={"area": 1.0}, pins=held, **terms)
     laws = {"bars": {"kind": "ogden", "exponents": [5.0, 1.0]}, "creases": {"kind": "stiffening", "limits": [-0.9, "40 deg"]}}
     springs = [{"vertices": [0, (3, 1, 1)], "stiffness": 2.0}, {"vertices": [1, 2], "stiffness": 3.0, "rest": 0.7}]
     yield "laws and springs", fw.Assembly.patch(miura, (2, 2), laws=laws, springs=springs, **terms)

@@ -97,3 +97,18 @@ def test_other_endings_are_refused(states, tmp_path):
         with pytest.raises(fw.SceneError, match=r"\.vtu, \.stl, \.ply, \.obj, \.fold or \.glb"):
             states["patch"].save(tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_state_with_a_thickness_is_closed(states, tmp_path):
+    """PyVista finds no open edge, and a volume of about area times thickness: within 10%, as folds add and take some."""
+    pyvista = pytest.importorskip("pyvista")
+    state = states["patch"]
+    a, b, c = (state.positions[state.faces[:, k]] for k in range(3))
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+    for ending in ("stl", "ply"):
+        state.save(tmp_path / f"a.{ending}", thickness=0.01)
+        solid = pyvista.read(tmp_path / f"a.{ending}").clean()
+        assert solid.n_open_edges == 0 and abs(solid.volume / (0.01 * area) - 1.0) < 0.1
+    with pytest.raises(fw.SceneError, match="the thickness is 0, expected a number above 0"):
+        state.save(tmp_path / "b.stl", thickness=0.0)
+    assert not (tmp_path / "b.stl").exists()

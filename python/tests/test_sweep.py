@@ -294,3 +294,12 @@ def test_a_lost_worker_of_dask_loses_nothing(tmp_path):
         found = sweeping.result(timeout=300)
     assert found.identical(fw.sweep(SCENE, axes, out=whole))
     assert (killed / "sweep.csv").read_bytes() == (whole / "sweep.csv").read_bytes()
+
+
+def test_columns_have_the_units_that_the_scene_names(tmp_path):
+    scene = SCENE | {"units": {"length": "mm", "force": "N"}}
+    axes = {"sheet.generate.seed": range(2)}
+    for data in (fw.sweep(scene, axes), fw.sweep(scene, axes, out=tmp_path / "kept"), fw.open_sweep(tmp_path / "kept")):
+        assert data.bent_energy_total.attrs["units"] == data.bent_energy_bars.attrs["units"] == "N mm"
+        assert "units" not in data.bent_iterations.attrs
+    assert "units" not in fw.sweep(SCENE, axes).bent_energy_total.attrs

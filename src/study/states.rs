@@ -164,7 +164,11 @@ fn add_timed_series(
 pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
     if context.draws(Draw::Svg) {
         let numbers = context.study.draw.contains(&Draw::Numbers);
-        let added = Annotations { loads: context.assembly.terms().loads.clone(), numbers };
+        // arrows on every vertex, as of a weight, would hide the sheet
+        let loads = &context.assembly.terms().loads;
+        let everywhere = loads.len() >= context.assembly.tiling().positions.len();
+        let loads = if everywhere { vec![] } else { loads.clone() };
+        let added = Annotations { loads, numbers };
         answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &added, &context.caption(state)));
     }
 }
