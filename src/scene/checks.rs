@@ -8,7 +8,7 @@ use super::forms::StartSpec;
 use super::outputs::outputs;
 use super::spec::{DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec};
 use super::values::CellIndex;
-use super::{Located, SceneError, SceneFile};
+use super::{Located, SceneError, SceneFile, loads};
 use crate::sheet::similar::{did_you_mean, there_are};
 
 /// Largest length of the name of a study: names of files, which add to it, stay under 255 bytes.
@@ -150,6 +150,7 @@ fn fractions(file: &SceneFile) -> Checked {
 }
 
 fn places(file: &SceneFile) -> Checked {
+    loads::check(file)?;
     let scene = &file.scene;
     for load in scene.loads.iter().filter(|load| load.weight.is_none()) {
         place(file, "a load", (load.vertex.as_ref(), load.vertices.as_ref()), load.cell.as_ref())?;

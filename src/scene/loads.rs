@@ -1,16 +1,37 @@
 //! What pushes a sheet: forces on vertices, its weight, and pressure on faces.
 
-use std::ops::Range;
 use std::path::Path;
 
 use super::places::Places;
 use super::spec::{LoadSpec, PressureSpec};
+use super::values::Triple;
 use super::{Located, SceneError, SceneFile, drives};
 use crate::math::Vec3;
 use crate::model::{Assembly, AssemblyError, Boundary, OwnTerm};
 
 /// Name of an array with the forces on all vertices.
 const LOADS: &str = "loads";
+
+/// Checks that every load is a force or the weight.
+pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
+    for load in &file.scene.loads {
+        let LoadSpec { vertex, cell, vertices, force, weight } = &**load;
+        let on_vertices = [vertex.is_some(), cell.is_some(), vertices.is_some(), force.is_some()].contains(&true);
+        match (weight, force) {
+            (Some(weight), _) if on_vertices => {
+                let help = "it is that of the whole sheet; give forces on vertices in a [[load]] of their own";
+                return Err(file.error_at(weight.span(), "`weight` stands alone in its load", help));
+            }
+            (None, None) => {
+                let help = "give force = [x, y, z] with vertex or vertices, or weight = [x, y, z], the acceleration of \
+                            gravity";
+                return Err(file.error_at(load.span(), "the load has neither `force` nor `weight`", help));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
 
 /// Returns the assembly with the loads of the scene.
 ///
@@ -35,14 +56,9 @@ fn forces(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, S
     for load in &file.scene.loads {
         let LoadSpec { vertex, cell, vertices, force, weight } = &**load;
         if let Some(gravity) = weight {
-            loads.extend(weights(file, assembly, load, gravity.span(), Vec3::from(gravity.0))?);
-            continue;
+            loads.extend(weights(file, assembly, gravity)?);
         }
-        let Some(force) = force else {
-            let help =
-                "give force = [x, y, z] with vertex or vertices, or weight = [x, y, z], the acceleration of gravity";
-            return Err(file.error_at(load.span(), "the load has neither `force` nor `weight`", help));
-        };
+        let Some(force) = force else { continue };
         let on = places.of_entry(("the load", load.span()), vertex.as_ref(), cell.as_ref(), vertices.as_ref())?;
         loads.extend(on.into_iter().map(|vertex| (vertex, Vec3::from(force.0))));
     }
@@ -53,27 +69,15 @@ fn forces(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, S
 }
 
 /// Returns the weight of every vertex.
-fn weights(
-    file: &SceneFile,
-    assembly: &Assembly,
-    load: &LoadSpec,
-    span: Range<usize>,
-    gravity: Vec3,
-) -> Result<Vec<(usize, Vec3)>, SceneError> {
-    let LoadSpec { vertex, cell, vertices, force, weight: _ } = load;
-    let others = [vertex.is_some(), cell.is_some(), vertices.is_some(), force.is_some()];
-    if others.contains(&true) {
-        let help = "it is that of the whole sheet; give forces on vertices in a [[load]] of their own";
-        return Err(file.error_at(span, "`weight` stands alone in its load", help));
-    }
+fn weights(file: &SceneFile, assembly: &Assembly, gravity: &Located<Triple>) -> Result<Vec<(usize, Vec3)>, SceneError> {
     if assembly.boundary() != Boundary::Patch {
-        return Err(file.error_at(span, "only a patch has weight", "give domain = \"patch\""));
+        return Err(file.error_at(gravity.span(), "only a patch has weight", "give domain = \"patch\""));
     }
     let Some(masses) = assembly.masses() else {
         let help = "give mass = { area = 1.0 }, a mass per area, or { vertex = 1.0 }";
-        return Err(file.error_at(span, "the sheet has weight and no mass", help));
+        return Err(file.error_at(gravity.span(), "the sheet has weight and no mass", help));
     };
-    Ok(masses.into_iter().map(|mass| gravity * mass).enumerate().collect())
+    Ok(masses.into_iter().map(|mass| Vec3::from(gravity.0) * mass).enumerate().collect())
 }
 
 /// Returns the loads of an array: three numbers for each vertex of the patch.

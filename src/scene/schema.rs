@@ -62,8 +62,8 @@ mod tests {
         assert_eq!(
             properties(&schema),
             [
-                "drive", "energy", "load", "lock", "mass", "material", "part", "pin", "sheet", "spring", "study",
-                "sweep", "title", "units"
+                "drive", "energy", "load", "lock", "mass", "material", "part", "pin", "pressure", "sheet", "spring",
+                "study", "sweep", "title", "units"
             ]
         );
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));

@@ -109,10 +109,10 @@ fn sheets_weigh() {
         Scene::on(sheet, &lines).converged().relaxed("hung").energy.total
     };
     // with the supports at the height 0 the apex stands at 0.3; pulled upwards by 0.04 it rises
-    let weighed = truss("mass = { vertex = 2.0 }\n[[load]]\nweight = [0.0, 0.0, 0.02]");
+    let weighed = truss("[mass]\nvertex = 2.0\n[[load]]\nweight = [0.0, 0.0, 0.02]");
     let forced = truss("[[load]]\nvertex = 2\nforce = [0.0, 0.0, 0.04]");
     assert!((weighed - forced).abs() < 1e-12 * forced, "{weighed} {forced}");
-    let area = truss("mass = { area = 3.0 }\n[[load]]\nweight = [0.0, 0.0, 0.2]");
+    let area = truss("[mass]\narea = 3.0\n[[load]]\nweight = [0.0, 0.0, 0.2]");
     let share = truss("[[load]]\nvertex = 2\nforce = [0.0, 0.0, 0.06]");
     assert!((area - share).abs() < 1e-9 * share, "{area} {share}: a third of the triangle of area 0.3");
     assert!(weighed > 1e-6);
