@@ -141,6 +141,8 @@ class Result:
         if folds:
             angles = np.stack([self.table[name] for name in folds], axis=1)
             data["fold_angle"] = (("row", "edge"), angles, described("fold_angle"))
+        if self.kind != "trace" and "arc_length" in data:
+            data["arc_length"][2].pop("units")  # that of a path is a number: of its unknowns in mean edges and the part of its way
         for name, (_, _, attributes) in data.items():
             if named := self._unit(name):
                 attributes["units"] = named
