@@ -88,7 +88,7 @@ pub(crate) fn convert(py: Python<'_>, from: PathBuf, to: PathBuf, frame: Option<
     let reading = Progress { study: "convert".to_owned(), step: 0, of: None, residual: f64::NAN, part: f64::NAN };
     let work = move |observer: run::Observer<'_>| {
         let sheet = run::read_sheet(&from, frame, None)?;
-        if observer(&reading).is_break() { Ok(Vec::new()) } else { run::write_sheet(&sheet, &to) }
+        if observer(&reading).is_break() { Ok(Vec::new()) } else { run::write_sheet(&sheet, &to, None) }
     };
     watched(py, None, work)?.map_err(|error: RunError| raise(py, &error))
 }
