@@ -177,3 +177,14 @@ fn rates_of_facets_name_modes() {
     scene(&|k| modes.basis[(k, 0)], false).refused("of 3 modes open");
     scene(&|_| 0.0, true).refused("all zero");
 }
+
+/// Claim: the axis of energies has the units that the scene names, and says that there are none without names.
+#[test]
+fn energies_have_the_units_of_the_scene() {
+    let scene = scene(PATCH, RIGID, "modes = [[1, 1, 0]]\namplitudes = [0.01, 0.02]");
+    let drawn = |scene: Scene| scene.converged().out.text("a.svg");
+    assert!(
+        drawn(scene.clone().then("[units]\nlength = \"mm\"\nforce = \"N\"\n").out("named")).contains("energy (N mm)")
+    );
+    assert!(drawn(scene).contains("energy (unit of the scene)"));
+}
