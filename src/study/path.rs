@@ -5,7 +5,7 @@ mod plot;
 mod summary;
 mod table;
 
-use self::drive::{drive, drive_name, has_effect, moves};
+use self::drive::{drive, drive_name, folds, has_effect, moves};
 use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
 use super::context::{Context, Progress};
@@ -32,6 +32,9 @@ pub use summary::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEve
 const PICTURES: usize = 60;
 /// Number of states examined for self-intersection between two calls of the observer.
 const OBSERVED: usize = 16;
+/// Part of the way of a study of kind `fold`, below where it begins, at which a sheet that has turned back counts as folded
+/// the other way.
+const INSIDE_OUT: f64 = -0.02;
 
 /// Checks that the sheet has an energy, and that the drive, the start and the stops exist.
 pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
@@ -120,7 +123,8 @@ fn probes<'a>(context: &Context<'_>, spec: &'a PathSpec) -> Result<Vec<(&'a str,
 
 /// Returns the stops. The angle of a crease is that of its copy in the middle cell, as in the table.
 fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> {
-    let Some(said) = &spec.stop else { return Ok(PathStop::default()) };
+    let inside_out = folds(context).then_some(INSIDE_OUT);
+    let Some(said) = &spec.stop else { return Ok(PathStop { drive: inside_out, ..PathStop::default() }) };
     let crease_angle = match &said.crease_angle {
         None => None,
         Some(wanted) => {
@@ -150,7 +154,7 @@ fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> 
     };
     Ok(PathStop {
         displacement,
-        drive: said.drive.as_ref().map(|value| value.0),
+        drive: said.drive.as_ref().map(|value| value.0).or(inside_out),
         reaction: said.reaction.as_ref().map(|value| value.0),
         states: said.states.as_ref().map(|count| count.0 as usize),
         limit_points: said.limit_points.as_ref().map(|count| count.0 as usize),
@@ -187,7 +191,8 @@ fn answer(
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
-    answer.conclude(StudyResult::Path(result), error, reason.or(interrupted));
+    let turned_back = branches.first().filter(|_| folds(context)).and_then(inside_out);
+    answer.conclude(StudyResult::Path(result), error, reason.or(turned_back).or(interrupted));
     answer.state = branches.first().and_then(|branch| branch.points.last()).map(PathPoint::configuration);
     answer
 }
@@ -215,6 +220,18 @@ fn reason(branch: &PathBranch) -> Option<String> {
         }
         PathEnd::Interrupted => Some("interrupted".to_owned()),
     }
+}
+
+/// Returns the reason for which a sheet that is to be folded is not: it has turned back, and folds to the other side.
+fn inside_out(branch: &PathBranch) -> Option<String> {
+    let last = branch.points.last().filter(|last| branch.end == PathEnd::Stopped && last.drive <= 0.0)?;
+    let most = branch.points.iter().map(|point| point.drive).fold(0.0, f64::max);
+    Some(format!(
+        "the sheet turned back at {} and folds the other way at {}: give a smaller max_step, bars nearer to rigid, or \
+         switch = true for the branches that leave there",
+        summary::percent(most),
+        summary::percent(last.drive)
+    ))
 }
 
 /// Returns the self-intersections of all states, branch by branch; `None` if the study does not ask for that check. An

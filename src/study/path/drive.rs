@@ -21,7 +21,7 @@ pub(super) fn drive(context: &Context<'_>, spec: &PathSpec) -> Result<Drive, Stu
 }
 
 /// Whether the study is of kind `fold`.
-fn folds(context: &Context<'_>) -> bool {
+pub(super) fn folds(context: &Context<'_>) -> bool {
     matches!(*context.study.kind, StudyKind::Fold(_))
 }
 
