@@ -83,7 +83,10 @@ fn a_sheet_that_turns_back_ends() {
     let turned = scene.ran();
     let study = &turned.report.summary.studies[0];
     let reason = study.reason.as_deref().unwrap_or_default();
-    assert!(!study.converged && reason.contains("turned back at 56.4") && reason.contains("at -2 %"), "{reason}");
+    assert!(
+        !study.converged && reason.contains("turned back at 56.4") && reason.contains("at \u{2212}2 %"),
+        "{reason}"
+    );
     assert!(turned.out.table("fold.csv").len() < 500);
     scene.replaced("bars = { stiffness = 1e3 }", "bars = { stiffness = 1e4 }").out("stiff").converged();
 }
