@@ -24,8 +24,8 @@ const HELD: f64 = 1e-9;
 ///
 /// let cell = generate(&Pattern::named("miura")?)?;
 /// let solid = thickened(&cell, 0.05)?;
-/// // both sides of the 4 triangles, and walls of two triangles at 6 edges
-/// assert_eq!(solid.triangles.len(), 2 * cell.triangles.len() + 2 * 6);
+/// // both sides of the 8 triangles, and walls of two triangles at the 8 sides of the cell
+/// assert_eq!(solid.triangles.len(), 2 * cell.triangles.len() + 2 * 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
