@@ -175,7 +175,7 @@ def test_axes_have_the_units_that_the_assembly_names():
     land = fw.landscape(fw.Assembly.patch(star, (3, 3), bars=fw.RIGID, creases=1.0, units=units), [(1, 0, 0)], [0.1, 0.05])
     assert land.plot().get_ylabel() == "energy (N mm)"
     held = {"pins": [{"vertices": [0, 1]}, {"vertex": 2, "axes": "xy"}], "drives": [{"name": "push", "vertices": [2], "axis": "z", "to": -0.1}]}
-    path = fw.path(fw.Assembly.patch(fw.generate("truss"), bars=1.0, units=units, **held), "push")
+    path = fw.path(fw.Assembly.patch(fw.generate("truss"), bars=1.0, units=units, **held), drive="push")
     assert (path.plot().get_xlabel(), path.plot().get_ylabel()) == ("displacement (mm)", "force (N)")
 
 
