@@ -238,10 +238,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             let cleanup = Cleanup { merge, split };
             let notes = if flatten {
                 run::convert_flattened(&from, &to, frame)?
-            } else if let Some(thickness) = thickness {
-                run::convert_thickened(&from, &to, frame, thickness)?
             } else if cleanup == Cleanup::default() {
-                run::convert(&from, &to, frame)?
+                run::convert(&from, &to, frame, thickness)?
             } else {
                 run::convert_cleaned(&from, &to, frame, &cleanup)?
             };

@@ -169,7 +169,7 @@ pub fn read_sheet(path: &Path, frame: Option<usize>, merge: Option<f64>) -> Resu
 }
 
 /// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.ply`, `.obj`, `.fold` or `.glb`.
-/// With a thickness the file has the solid of the sheet ([`thickened`](crate::sheet::thickened)).
+/// Where a thickness is given, writes the solid of the sheet instead ([`thickened`](crate::sheet::thickened)).
 ///
 /// # Errors
 /// [`RunError`] if the ending is another one, if the file cannot be written, if the state is no sheet for STL, PLY, OBJ
@@ -189,13 +189,14 @@ pub fn write_sheet(sheet: &Sheet, path: &Path, thickness: Option<f64>) -> Result
 }
 
 /// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given
-/// frame, or the first with a mesh. Returns a sentence for each part of the mesh that the new file does not keep.
+/// frame, or the first with a mesh. Where a thickness is given, the new file has the solid of the sheet
+/// ([`thickened`](crate::sheet::thickened)). Returns a sentence for each part of the mesh that it does not keep.
 ///
 /// # Errors
 /// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, if there is no such
-/// frame, and if the new file is for flat sheets and the sheet is not flat.
-pub fn convert(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
-    meshes::write(&read_mesh(from, frame, meshes::READ)?, to, None)
+/// frame, if the new file is for flat sheets and the sheet is not flat, and if the thickness is not above 0.
+pub fn convert(from: &Path, to: &Path, frame: Option<usize>, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
+    meshes::write(&read_mesh(from, frame, meshes::READ)?, to, thickness)
 }
 
 /// Does the same as [`convert`] with a flat crease pattern whose vertices are merged, and whose edges are split where
@@ -222,20 +223,6 @@ pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result
     let folded = read_mesh(from, frame, meshes::READ)?;
     let pattern = flatten(&folded).map_err(|reason| RunError::NotDevelopable { path: from.into(), reason })?;
     meshes::write(&pattern, to, None)
-}
-
-/// Does the same as [`convert`] with the solid that the sheet is with a thickness, for printers
-/// ([`thickened`](crate::sheet::thickened)).
-///
-/// # Errors
-/// As [`convert`]; also if the thickness is not above 0.
-pub fn convert_thickened(
-    from: &Path,
-    to: &Path,
-    frame: Option<usize>,
-    thickness: f64,
-) -> Result<Vec<String>, RunError> {
-    meshes::write(&read_mesh(from, frame, meshes::READ)?, to, Some(thickness))
 }
 
 #[cfg(test)]

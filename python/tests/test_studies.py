@@ -179,6 +179,13 @@ def test_axes_have_the_units_that_the_assembly_names():
     assert (path.plot().get_xlabel(), path.plot().get_ylabel()) == ("displacement (mm)", "force (N)")
 
 
+def test_paths_of_an_array_of_forces_are_drawn_as_such():
+    loads = np.array([[0, 0, 0], [0, 0, 0], [0, 0, -1e-3]])
+    held = {"pins": [{"vertices": [0, 1]}, {"vertex": 2, "axes": "xy"}], "drives": [{"name": "push", "load": True, "to": 1.0}]}
+    path = fw.path(fw.Assembly.patch(fw.generate("truss"), bars=1.0, loads=loads, **held), drive="push", draw=["svg"])
+    assert "factor of the loads" in path._repr_svg_() and "pressure" not in path._repr_svg_()
+
+
 def test_tables_go_to_xarray():
     """Fold angles are one variable, by the names of the edges; the rest angle of a lock is kept along a trace."""
     star = fw.Sheet.read(ROOT / "meshes/open-star.fold")

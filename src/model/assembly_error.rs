@@ -94,7 +94,11 @@ pub enum AssemblyError {
     #[error("the sheet has weight and no mass")]
     WeightWithoutMass,
     /// Faces are under pressure and enclose nothing.
-    #[error("faces are under pressure and do not close: the side between vertices {} and {} belongs to one of them only", vertices[0], vertices[1])]
+    #[error(
+        "faces are under pressure and do not close: the side between vertices {} and {} belongs to one of them only",
+        vertices[0],
+        vertices[1]
+    )]
     Open {
         /// The ends of the side, vertices of the tiling.
         vertices: [usize; 2],

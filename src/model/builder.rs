@@ -249,8 +249,9 @@ impl Builder {
     ///
     /// # Errors
     /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness, a rest length or the mass is
-    /// not a positive number, rest values are given without a stiffness or weight without mass, the length of a list does not match the
-    /// tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
+    /// not a positive number, rest values are given without a stiffness or weight without mass, the length of a list
+    /// does not match the tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis
+    /// without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, place, mut given } = self;
         let bare = match place {
@@ -287,9 +288,8 @@ impl Builder {
         terms.loads = on_vertices(&bare, given.loads)?;
         if let Some(gravity) = given.gravity {
             let mass = mass.ok_or(AssemblyError::WeightWithoutMass)?;
-            terms
-                .loads
-                .extend(mass.of_tiling(bare.drawn(), bare.tiling()).into_iter().map(|m| gravity * m).enumerate());
+            let weights = mass.of_tiling(bare.drawn(), bare.tiling()).into_iter().map(|mass| gravity * mass);
+            terms.loads.extend(weights.enumerate());
         }
         for (vertices, free) in given.parts {
             let numbers = vertices.into_iter().map(|vertex| numbered(&bare, vertex));

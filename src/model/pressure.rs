@@ -2,9 +2,9 @@
 //!
 //! A pressure `p` pushes every triangle of area `A` along its normal with the force `p A`, a third of it at each
 //! corner. Its potential is `-p V`, `V` the volume that the faces enclose with their normals outwards, a sum over
-//! triangles of the volumes between them and one point, whichever it is. There is a potential only where the faces close, or their
-//! rim is held. Source: J. Bonet, R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008),
-//! section 8.6, the enclosed boundary case.
+//! triangles of the volumes between them and one point, whichever it is. There is a potential only where the faces
+//! close, or their rim is held. Source: J. Bonet, R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis
+//! (2008), section 8.6, the enclosed boundary case.
 
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
@@ -15,9 +15,9 @@ use super::measure::Measure;
 use super::own_term::OwnTerm;
 use super::part::Part;
 use crate::math::Vec3;
+use crate::sheet::sides::open_sides;
 use crate::sheet::tiling::Site;
 use nalgebra::{Matrix3, SVector};
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The volume between a triangle and a point, positive where the triangle turns its back to the point.
@@ -118,12 +118,6 @@ impl OwnTerm {
     }
 }
 
-/// Returns the sides of triangles, in their direction, that belong to one of them only.
-fn open_sides(faces: &[[usize; 3]]) -> Vec<[usize; 2]> {
-    let sides: BTreeSet<[usize; 2]> = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-    sides.iter().copied().filter(|&[a, b]| !sides.contains(&[b, a])).collect()
-}
-
 /// Returns triangles that close the rims of rigid parts, one over each open side between two vertices of a part:
 /// whatever the shape of a plate, the pressure on it is the same.
 fn lids(open: &[[usize; 2]], parts: &[Part]) -> Vec<[usize; 3]> {
@@ -140,9 +134,20 @@ fn lids(open: &[[usize; 2]], parts: &[Part]) -> Vec<[usize; 3]> {
 mod tests {
     use super::*;
 
-    /// Claim: the six tetrahedra between the faces of a cube, as twelve triangles, and any point sum to its volume, and
-    /// gradient and Hessian of the volume are its central differences. Tolerance: 1e-8, differences of a cubic with
-    /// steps of 1e-4.
+    /// Claim: the volumes between the faces of a tetrahedron and any point, inside it or not, sum to a sixth of the
+    /// product of its edges at the right angle. Tolerance: rounding.
+    #[test]
+    fn volumes_sum_to_that_of_the_body() {
+        let corners = [Vec3::zeros(), Vec3::x(), Vec3::y() * 2.0, Vec3::z() * 3.0];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(|face| face.map(|corner: usize| corners[corner]));
+        for from in [Vec3::new(0.1, 0.2, 0.3), Vec3::new(-5.0, 2.0, 9.0)] {
+            let sum: f64 = faces.iter().map(|face| VolumeFrom(from).value(face)).sum();
+            assert!((sum - 1.0).abs() < 1e-13, "{sum}");
+        }
+    }
+
+    /// Claim: gradient and Hessian of the volume are its central differences. Tolerance: 1e-8, differences of a cubic
+    /// with steps of 1e-4.
     #[test]
     fn volumes_have_their_derivatives() {
         let measure = VolumeFrom(Vec3::new(0.3, -0.2, 0.7));

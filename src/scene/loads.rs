@@ -1,4 +1,4 @@
-//! What pushes a sheet: forces on vertices, its weight, and pressure on faces.
+//! The loads of a scene: forces on vertices, weight, and pressure on faces.
 
 use std::path::Path;
 

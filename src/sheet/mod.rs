@@ -39,6 +39,7 @@ pub(crate) mod record;
 pub(crate) mod redrawing;
 mod screws;
 mod seam;
+pub(crate) mod sides;
 pub mod similar;
 pub mod stl;
 pub mod symmetry;

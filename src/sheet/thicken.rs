@@ -1,12 +1,13 @@
 //! The solid that a sheet with a thickness is, for printers.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use nalgebra::Matrix3;
 
 use super::build::{Drawing, build};
 use super::cell::{Corner, Sheet};
 use super::error::Defect;
+use super::sides::open_sides;
 use crate::math::Vec3;
 use crate::numerics::dense::small::solve_3;
 
@@ -41,8 +42,7 @@ pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Sheet, Defect> {
         faces.push(vec![a, b, c]);
         faces.push(vec![c + count, b + count, a + count]);
     }
-    let sides: BTreeSet<[usize; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-    for &[a, b] in sides.iter().filter(|&&[a, b]| !sides.contains(&[b, a])) {
+    for [a, b] in open_sides(&triangles) {
         faces.push(vec![a + count, b + count, b]);
         faces.push(vec![a + count, b, a]);
     }
@@ -100,8 +100,8 @@ mod tests {
     }
 
     /// Claim: every face of the solid of a folded sheet lies at half of the thickness from its own, no edge of the
-    /// solid has one face only, and the solid of a flat sheet has the volume area times thickness. Tolerance: 1e-8, since
-    /// 1e-9 of the weights hold the offset.
+    /// solid has one face only, and the solid of a flat sheet has the volume area times thickness. Tolerance: 1e-8,
+    /// since 1e-9 of the weights hold the offset.
     #[test]
     fn faces_lie_at_half_of_the_thickness() {
         let thickness = 0.02;

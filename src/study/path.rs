@@ -1,11 +1,13 @@
 //! `kind = "path"`: equilibria while a quantity is driven, through limit points, with branches on request.
 
 mod drive;
+mod end;
 mod plot;
 mod summary;
 mod table;
 
 use self::drive::{drive, drive_name, folds, has_effect, moves};
+use self::end::{INSIDE_OUT, end_word, inside_out, reason};
 use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
 use super::context::{Context, Progress};
@@ -15,8 +17,8 @@ use super::summary::StudyResult;
 use super::{ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
-    BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
-    PathRecord, PathStop, Probe, resume_path,
+    BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEntry, PathEvent, PathOptions, PathPoint, PathRecord,
+    PathStop, Probe, resume_path,
 };
 use crate::model::{Assembly, Drive, Driven, Gauge};
 use crate::numerics::{larger, worst};
@@ -32,9 +34,6 @@ pub use summary::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEve
 const PICTURES: usize = 60;
 /// Number of states examined for self-intersection between two calls of the observer.
 const OBSERVED: usize = 16;
-/// Part of the way of a study of kind `fold`, below where it begins, at which a sheet that has turned back counts as folded
-/// the other way.
-const INSIDE_OUT: f64 = -0.02;
 
 /// Checks that the sheet has an energy, and that the drive, the start and the stops exist.
 pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
@@ -191,47 +190,11 @@ fn answer(
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
-    let turned_back = branches.first().filter(|_| folds(context)).and_then(inside_out);
+    let asked = spec.stop.as_ref().is_some_and(|stop| stop.drive.is_some());
+    let turned_back = branches.first().filter(|_| folds(context) && !asked).and_then(inside_out);
     answer.conclude(StudyResult::Path(result), error, reason.or(turned_back).or(interrupted));
     answer.state = branches.first().and_then(|branch| branch.points.last()).map(PathPoint::configuration);
     answer
-}
-
-/// Returns the reason for which a branch did not come to its end; `None` if it did.
-fn reason(branch: &PathBranch) -> Option<String> {
-    let at = branch.points.last().map_or(f64::NAN, |point| point.drive);
-    match branch.end {
-        PathEnd::Arrived | PathEnd::Stopped => None,
-        PathEnd::Returned => {
-            Some("the path came back to where it began without reaching the end of the drive".to_owned())
-        }
-        PathEnd::Retraced => Some(format!("the path goes back over its own states from drive {} on", rounded(at, 6))),
-        PathEnd::Failed => Some(format!(
-            "no step leads on from the state with drive {}, however short: the sheet is blocked there, or a stiffness is \
-             too far from the others",
-            rounded(at, 6)
-        )),
-        PathEnd::TooManySteps => {
-            let count = branch.points.len();
-            Some(format!(
-                "the drive has not arrived after {count} states, at {}: raise max_step, or give a stop",
-                rounded(at, 6)
-            ))
-        }
-        PathEnd::Interrupted => Some("interrupted".to_owned()),
-    }
-}
-
-/// Returns the reason for which a sheet that is to be folded is not: it has turned back, and folds to the other side.
-fn inside_out(branch: &PathBranch) -> Option<String> {
-    let last = branch.points.last().filter(|last| branch.end == PathEnd::Stopped && last.drive <= 0.0)?;
-    let most = branch.points.iter().map(|point| point.drive).fold(0.0, f64::max);
-    Some(format!(
-        "the sheet turned back at {} and folds the other way at {}: give a smaller max_step, bars nearer to rigid, or \
-         switch = true for the branches that leave there",
-        summary::percent(most),
-        summary::percent(last.drive)
-    ))
 }
 
 /// Returns the self-intersections of all states, branch by branch; `None` if the study does not ask for that check. An
@@ -383,18 +346,6 @@ fn half_branches(BranchPoint { multiplicity, half_branches }: BranchPoint) -> Op
         (None, _) => Some(format!("{along}: {multiplicity} eigenvalues vanish at once")),
     };
     Some(HalfBranchesSummary { found, expected, reason })
-}
-
-fn end_word(end: &PathEnd) -> &'static str {
-    match end {
-        PathEnd::Arrived => "arrived",
-        PathEnd::Stopped => "stop",
-        PathEnd::Returned => "returned",
-        PathEnd::Retraced => "retraced",
-        PathEnd::TooManySteps => "too-many-steps",
-        PathEnd::Failed => "failed",
-        PathEnd::Interrupted => "interrupted",
-    }
 }
 
 fn finite(value: f64) -> Option<f64> {

@@ -164,10 +164,9 @@ fn add_timed_series(
 pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
     if context.draws(Draw::Svg) {
         let numbers = context.study.draw.contains(&Draw::Numbers);
-        // arrows on every vertex, as of a weight, would hide the sheet
-        let loads = &context.assembly.terms().loads;
-        let everywhere = loads.len() >= context.assembly.tiling().positions.len();
-        let loads = if everywhere { vec![] } else { loads.clone() };
+        // arrows of a weight, on every vertex, would hide the sheet
+        let weighs = context.file.scene.loads.iter().any(|load| load.weight.is_some());
+        let loads = if weighs { vec![] } else { context.assembly.terms().loads.clone() };
         let added = Annotations { loads, numbers };
         answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &added, &context.caption(state)));
     }

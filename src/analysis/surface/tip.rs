@@ -8,6 +8,7 @@
 use super::folding::SurfaceClosure;
 use crate::numerics::root::Search;
 use crate::numerics::vector::distance;
+use crate::sheet::sides::open_sides;
 use crate::solver::atlas::{Atlas, Chart};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -113,9 +114,7 @@ pub(super) fn periodic_near(folding: &SurfaceClosure<'_>, x: Vec<f64>) -> Option
 
 /// The closed rims of a triangulation, each with the hole on its left.
 fn rims(triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
-    let edges: BTreeSet<[usize; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-    let mut next: BTreeMap<usize, usize> = BTreeMap::new();
-    next.extend(edges.iter().filter(|&&[a, b]| !edges.contains(&[b, a])).map(|&[a, b]| (b, a)));
+    let mut next: BTreeMap<usize, usize> = open_sides(triangles).into_iter().map(|[a, b]| (b, a)).collect();
     let mut rims = Vec::new();
     while let Some((first, mut at)) = next.pop_first() {
         let mut rim = vec![first];

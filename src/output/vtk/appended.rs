@@ -20,7 +20,7 @@ const LZMA: &str = "vtkLZMADataCompressor";
 
 /// How the arrays of a file are to be read.
 struct Arrays<'b> {
-    /// What follows the underscore of the appended data.
+    /// The bytes of the appended data, from behind the underscore on.
     appended: &'b [u8],
     is_raw: bool,
     /// Bytes of a number of the headers of arrays.

@@ -43,7 +43,7 @@ impl Words {
                     axis.map_or_else(|| format!("({:.3}, {:.3}, {:.3})", d.x, d.y, d.z), |k| ["x", "y", "z"][k].into());
                 moved(format!("displacement of {which} along {along}"))
             }
-            Driven::Loads if context.file.scene.loads.is_empty() => {
+            Driven::Loads if context.assembly.terms().loads.is_empty() => {
                 let reaction = "growth of the volume times the pressure at 1".to_owned();
                 words("load", "factor of the pressure".into(), reaction)
             }

@@ -305,7 +305,7 @@ fn supported_loads() {
 fn names_are_converted() {
     let folder = Folder::new().with("roof.fold", ROOF);
     let [from, to] = ["roof.fold", "copy.fold"].map(|name| folder.file(name));
-    let notes = foldwell::run::convert(&from, &to, None).unwrap();
+    let notes = foldwell::run::convert(&from, &to, None, None).unwrap();
     assert!(notes.is_empty(), "{notes:?}");
     assert_eq!(fold::read(&to).unwrap().names, fold::read(&from).unwrap().names);
 }

@@ -102,7 +102,7 @@ fn commands_take_frames() {
         let wanted = Wanted { frame: Some(3), ..Wanted::default() };
         assert_eq!(info(&folder.file(file), &wanted).unwrap().sheet.vertices, 3);
     }
-    convert(&folder.file("a.fold"), &folder.file("b.obj"), Some(3)).unwrap();
+    convert(&folder.file("a.fold"), &folder.file("b.obj"), Some(3), None).unwrap();
     for words in ["info b.obj --frame 1", "convert b.obj c.fold --frame 0"] {
         folder.foldwell(words).refused("this file has no frames");
     }
@@ -117,7 +117,7 @@ fn commands_take_frames() {
 fn conversion_keeps_the_file() {
     let folder = Folder::new();
     let place = |name: &str| folder.file(name);
-    assert_eq!(convert(&path("frames.fold"), &place("b.fold"), None).unwrap(), Vec::<String>::new());
+    assert_eq!(convert(&path("frames.fold"), &place("b.fold"), None, None).unwrap(), Vec::<String>::new());
     let text = folder.text("b.fold");
     let [before, after]: [Value; 2] = [FRAMES, &text].map(|text| serde_json::from_str(text).unwrap());
     let kept = [
@@ -138,18 +138,18 @@ fn conversion_keeps_the_file() {
     }
     assert!(text.contains("[1, 2, 3, 4.50]"), "numbers are kept as they are written");
     assert_eq!(after["edges_foldAngle"], serde_json::json!([180.0, 0.0, 0.0, 0.0, 0.0]));
-    convert(&place("b.fold"), &place("c.fold"), None).unwrap();
+    convert(&place("b.fold"), &place("c.fold"), None, None).unwrap();
     assert_eq!(folder.text("c.fold"), text);
     // another frame alone is not the file with all of them
-    let notes = convert(&path("frames.fold"), &place("d.fold"), Some(1)).unwrap();
+    let notes = convert(&path("frames.fold"), &place("d.fold"), Some(1), None).unwrap();
     assert_eq!(notes, ["3 other frames in `file_frames` are not kept, only frame 1 is"]);
-    let notes = convert(&path("frames.fold"), &place("d.obj"), None).unwrap();
+    let notes = convert(&path("frames.fold"), &place("d.obj"), None, None).unwrap();
     assert!(notes[0].contains("3 other frames") && notes[1].contains("OBJ has no list of edges"), "{notes:?}");
     // edges that are not listed get numbers of their own, so that lists by number have no meaning any more
     let partial =
         FRAMES.replace(",\n[3, 0]\n]", "\n]").replace(", \"B\"],", "],").replace("180, 0, 0, 0, 0", "180, 0, 0, 0");
     folder.write("e.fold", partial);
-    let notes = convert(&place("e.fold"), &place("f.fold"), None).unwrap();
+    let notes = convert(&place("e.fold"), &place("f.fold"), None, None).unwrap();
     assert!(notes[1].contains("`faceOrders`") && notes[1].contains("`re:scene`"), "{notes:?}");
 }
 
@@ -166,9 +166,9 @@ fn facets_and_letters_survive_vtu() {
     let place = |name: &str| folder.file(name);
     let flat = fold::read(&path("square-twist-rigid.fold")).unwrap();
     for state in ["out/a/a_0000.vtu", "out/a/a_0001.vtu"] {
-        convert(&place(state), &place("b.fold"), None).unwrap();
-        convert(&place("b.fold"), &place("c.vtu"), None).unwrap();
-        convert(&place("c.vtu"), &place("d.fold"), None).unwrap();
+        convert(&place(state), &place("b.fold"), None, None).unwrap();
+        convert(&place("b.fold"), &place("c.vtu"), None, None).unwrap();
+        convert(&place("c.vtu"), &place("d.fold"), None, None).unwrap();
         for name in ["b.fold", "d.fold"] {
             let sheet = fold::read(&place(name)).unwrap();
             let count = |sheet: &foldwell::Sheet, letter| {

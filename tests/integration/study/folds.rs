@@ -88,5 +88,11 @@ fn a_sheet_that_turns_back_ends() {
         "{reason}"
     );
     assert!(turned.out.table("fold.csv").len() < 500);
+    // a stop that was asked for is one, before the sheet has moved and on the other side
+    for (stop, out) in [("states = 1", "first"), ("drive = -0.05", "beyond")] {
+        let stopped = scene.clone().then(&format!("\nstop = {{ {stop} }}\n")).out(out).converged();
+        let said = stopped.report.summary.studies[0].sentence();
+        assert!(said.contains("stop at fold"), "{stop}: {said}");
+    }
     scene.replaced("bars = { stiffness = 1e3 }", "bars = { stiffness = 1e4 }").out("stiff").converged();
 }

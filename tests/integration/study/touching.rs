@@ -69,7 +69,7 @@ fn touching_layers_do_not_cross() {
         let svg = ran.out.text("a.svg");
         assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{name}");
         let [vtu, back] = ["a/a_0001.vtu", "back.fold"].map(|file| ran.out.file(file));
-        convert(&vtu, &back, None).unwrap();
+        convert(&vtu, &back, None, None).unwrap();
         let (sheet, before) = (fold::read(&back).unwrap(), read(&format!("{name}.fold")));
         assert_eq!(Info::new(&sheet).touching_vertices, Info::new(&before).touching_vertices);
     }
