@@ -3,7 +3,9 @@
 use super::Numbers;
 use super::whole::check;
 use crate::math::{Vec3, rotation};
-use crate::model::{Assembly, Boundary, Drive, Driven, DrivenModel, Gauge, Hinges, Model, Part, TermKind, Terms};
+use crate::model::{
+    Assembly, Boundary, Drive, Driven, DrivenModel, Gauge, Hinges, Model, OwnTerm, Part, TermKind, Terms,
+};
 use crate::numerics::DenseMatrix;
 use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
 use crate::sheet::generate::{Miura, Pattern};
@@ -127,49 +129,67 @@ fn rates_of_drives() {
         Driven::Stiffness(TermKind::Creases),
     ];
     for quantity in drives {
-        let what = format!("{quantity:?}");
         let pinned = Terms { pins: vec![(8, [true; 3])], ..all.clone() };
-        let model = assembly.with_terms(pinned).model(Gauge::Held);
-        let drawn = model.values(&model.start());
-        let drive = Drive { quantity, to: 0.37 };
-        let mut driven = DrivenModel::new(model, &drive, drawn, false).unwrap();
-        let mut numbers = Numbers::new(5);
-        let x: Vec<f64> = driven.model.start().iter().map(|x| x + numbers.within(0.05)).collect();
-        let tension = numbers.many(driven.layout().stiff.len(), 1.0);
-        let home = driven.parameter() + 0.1 * driven.parameter_scale();
-        driven.set_parameter(home);
+        check_rates(assembly.with_terms(pinned).model(Gauge::Held), quantity);
+    }
+}
+
+/// Claim: so are those by a factor of loads and pressures, on faces and on plates. Source: differences.
+#[test]
+fn rates_of_loads_and_pressures() {
+    let pattern = Pattern::of(&"pattern = \"kresling\"\nlevels = 2".parse().unwrap()).unwrap();
+    let tube = Assembly::patch(generate(&pattern).unwrap(), [1, 1]).bars(10.0).creases(0.3);
+    let rings = [0..6, 12..18].map(|ring| ring.map(|vertex| (vertex, [0, 0])).collect::<Vec<_>>());
+    let [floor, lid] = rings;
+    let held =
+        tube.part(floor, [false; 6]).part(lid, ALL).load(7, [0, 0], [0.1, 0.0, -0.2]).load(14, [0, 0], [0.0, 0.3, 0.1]);
+    let assembly = held.build().unwrap();
+    let pressed = assembly.with_own_term(OwnTerm::pressure(&assembly, 0.7, |_| true).unwrap());
+    check_rates(pressed.model(Gauge::Held), Driven::Loads);
+}
+
+/// Checks the rates of a drive of this quantity in a random state near the drawn one.
+fn check_rates(model: Model, quantity: Driven) {
+    let what = format!("{quantity:?}");
+    let drawn = model.values(&model.start());
+    let drive = Drive { quantity, to: 0.37 };
+    let mut driven = DrivenModel::new(model, &drive, drawn, false).unwrap();
+    let mut numbers = Numbers::new(5);
+    let x: Vec<f64> = driven.model.start().iter().map(|x| x + numbers.within(0.05)).collect();
+    let tension = numbers.many(driven.layout().stiff.len(), 1.0);
+    let home = driven.parameter() + 0.1 * driven.parameter_scale();
+    driven.set_parameter(home);
+    let mut at = Linearization::new(driven.layout());
+    driven.linearize(&x, &tension, HessianKind::Full, &mut at);
+    let [force, gap] = driven.parameter_rates(&at, &x, &tension);
+    let rates = Rates {
+        x: numbers.many(x.len(), 1.0),
+        tension: numbers.many(tension.len(), 1.0),
+        parameter: numbers.within(0.2),
+    };
+    let rate = driven.conjugate_rate(&at, &x, &tension, &rates);
+    let model = std::cell::RefCell::new(driven);
+    let equations = |parameter: &[f64]| {
+        let mut driven = model.borrow_mut();
+        driven.set_parameter(parameter[0]);
         let mut at = Linearization::new(driven.layout());
         driven.linearize(&x, &tension, HessianKind::Full, &mut at);
-        let [force, gap] = driven.parameter_rates(&at, &x, &tension);
-        let rates = Rates {
-            x: numbers.many(x.len(), 1.0),
-            tension: numbers.many(tension.len(), 1.0),
-            parameter: numbers.within(0.2),
-        };
-        let rate = driven.conjugate_rate(&at, &x, &tension, &rates);
-        let model = std::cell::RefCell::new(driven);
-        let equations = |parameter: &[f64]| {
-            let mut driven = model.borrow_mut();
-            driven.set_parameter(parameter[0]);
-            let mut at = Linearization::new(driven.layout());
-            driven.linearize(&x, &tension, HessianKind::Full, &mut at);
-            let missing = at.missing(&tension, driven.compliance());
-            at.force(&tension).iter().chain(&missing).map(|v| -v).collect()
-        };
-        let column = DenseMatrix::from_iterator(x.len() + tension.len(), 1, force.iter().chain(&gap).copied());
-        check_jacobian(equations, &[home], &column, TOLERANCE).unwrap_or_else(|e| panic!("{what}: {e}"));
-        let conjugate = |s: &[f64]| {
-            let mut driven = model.borrow_mut();
-            driven.set_parameter(home + s[0] * rates.parameter);
-            let moved = |v: &[f64], rate: &[f64]| v.iter().zip(rate).map(|(v, r)| v + s[0] * r).collect::<Vec<f64>>();
-            let (x, tension) = (moved(&x, &rates.x), moved(&tension, &rates.tension));
-            let mut at = Linearization::new(driven.layout());
-            driven.linearize(&x, &tension, HessianKind::Full, &mut at);
-            vec![driven.conjugate(&at, &x, &tension)]
-        };
-        let found = DenseMatrix::from_element(1, 1, rate);
-        check_jacobian(conjugate, &[0.0], &found, TOLERANCE).unwrap_or_else(|e| panic!("{what}, conjugate: {e}"));
-    }
+        let missing = at.missing(&tension, driven.compliance());
+        at.force(&tension).iter().chain(&missing).map(|v| -v).collect()
+    };
+    let column = DenseMatrix::from_iterator(x.len() + tension.len(), 1, force.iter().chain(&gap).copied());
+    check_jacobian(equations, &[home], &column, TOLERANCE).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let conjugate = |s: &[f64]| {
+        let mut driven = model.borrow_mut();
+        driven.set_parameter(home + s[0] * rates.parameter);
+        let moved = |v: &[f64], rate: &[f64]| v.iter().zip(rate).map(|(v, r)| v + s[0] * r).collect::<Vec<f64>>();
+        let (x, tension) = (moved(&x, &rates.x), moved(&tension, &rates.tension));
+        let mut at = Linearization::new(driven.layout());
+        driven.linearize(&x, &tension, HessianKind::Full, &mut at);
+        vec![driven.conjugate(&at, &x, &tension)]
+    };
+    let found = DenseMatrix::from_element(1, 1, rate);
+    check_jacobian(conjugate, &[0.0], &found, TOLERANCE).unwrap_or_else(|e| panic!("{what}, conjugate: {e}"));
 }
 
 /// Claim: the derivatives of a turned vector are those of the rotation matrix times the vector, at 0, on both

@@ -92,6 +92,15 @@ fn wells_subtract_the_work_of_pressure() {
     assert!(wells.iter().any(|well| (well.energy - (stored - work)).abs() < 1e-9), "{wells:?}, {stored} less {work}");
 }
 
+/// Claim: a pressure has no rest value that a drive of the rest angles could change: creases at rest as they are drawn
+/// are refused under pressure too.
+#[test]
+fn pressure_has_no_rest() {
+    let lines = "creases = { stiffness = 0.01 }\n[[pressure]]\nvalue = 0.1\n[[drive]]\nname = \"rest\"\nrest = true\nto = 1\n\
+                 [[study]]\nname = \"folded\"\nkind = \"path\"\n";
+    tetrahedron(lines).refused("the creases rest as they are drawn");
+}
+
 /// Claim: a square sheet of four triangles whose corners are pinned rises under pressure, to the height of the closed
 /// form, and to the other side under a negative one. Tolerance: 1e-9 of the height, as residuals are 1e-12.
 #[test]
