@@ -22,6 +22,7 @@ FIGURES = {
     "bellows": "bellows/pressed",
     "bellows-reaction": "bellows/pressed-reaction",
     "bird-base": "bird-base/folded",
+    "coupled-tubes": "coupled-tubes/modes",
     "crane": "crane/folded",
     "degree-four": "degree-four/folded",
     "drum": "drum-path/crush",

@@ -124,8 +124,11 @@ enum Command {
         /// Unfold a developable sheet into the plane: the crease pattern of a folded state
         #[arg(long, conflicts_with_all = ["merge", "split"])]
         flatten: bool,
+        /// Join pieces where they touch: vertices at one place become one
+        #[arg(long, conflicts_with_all = ["merge", "split", "flatten"])]
+        weld: bool,
         /// Write the solid that the sheet is with this thickness, in units of the file, for printers
-        #[arg(long, value_name = "T", conflicts_with_all = ["merge", "split", "flatten"])]
+        #[arg(long, value_name = "T", conflicts_with_all = ["merge", "split", "flatten", "weld"])]
         thickness: Option<f64>,
     },
     /// Write a page of the studies in the folder of a run, to be looked at in a browser, and print its path
@@ -234,10 +237,12 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             remark(&out, &run::new_mesh(&table, &out)?);
             Ok(0)
         }
-        Command::Convert { from, to, frame, merge, split, flatten, thickness } => {
+        Command::Convert { from, to, frame, merge, split, flatten, weld, thickness } => {
             let cleanup = Cleanup { merge, split };
             let notes = if flatten {
                 run::convert_flattened(&from, &to, frame)?
+            } else if weld {
+                run::convert_welded(&from, &to, frame)?
             } else if cleanup == Cleanup::default() {
                 run::convert(&from, &to, frame, thickness)?
             } else {

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::output::{OutputError, Picture};
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::pattern::Cleanup;
-use crate::sheet::{Info, Pattern, Sheet, flatten, generate};
+use crate::sheet::{Info, Pattern, Sheet, flatten, generate, welded};
 
 mod belongings;
 mod claim;
@@ -223,6 +223,19 @@ pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result
     let folded = read_mesh(from, frame, meshes::READ)?;
     let pattern = flatten(&folded).map_err(|reason| RunError::NotDevelopable { path: from.into(), reason })?;
     meshes::write(&pattern, to, None)
+}
+
+/// Does the same as [`convert`] with the pieces of a sheet joined where they touch ([`welded`]).
+///
+/// # Errors
+/// As [`convert`]; also if what is joined is no sheet.
+pub fn convert_welded(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
+    let apart = read_mesh(from, frame, meshes::READ)?;
+    let (sheet, [vertices, faces]) =
+        welded(&apart).map_err(|defect| RunError::NoSheet { path: from.into(), defect })?;
+    let mut notes = meshes::write(&sheet, to, None)?;
+    notes.push(format!("vertices joined to others at their places: {vertices}; faces on others left out: {faces}"));
+    Ok(notes)
 }
 
 #[cfg(test)]

@@ -177,6 +177,9 @@ fn pieces_with_openings(tiling: &Tiling) -> bool {
 /// Null space of the closure conditions of the tiling in this state, rigid facets locked.
 fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, ModesError> {
     let tiling = assembly.tiling();
+    if !assembly.sheet().is_surface() {
+        return Ok(None);
+    }
     let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
     let hinged: Vec<HingedEdge> = tiling
         .edges

@@ -8,6 +8,7 @@
 //! 273-282). The conditions contain the sectors of the drawn faces only; positions follow from the angles.
 
 use super::KinematicsError;
+use super::error::check_surface;
 use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{DenseError, NullSpace, null_space_of_sums};
@@ -83,6 +84,7 @@ impl Closure {
     /// # Errors
     /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        check_surface(sheet)?;
         let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
         Self::of_edges(&edges, |corner| sheet.position(corner))
     }
@@ -92,6 +94,7 @@ impl Closure {
     /// # Errors
     /// [`KinematicsError`] as [`of_cell`](Self::of_cell).
     pub(crate) fn of_tiling(sheet: &Sheet, tiling: &Tiling) -> Result<Self, KinematicsError> {
+        check_surface(sheet)?;
         if sheet.screws.is_some() {
             return Err(KinematicsError::Rolled);
         }

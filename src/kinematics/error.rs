@@ -2,6 +2,7 @@
 
 use crate::numerics::dense::DenseError;
 use crate::numerics::homotopy::HomotopyError;
+use crate::sheet::Sheet;
 
 /// The reasons for which a kinematic quantity cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -15,6 +16,12 @@ pub enum KinematicsError {
     /// A property of periodic sheets is wanted for a finite sheet.
     #[error("a finite sheet has neither curvature nor lattice motions nor linear folding modes: they need a lattice")]
     NoLattice,
+    /// The sheet is an assembly of several sheets, has bars alone, or has one side.
+    #[error(
+        "exact folding is of surfaces with two sides: here an edge has more than two faces or none, or the faces have one \
+         side, as those of a Moebius band"
+    )]
+    NoSurface,
     /// Exact folding is wanted of several cells that screw motions repeat.
     #[error(
         "a cell that screw motions repeat is drawn rolled up: it folds as a tube, and several cells need lattice vectors"
@@ -100,4 +107,9 @@ fn second_order(error: &HomotopyError) -> String {
         _ => "",
     };
     format!("second order: {error}{remedy}")
+}
+
+/// Checks that a sheet is a surface with two sides, whose faces can be walked over.
+pub(super) fn check_surface(sheet: &Sheet) -> Result<(), KinematicsError> {
+    if sheet.is_surface() { Ok(()) } else { Err(KinematicsError::NoSurface) }
 }

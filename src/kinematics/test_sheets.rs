@@ -169,7 +169,7 @@ impl Reference {
     pub(crate) fn in_sheet_order(&self, sheet: &Sheet, numbers: &[f64]) -> Vec<f64> {
         let list = self.0["edge_list"].as_array().unwrap();
         let find = |edge: &Edge| {
-            let EdgeKey { i, j, shift: [n1, n2] } = edge.key;
+            let EdgeKey { i, j, shift: [n1, n2], .. } = edge.key;
             let name = serde_json::json!([i, j, n1, n2]);
             numbers[list.iter().position(|entry| *entry == name).unwrap()]
         };

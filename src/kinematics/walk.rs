@@ -11,6 +11,7 @@
 //! angles.
 
 use super::KinematicsError;
+use super::error::check_surface;
 use super::motion::{Line, Motion, Rigid};
 use crate::math::{Vec3, rotation};
 use crate::sheet::{Corner, EdgeKey, Sheet};
@@ -76,6 +77,7 @@ impl FaceWalk {
     ///
     /// Fails if the faces are not connected, or, on a periodic sheet, not along both directions of the lattice.
     pub(crate) fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        check_surface(sheet)?;
         let faces = sheet.triangles.len();
         let disconnected = || KinematicsError::Disconnected { faces };
         let (root, start) = first_with_vertex_0(sheet).ok_or_else(disconnected)?;

@@ -155,7 +155,7 @@ fn bars(
 ) -> (Term<Length, 2, 6>, Vec<Spring>) {
     let edges = tiling.edges.iter().enumerate();
     let wanted = |stiffness: f64| if stored.is_law() { stiffness.is_finite() } else { !stiffness.is_nan() };
-    let there = edges.filter(|(edge, tiled)| !rigid(&tiled.ends) && wanted(bars.stiffness.of(*edge)));
+    let there = edges.filter(|(edge, tiled)| tiled.bar && !rigid(&tiled.ends) && wanted(bars.stiffness.of(*edge)));
     let bar = |(edge, tiled): (usize, &TiledEdge)| {
         let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
         ((tiled.ends, Some(edge)), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })

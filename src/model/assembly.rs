@@ -246,7 +246,8 @@ impl Assembly {
     /// Returns the number of bars whose rest lengths are not the drawn ones.
     pub fn bars_off_rest(&self) -> usize {
         let Some(bars) = &self.terms.bars else { return 0 };
-        let drawn = self.tiling().edges.iter().map(|edge| self.drawn.distance(&edge.ends)).enumerate();
+        let bars_there = self.tiling().edges.iter().enumerate().filter(|(_, edge)| edge.bar);
+        let drawn = bars_there.map(|(number, edge)| (number, self.drawn.distance(&edge.ends)));
         drawn.filter(|&(edge, length)| !((bars.rest.of(edge, length) / length - 1.0).abs() <= SAME_LENGTH)).count()
     }
 

@@ -111,8 +111,9 @@ impl Drawn {
 
     /// Returns the mean length of the edges of the tiling.
     pub(super) fn mean_edge(&self, tiling: &Tiling) -> f64 {
-        let total: f64 = tiling.edges.iter().map(|edge| self.distance(&edge.ends)).sum();
-        total / tiling.edges.len() as f64
+        let bars = || tiling.edges.iter().filter(|edge| edge.bar);
+        let total: f64 = bars().map(|edge| self.distance(&edge.ends)).sum();
+        total / bars().count() as f64
     }
 
     /// Returns the fold angle of every edge of the tiling, in radians; NaN where there is no hinge.

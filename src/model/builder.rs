@@ -373,8 +373,10 @@ fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
 /// Returns the numbers of the tiling's edges that are copies of this crease and have a hinge.
 fn copies(assembly: &Assembly, crease: EdgeKey) -> Result<Vec<usize>, AssemblyError> {
     let (sheet, tiling, angles) = (assembly.sheet(), assembly.tiling(), assembly.drawn_angles());
-    let edge = sheet.crease(crease).ok_or(AssemblyError::NoCrease { key: crease })?;
-    let found = (0..tiling.edges.len()).filter(|&k| tiling.edges[k].edge == edge && !angles[k].is_nan());
+    sheet.crease(crease).ok_or(AssemblyError::NoCrease { key: crease })?;
+    let name = EdgeKey::new(crease.ends()[0], crease.ends()[1]).0;
+    let is_copy = |k: &usize| sheet.edges[tiling.edges[*k].edge].key.whole() == name && !angles[*k].is_nan();
+    let found = (0..tiling.edges.len()).filter(is_copy);
     let found: Vec<usize> = found.collect();
     if found.is_empty() { Err(AssemblyError::NoCopy { key: crease, cells: tiling.cells }) } else { Ok(found) }
 }

@@ -20,7 +20,9 @@
 use super::assembly::Assembly;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;
-use crate::sheet::EdgeKind;
+use crate::sheet::cell::TriangleSide;
+use crate::sheet::{EdgeKey, EdgeKind, TiledEdge, Triangle};
+use std::collections::HashMap;
 
 /// The moment of a ridge for each radian, over `D (L / t)^(1/3)`.
 const RIDGE: f64 = 0.55;
@@ -60,18 +62,33 @@ impl Material {
     /// Returns the stiffness `EA` of the bar of every edge of the tiling, from the drawn triangles at it. An edge at
     /// the rim of a patch whose triangles are all beyond it has that of the cell.
     pub fn bars(&self, assembly: &Assembly) -> Stiffness {
-        let (sheet, drawn) = (assembly.sheet(), assembly.drawn());
-        let place = |site| drawn.domain.point(&drawn.coordinates, site);
-        let mut each = Vec::with_capacity(assembly.edges());
-        for tiled in &assembly.tiling().edges {
-            let ends = tiled.ends.map(place);
-            let section: f64 = tiled.wings.iter().flatten().map(|wing| self.section(ends, place(*wing))).sum();
-            let edge = &sheet.edges[tiled.edge];
-            let corners = edge.key.ends().map(|corner| sheet.position(corner));
-            let whole = || edge.wings.iter().flatten().map(|wing| self.section(corners, sheet.position(*wing))).sum();
-            each.push(self.young * if section > 0.0 { section } else { whole() });
+        let (sheet, tiling, drawn) = (assembly.sheet(), assembly.tiling(), assembly.drawn());
+        let mut of_patch: HashMap<(EdgeKey, [usize; 2]), f64> = HashMap::new();
+        for tiled in &tiling.triangles {
+            let points = tiled.corners.map(|site| drawn.domain.point(&drawn.coordinates, site));
+            for (side, section) in self.sections(&sheet.triangles[tiled.triangle], points) {
+                let at = [0, 1].map(|a| tiled.cell[a] + side.base.shift[a]);
+                let cell = [0, 1].map(|a| at[a].rem_euclid(tiling.cells[a] as i32) as usize);
+                *of_patch.entry((side.key, cell)).or_default() += section;
+            }
         }
-        each.into()
+        let mut of_cell: HashMap<EdgeKey, f64> = HashMap::new();
+        for triangle in &sheet.triangles {
+            for (side, section) in self.sections(triangle, triangle.corners.map(|corner| sheet.position(corner))) {
+                *of_cell.entry(side.key).or_default() += section;
+            }
+        }
+        let section = |tiled: &TiledEdge| {
+            let key = sheet.edges[tiled.edge].key.whole();
+            of_patch.get(&(key, tiled.cell)).or(of_cell.get(&key)).copied().unwrap_or(f64::NAN)
+        };
+        tiling.edges.iter().map(|tiled| self.young * section(tiled)).collect::<Vec<f64>>().into()
+    }
+
+    /// Returns the sides of a triangle with these corners, each with the cross section that it gives to that edge.
+    fn sections(&self, triangle: &Triangle, points: [Vec3; 3]) -> [(TriangleSide, f64); 3] {
+        let sides = triangle.sides();
+        std::array::from_fn(|k| (sides[k], self.section([points[k], points[(k + 1) % 3]], points[(k + 2) % 3])))
     }
 
     /// Returns the cross section that the triangle of an edge and this third corner gives to the edge.

@@ -127,9 +127,11 @@ impl Table {
         Self::edge_column("fold", edge)
     }
 
-    /// Returns the name of a column with a quantity of an edge.
+    /// Returns the name of a column with a quantity of an edge; that of a further hinge round it has the hinge's number
+    /// behind.
     pub(crate) fn edge_column(word: &str, edge: &EdgeKey) -> String {
-        format!("{word}_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
+        let round = if edge.has_bar() { String::new() } else { format!("_{}", edge.round) };
+        format!("{word}_{}_{}_{}_{}{round}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 
     /// Returns the number of rows.
@@ -318,7 +320,7 @@ mod tests {
     /// The columns have the documented order, and each value is in its own column.
     #[test]
     fn a_state_fills_its_columns() {
-        let keys = [EdgeKey { i: 0, j: 1, shift: [0, -1] }, EdgeKey { i: 0, j: 3, shift: [0, 0] }];
+        let keys = [EdgeKey { i: 0, j: 1, shift: [0, -1], round: 0 }, EdgeKey { i: 0, j: 3, shift: [0, 0], round: 0 }];
         let state = StateRow {
             sign: Some(-1),
             arc_length: Some(1.0),
@@ -349,7 +351,7 @@ mod tests {
     /// A row that is too short is an error, which names the row.
     #[test]
     fn rows_have_a_value_for_every_column() {
-        let keys = [EdgeKey { i: 0, j: 1, shift: [0, 0] }];
+        let keys = [EdgeKey { i: 0, j: 1, shift: [0, 0], round: 0 }];
         let table = Table::of_states(&keys, &[StateRow::default()]);
         assert_eq!(table.to_csv(), Err(ShapeError::Row { row: 0, found: 18, expected: 19 }));
     }

@@ -86,6 +86,15 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if !is_fold && sheet.screws.is_some() {
         notes.push("the screw motions that repeat the cell are not kept: FOLD alone has a place for them".to_owned());
     }
+    let bars_alone = sheet.bars_alone().count();
+    if !is_fold && bars_alone > 0 {
+        notes.push(format!("{bars_alone} edges without faces are not kept: FOLD alone has a place for them"));
+    }
+    if !is_fold && !sheet.glue.is_empty() {
+        notes.push(
+            "what joins the faces of edges of more than two is not kept: FOLD alone has a place for it".to_owned(),
+        );
+    }
     let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
     if !is_fold && stiffnesses > 0 {
         notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));

@@ -241,6 +241,9 @@ impl<'a> Reader<'a> {
             return Ok(Some(stiffness.into()));
         }
         let Some(material) = material(self.file) else { return Ok(None) };
+        if of == ElementKind::Bars {
+            self.check_bars_have_faces()?;
+        }
         Ok(match of {
             ElementKind::Bars => Some(material.bars(self.assembly)),
             ElementKind::Creases => material.creases(),
@@ -337,12 +340,25 @@ impl<'a> Reader<'a> {
         self.values.named_values(&name.rates, Column::Rate, of)
     }
 
+    /// Checks that a face is drawn along every bar, from which the material has its stiffness.
+    fn check_bars_have_faces(&self) -> Result<(), SceneError> {
+        let Some(bar) = self.sheet.bars_alone().next() else { return Ok(()) };
+        let message = format!("the material says nothing of the bar {}, which has no face", name(bar.key));
+        let help = "give the bars `stiffness`: a number, or \"mesh\" with `foldwell:bar_stiffness` in the mesh file";
+        let span = self.file.scene.material.as_ref().map(Located::span).unwrap_or_default();
+        Err(self.file.error_at(span, message, help))
+    }
+
     fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {
         let mut locks = Vec::new();
         for lock in &self.file.scene.locks {
-            let (edge, before) = (self.crease(&lock.crease)?, locks.len());
+            let before = locks.len();
+            self.check_crease(&lock.crease)?;
+            if lock.angle.is_some() {
+                drives::one_hinge(self.file, self.sheet, &lock.crease)?;
+            }
             for (k, tiled) in self.tiling.edges.iter().enumerate() {
-                if tiled.edge == edge && !self.angles[k].is_nan() {
+                if self.sheet.edges[tiled.edge].key.whole() == lock.crease.0 && !self.angles[k].is_nan() {
                     let start = self.assembly.start_angles()[k];
                     locks.push((k, lock.angle.as_ref().map_or(start, |angle| angle.radians)));
                 }
@@ -358,14 +374,16 @@ impl<'a> Reader<'a> {
         Ok(locks)
     }
 
-    fn crease(&self, crease: &Located<EdgeName>) -> Result<usize, SceneError> {
+    /// Checks that the sheet has a crease.
+    fn check_crease(&self, crease: &Located<EdgeName>) -> Result<(), SceneError> {
         let key = crease.0;
-        self.values.edge(key, |kind| kind == EdgeKind::Crease).ok_or_else(|| {
-            let known: Vec<String> =
-                self.sheet.edges.iter().filter(|e| e.kind == EdgeKind::Crease).take(4).map(|e| name(e.key)).collect();
-            let help = format!("the creases are {}, ...", known.join(", "));
-            self.file.error_at(crease.span(), format!("the sheet has no crease {}", name(key)), help)
-        })
+        if self.values.has(key, |kind| kind == EdgeKind::Crease) {
+            return Ok(());
+        }
+        let creases = self.sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease && edge.key.has_bar());
+        let known: Vec<String> = creases.take(4).map(|edge| name(edge.key)).collect();
+        let help = format!("the creases are {}, ...", known.join(", "));
+        Err(self.file.error_at(crease.span(), format!("the sheet has no crease {}", name(key)), help))
     }
 
     /// Adds what holds and joins vertices to the terms.

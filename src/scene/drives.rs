@@ -8,6 +8,7 @@ use super::values::{EdgeName, Motions};
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
 use crate::model::{Assembly, Drive, Driven, TermKind};
+use crate::sheet::Sheet;
 use crate::sheet::angle::Angle;
 use crate::sheet::similar::there_are;
 
@@ -246,6 +247,19 @@ fn vertices(
     Ok(Driven::Vertices { vertices, direction })
 }
 
+/// Checks that a crease has one hinge, which an angle means.
+pub(super) fn one_hinge(file: &SceneFile, sheet: &Sheet, crease: &Located<EdgeName>) -> Result<(), SceneError> {
+    match sheet.hinges_round(crease.0) {
+        0 | 1 => Ok(()),
+        hinges => {
+            let message = format!("the crease has {hinges} hinges, since more than two faces meet there");
+            let help =
+                "a lock without `angle` keeps all of them; `foldwell:glue` in the mesh welds or frees single ones";
+            Err(file.error_at(crease.span(), message, help))
+        }
+    }
+}
+
 /// Returns the locked edges whose angle a drive changes.
 fn lock(
     file: &SceneFile,
@@ -254,7 +268,7 @@ fn lock(
     crease: &Located<EdgeName>,
 ) -> Result<Driven, SceneError> {
     let edges = &assembly.tiling().edges;
-    let is_copy = |edge: usize| assembly.sheet().edges[edges[edge].edge].key == crease.0;
+    let is_copy = |edge: usize| assembly.sheet().edges[edges[edge].edge].key.whole() == crease.0;
     let locks: Vec<_> = assembly.terms().locks.iter().filter(|(edge, _)| is_copy(*edge)).collect();
     let [i, j, n1, n2] = [crease.0.i as i64, crease.0.j as i64, crease.0.shift[0].into(), crease.0.shift[1].into()];
     if locks.is_empty() {
@@ -262,6 +276,7 @@ fn lock(
         let help = format!("add [[lock]] with crease = [{i}, {j}, {n1}, {n2}]; the drive changes its angle");
         return Err(file.error_at(crease.span(), message, help));
     }
+    one_hinge(file, assembly.sheet(), crease)?;
     if locks.iter().all(|(_, angle)| *angle == spec.to.0.radians) {
         let help = "give another angle, in radians, to which the lock is driven";
         return Err(file.error_at(

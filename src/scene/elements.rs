@@ -72,20 +72,21 @@ pub(super) struct ElementValues<'a> {
     file: &'a SceneFile,
     sheet: &'a Sheet,
     tiling: &'a Tiling,
-    /// Number of each edge of the cell by its name.
-    names: HashMap<EdgeKey, usize>,
+    /// The kinds of each edge of the cell, one for each hinge, by the name of the edge.
+    kinds: HashMap<EdgeKey, Vec<EdgeKind>>,
 }
 
 impl<'a> ElementValues<'a> {
     pub(super) fn new(file: &'a SceneFile, assembly: &'a Assembly) -> Self {
         let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
-        let names = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
-        Self { file, sheet, tiling, names }
+        let mut kinds: HashMap<EdgeKey, Vec<EdgeKind>> = HashMap::new();
+        sheet.edges.iter().for_each(|edge| kinds.entry(edge.key.whole()).or_default().push(edge.kind));
+        Self { file, sheet, tiling, kinds }
     }
 
-    /// Returns the number of an edge of the cell, if it is of one of these kinds.
-    pub(super) fn edge(&self, key: EdgeKey, is_wanted: impl Fn(EdgeKind) -> bool) -> Option<usize> {
-        self.names.get(&key).copied().filter(|&k| is_wanted(self.sheet.edges[k].kind))
+    /// Whether the cell has this edge, and it is of one of these kinds.
+    pub(super) fn has(&self, key: EdgeKey, is_wanted: impl Fn(EdgeKind) -> bool) -> bool {
+        self.kinds.get(&key).is_some_and(|kinds| kinds.iter().any(|kind| is_wanted(*kind)))
     }
 
     /// Returns the stiffness of the elements of a term.
@@ -186,17 +187,18 @@ impl<'a> ElementValues<'a> {
         span: Range<usize>,
     ) -> Result<Vec<f64>, SceneError> {
         let (mut values, word) = (vec![f64::NAN; self.tiling.edges.len()], needed.word());
-        let mut copies: HashMap<(usize, Option<[usize; 2]>), Vec<usize>> = HashMap::new();
+        let mut copies: HashMap<(EdgeKey, Option<[usize; 2]>), Vec<usize>> = HashMap::new();
         for (k, tiled) in self.tiling.edges.iter().enumerate() {
-            copies.entry((tiled.edge, None)).or_default().push(k);
-            copies.entry((tiled.edge, Some(tiled.cell))).or_default().push(k);
+            copies.entry((self.key(k).whole(), None)).or_default().push(k);
+            copies.entry((self.key(k).whole(), Some(tiled.cell))).or_default().push(k);
         }
         for row in rows {
             let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
-            let edge = self
-                .edge(row.key, |kind| needed.is_at(kind) || also.is_at(kind))
-                .ok_or_else(|| fault(TableFault::Edge(format!("the sheet has no {word} {}", name(row.key)))))?;
-            match (copies.get(&(edge, row.cell)), row.cell) {
+            if !self.has(row.key, |kind| needed.is_at(kind) || also.is_at(kind)) {
+                let message = format!("the sheet has no {word} {}", name(row.key));
+                return Err(fault(TableFault::Edge(message)));
+            }
+            match (copies.get(&(row.key, row.cell)), row.cell) {
                 (Some(found), _) => found.iter().for_each(|&k| values[k] = row.value),
                 // a patch need not have a copy of every edge of its cell
                 (None, None) => {}

@@ -4,7 +4,7 @@ use super::SceneFile;
 use super::rest::RestSpec;
 use crate::model::Assembly;
 use crate::sheet::info::{TURNED_OVER, frames_said, targets_said};
-use crate::sheet::{Assignment, EdgeKind};
+use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Returns remarks about a scene, made before its studies.
 pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
@@ -14,6 +14,7 @@ pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     if assembly.sheet().record.turned_over {
         notes.push(TURNED_OVER.to_owned());
     }
+    notes.extend(assembled(assembly.sheet()));
     let [against, folded] = assembly.sheet().drawn_against_targets();
     if against > 0 {
         notes.push(format!(
@@ -25,6 +26,18 @@ pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     notes.extend(record.redrawing.said());
     notes.extend(frames_said(record.frame, record.further_frames).filter(|_| file.scene.sheet.frame.is_none()));
     notes
+}
+
+/// Says what the faces of an edge of more than two, and edges of no face, are taken for.
+fn assembled(sheet: &Sheet) -> Vec<String> {
+    let is_joint = |edge: &&Edge| edge.key.round == 1 && !sheet.glue.contains_key(&edge.key.whole());
+    let (joints, bars) = (sheet.edges.iter().filter(is_joint).count(), sheet.bars_alone().count());
+    let said = format!(
+        "edges of more than two faces: {joints}; every two neighbours round each fold on a hinge, unless `foldwell:glue` in \
+         the mesh welds or frees them"
+    );
+    let alone = format!("edges of no face: {bars}; they are bars, as cables and struts");
+    [(joints, said), (bars, alone)].into_iter().filter(|(count, _)| *count > 0).map(|(_, said)| said).collect()
 }
 
 /// Says that a single rest angle folds mountains and valleys to the same side. Only letters that the drawing does not

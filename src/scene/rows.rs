@@ -167,7 +167,7 @@ mod tests {
     /// canonical [0, 2, -1, 0] starts at vertex 0 of cell (4, 4).
     #[test]
     fn rows_come_back_with_their_lines() {
-        let key = EdgeKey { i: 0, j: 2, shift: [-1, 0] };
+        let key = EdgeKey { i: 0, j: 2, shift: [-1, 0], round: 0 };
         let cell = angles("i,j,n1,n2,angle\r\n0, 2, -1, 0, 0.25\r\n").unwrap();
         assert_eq!(cell, [TableRow { cell: None, key, value: 0.25, line: 2 }]);
         let patch = angles("cell1,cell2,i,j,n1,n2,angle\n\n3,4,2,0,1,0,-1e-3\n").unwrap();

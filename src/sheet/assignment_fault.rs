@@ -40,6 +40,19 @@ pub enum AssignmentFault {
         /// Fold angle that the vertices draw, in degrees.
         drawn: f64,
     },
+    /// What joins the faces of an edge is given for an edge of one or two faces, or for another number of faces.
+    #[error(
+        "`foldwell:glue` has {found} word(s) for edge {edge} of {faces} face(s); it is for edges of three or more faces, \
+         and has one word, or one for each face"
+    )]
+    Glue {
+        /// The edge.
+        edge: DrawnEdge,
+        /// Number of its faces.
+        faces: usize,
+        /// Number of words.
+        found: usize,
+    },
     /// The edge is cut, but the sheet stays joined at both of its ends.
     #[error(
         "edge {edge} of the list, {ends}, is assigned C, but the sheet stays joined at both of its ends, so that this cut \

@@ -1,6 +1,6 @@
 //! The types of a sheet: vertices, lattice vectors, polygons, their triangles, and the edges between them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::assignment::Assignment;
 use super::record::FileRecord;
@@ -19,7 +19,8 @@ pub struct Corner {
 /// The name `[i, j, n1, n2]` of an edge: from vertex `i` of cell (0, 0) to vertex `j` of cell `(n1, n2)`.
 ///
 /// `[j, i, -n1, -n2]` names the same edge; [`EdgeKey::new`] returns the one with `i < j`, or, where `i == j`, the one
-/// whose shift is lexicographically positive.
+/// whose shift is lexicographically positive. An edge of more than two faces is listed once for each of its hinges,
+/// which `round` tells apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EdgeKey {
     /// First vertex, in cell (0, 0).
@@ -28,6 +29,9 @@ pub struct EdgeKey {
     pub j: usize,
     /// Cell of the second vertex, in lattice vectors.
     pub shift: [i32; 2],
+    /// Number of the hinge round the edge: 0 for the edge itself, which has the bar and the first hinge, and from 1 on
+    /// for the further hinges of an edge of more than two faces.
+    pub round: usize,
 }
 
 /// The kind of an edge.
@@ -35,10 +39,23 @@ pub struct EdgeKey {
 pub enum EdgeKind {
     /// An edge between two polygons, which folds.
     Crease,
-    /// A diagonal of a polygon, which bends, or is locked if polygons are rigid.
+    /// A diagonal of a polygon, or a weld between two, which bends, or is locked if polygons are rigid.
     Facet,
-    /// An edge of one face only, on the rim of a finite sheet or of an opening.
+    /// An edge that does not fold: of one face, on the rim of a finite sheet or of an opening, or of no face, as cables
+    /// and struts are.
     Boundary,
+}
+
+/// What joins two neighbouring faces of an edge of more than two faces (`foldwell:glue`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Glue {
+    /// A crease, on which they fold.
+    Fold,
+    /// A joint that is as stiff as the polygons are, and keeps their angle if these are rigid.
+    Weld,
+    /// Nothing: they turn freely about the edge.
+    Free,
 }
 
 /// An edge of the cell.
@@ -126,6 +143,9 @@ pub struct Sheet {
     pub targets: BTreeMap<EdgeKey, f64>,
     /// Stiffnesses that the file gives its edges.
     pub stiffness: MeshStiffness,
+    /// What joins the faces of edges of more than two faces, in the order of [`Drawing::glue`](super::Drawing::glue);
+    /// edges whose faces all fold are left out.
+    pub glue: BTreeMap<EdgeKey, Vec<Glue>>,
     /// Named lists of vertices (`foldwell:names`), each vertex as the corner that the file draws.
     pub names: BTreeMap<String, Vec<Corner>>,
     /// The edges in the order of the file, each by its drawn ends; empty if that is the order along the faces.
@@ -160,10 +180,20 @@ impl EdgeKey {
         let shift = [b.shift[0] - a.shift[0], b.shift[1] - a.shift[1]];
         let reversed = (b.vertex, shift) < (a.vertex, [0, 0]);
         if reversed {
-            (Self { i: b.vertex, j: a.vertex, shift: [-shift[0], -shift[1]] }, true)
+            (Self { i: b.vertex, j: a.vertex, shift: [-shift[0], -shift[1]], round: 0 }, true)
         } else {
-            (Self { i: a.vertex, j: b.vertex, shift }, false)
+            (Self { i: a.vertex, j: b.vertex, shift, round: 0 }, false)
         }
+    }
+
+    /// Returns the name of the edge without the number of a hinge round it.
+    pub fn whole(self) -> Self {
+        Self { round: 0, ..self }
+    }
+
+    /// Whether the edge has its bar here: an edge of more than two faces is listed for each of its hinges.
+    pub fn has_bar(&self) -> bool {
+        self.round == 0
     }
 
     /// Returns the two ends of the edge, the first in cell (0, 0).
@@ -189,6 +219,33 @@ impl Sheet {
     /// Whether the sheet is one cell of many, repeated by lattice vectors or by screw motions.
     pub fn is_repeated(&self) -> bool {
         self.lattice.is_some() || self.screws.is_some()
+    }
+
+    /// Returns the edges that have a bar: each edge once.
+    pub fn bars(&self) -> impl Iterator<Item = &Edge> {
+        self.edges.iter().filter(|edge| edge.key.has_bar())
+    }
+
+    /// Returns the edges of no face, as cables and struts are.
+    pub fn bars_alone(&self) -> impl Iterator<Item = &Edge> {
+        let sides: HashSet<EdgeKey> = self.triangles.iter().flat_map(Triangle::sides).map(|side| side.key).collect();
+        self.edges.iter().filter(move |edge| !sides.contains(&edge.key.whole()))
+    }
+
+    /// Returns the number of hinges round an edge.
+    pub fn hinges_round(&self, key: EdgeKey) -> usize {
+        self.edges.iter().filter(|edge| edge.key.whole() == key.whole() && edge.wings != [None; 2]).count()
+    }
+
+    /// Whether the sheet is a surface with two sides: no edge has more than two faces or none, and the faces of each run
+    /// along it in opposite directions.
+    pub fn is_surface(&self) -> bool {
+        let sides = self.triangles.iter().flat_map(Triangle::sides);
+        let mut sides: Vec<(EdgeKey, usize)> = sides.map(|side| (side.key, side.side)).collect();
+        let count = sides.len();
+        sides.sort_unstable();
+        sides.dedup();
+        sides.len() == count && self.bars_alone().next().is_none()
     }
 
     /// Returns the chords from vertex 0 to its copies in cells (1, 0) and (0, 1): the lattice vectors, if there are

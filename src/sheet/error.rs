@@ -261,14 +261,9 @@ pub enum Problem {
         /// The diagonal.
         edge: DrawnEdge,
     },
-    /// An edge belongs to more than two faces.
-    #[error("edge {edge} belongs to the faces {faces:?}; an edge should have at most two")]
-    NonManifoldEdge {
-        /// The edge.
-        edge: DrawnEdge,
-        /// Its faces.
-        faces: Vec<usize>,
-    },
+    /// A surface is wanted, and the sheet is an assembly of several.
+    #[error("edges of more than two faces, or of none, have no two sides along which a solid could lie")]
+    NoSurface,
     /// Two neighbouring faces have opposite orientations.
     #[error(
         "faces {faces:?} run along edge {edge} in the same direction; all faces should be counter-clockwise from one \

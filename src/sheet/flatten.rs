@@ -59,6 +59,9 @@ pub enum NotDevelopable {
     /// The sheet is cut along lines.
     #[error("the sheet cannot be unfolded: it is cut along lines, whose two sides may come apart in the plane")]
     Cut,
+    /// The sheet is an assembly of several, has bars alone, or has one side.
+    #[error("the sheet cannot be unfolded: an edge has more than two faces or none, or the faces have one side")]
+    NoSurface,
     /// The sheet is periodic.
     #[error("the sheet cannot be unfolded: it is periodic; unfold a finite patch of it")]
     Periodic,
@@ -101,6 +104,9 @@ pub fn flatten(sheet: &Sheet) -> Result<Sheet, NotDevelopable> {
 fn check(sheet: &Sheet) -> Result<(), NotDevelopable> {
     if sheet.is_repeated() {
         return Err(NotDevelopable::Periodic);
+    }
+    if !sheet.is_surface() {
+        return Err(NotDevelopable::NoSurface);
     }
     if !sheet.cut_from.is_empty() {
         return Err(NotDevelopable::Cut);

@@ -49,6 +49,10 @@ pub struct Info {
     pub facets: usize,
     /// Number of edges of one face.
     pub boundary: usize,
+    /// Number of edges of no face, which are bars alone.
+    pub bars_alone: usize,
+    /// Number of edges of more than two faces with several hinges.
+    pub joints: usize,
     /// Number of edges of one face that cuts have made, two for each cut edge.
     pub cut: usize,
     /// Number of triangles.
@@ -103,7 +107,9 @@ impl Info {
     /// Counts and measures `sheet`.
     pub fn new(sheet: &Sheet) -> Self {
         let count = |kind| sheet.edges.iter().filter(|e| e.kind == kind).count();
-        let free = 3 * sheet.vertices.len() as i64 - sheet.edges.len() as i64;
+        let edges = sheet.bars().count();
+        let free = 3 * sheet.vertices.len() as i64 - edges as i64;
+        let bars_alone = sheet.bars_alone().count();
         let lengths =
             || sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm());
         let (defect, mut thin) = (largest_angle_defect(sheet), thin_triangles(sheet));
@@ -111,15 +117,17 @@ impl Info {
             title: sheet.title.clone(),
             periodic: sheet.is_repeated(),
             vertices: sheet.vertices.len(),
-            edges: sheet.edges.len(),
+            edges,
             creases: count(EdgeKind::Crease),
             facets: count(EdgeKind::Facet),
-            boundary: count(EdgeKind::Boundary),
+            boundary: count(EdgeKind::Boundary) - bars_alone,
+            bars_alone,
+            joints: sheet.edges.iter().filter(|edge| edge.key.round == 1).count(),
             cut: sheet.edges.iter().filter(|edge| sheet.assignment(edge) == Assignment::Cut).count(),
             faces: sheet.triangles.len(),
             polygons: sheet.polygons.len(),
             pieces: pieces(sheet).len(),
-            euler_characteristic: (sheet.vertices.len() + sheet.triangles.len()) as i64 - sheet.edges.len() as i64,
+            euler_characteristic: (sheet.vertices.len() + sheet.triangles.len()) as i64 - edges as i64,
             maxwell_count: free,
             maxwell_count_screw: sheet.chords().map(|_| free + 2),
             maxwell_count_free_torus: sheet.lattice.map(|_| free + 6),
@@ -219,6 +227,12 @@ impl fmt::Display for Info {
             "edges                  {} ({creases} creases, {facets} facets, {boundary} boundary{cut})",
             self.edges
         )?;
+        if self.bars_alone > 0 {
+            writeln!(f, "bars without faces     {}", self.bars_alone)?;
+        }
+        if self.joints > 0 {
+            writeln!(f, "edges of several hinges {} (more than two faces meet there)", self.joints)?;
+        }
         writeln!(f, "triangles              {} (of {} polygons)", self.faces, self.polygons)?;
         writeln!(f, "pieces                 {}", self.pieces)?;
         writeln!(f, "Euler characteristic   {}", self.euler_characteristic)?;

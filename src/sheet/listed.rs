@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::assigned::is_same_angle;
 use super::assignment::Assignment;
-use super::build::{Drawing, Identified, build, build_identified, edges_by_drawn_name, listed_order};
+use super::build::{Drawing, Identified, build, build_identified, drawn_sides, edges_by_drawn_name, listed_order};
 use super::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
 use super::error::{Defect, DrawnEdge, MeshPart, Problem};
 
@@ -19,10 +19,11 @@ pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sh
     let drawn = turned.as_ref().unwrap_or(drawn);
     let (mut sheet, identified) = build_identified(drawn)?;
     let (known, sides) = (edges_by_drawn_name(&sheet), sides(&sheet));
+    let bars: BTreeSet<EdgeKey> = sheet.bars_alone().map(|edge| edge.key).collect();
     for (edge, ends) in listed.iter().enumerate() {
         let [a, b] = ends.map(|v| identified.corner[v]);
         let found = known.get(&EdgeKey::new(a, b).0).and_then(|numbers| numbers.first()).map(|&n| &sheet.edges[n]);
-        if !found.is_some_and(|edge| sides.contains(&edge.key)) {
+        if !found.is_some_and(|edge| sides.contains(&edge.key) || bars.contains(&edge.key)) {
             let problem = Problem::LooseEdge { edge, ends: DrawnEdge(ends[0], ends[1]) };
             return Err(Defect::new(MeshPart::Edge(edge), problem));
         }
@@ -40,7 +41,8 @@ pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sh
 pub fn build_arrays(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<Sheet, Defect> {
     let edge = |(edge, problem)| Defect::new(MeshPart::Edge(edge), problem);
     check_ends(listed, drawn.coords.len()).map_err(edge)?;
-    build_listed(drawn, listed).map(|(sheet, _)| sheet)
+    let drawn = Drawing { bars: bars_alone(drawn, listed), ..drawn.clone() };
+    build_listed(&drawn, listed).map(|(sheet, _)| sheet)
 }
 
 /// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error names the
@@ -60,6 +62,18 @@ pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize
         }
     }
     Ok(())
+}
+
+/// Returns the listed edges that no face is drawn along: bars, as cables and struts are. In a flat drawing with faces
+/// there are none: lines that are no sides are not to be carried by it.
+pub(crate) fn bars_alone(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let first = drawn.coords.first().map_or(0.0, |x| x.z);
+    if !drawn.faces.is_empty() && drawn.coords.iter().all(|x| x.z == first) {
+        return vec![];
+    }
+    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let sides: BTreeSet<[usize; 2]> = drawn_sides(drawn).into_iter().map(|(ends, _)| sorted(ends)).collect();
+    listed.iter().copied().filter(|ends| !sides.contains(&sorted(*ends))).collect()
 }
 
 /// Returns the edges that are sides, and not diagonals, of polygons.

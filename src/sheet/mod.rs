@@ -46,9 +46,10 @@ pub mod symmetry;
 pub(crate) mod text;
 mod thicken;
 pub(crate) mod tiling;
+mod weld;
 
 pub use assignment::Assignment;
-pub use cell::{Corner, Edge, EdgeKey, EdgeKind, MeshStiffness, Sheet, Triangle};
+pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, MeshStiffness, Sheet, Triangle};
 pub use error::{Problem, SheetError};
 pub use flatten::{NotDevelopable, flatten};
 pub use generate::{GenerateError, Pattern, generate};
@@ -60,3 +61,4 @@ pub use screws::ScrewLattice;
 pub use seam::{Seam, SeamKept};
 pub use thicken::thickened;
 pub use tiling::{Site, TiledEdge, TiledTriangle, Tiling, tile};
+pub use weld::welded;

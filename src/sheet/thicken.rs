@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 
 use super::build::{Drawing, build};
 use super::cell::{Corner, Sheet};
-use super::error::Defect;
+use super::error::{Defect, MeshPart, Problem};
 use super::sides::open_sides;
 use crate::math::Vec3;
 use crate::numerics::dense::small::solve_3;
@@ -31,8 +31,11 @@ const HELD: f64 = 1e-9;
 /// ```
 ///
 /// # Errors
-/// [`Defect`] if the surface is none: a face of it has no area, as with a thickness that is zero or no number.
+/// [`Defect`] if the sheet is not one surface with two sides, or if the surface of the solid is none: a face of it has no area, as with a thickness that is zero or no number.
 pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Sheet, Defect> {
+    if !sheet.is_surface() {
+        return Err(Defect::new(MeshPart::Mesh, Problem::NoSurface));
+    }
     let (coords, triangles) = points(sheet);
     let offsets = offsets(&coords, &triangles);
     let moved = |half: f64| coords.iter().zip(&offsets).map(move |(x, offset)| x + offset * half).collect::<Vec<_>>();

@@ -1,7 +1,8 @@
 //! Tilings: `n1 x n2` cells of a sheet, as a patch with free edges or as a torus.
 
-use super::cell::{Corner, EdgeKey, EdgeKind, Sheet, TriangleSide};
+use super::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, TriangleSide};
 use crate::math::Vec3;
+use std::collections::HashMap;
 
 /// A vertex of a [`Tiling`] together with the translation of the copy that is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -12,7 +13,8 @@ pub struct Site {
     pub shift: [i32; 2],
 }
 
-/// An edge of a [`Tiling`], which carries a bar, and a hinge if it has both wings.
+/// An edge of a [`Tiling`], which carries a bar, unless it is a further hinge of an edge, and a hinge if it has both
+/// wings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TiledEdge {
     /// Number of the cell's edge of which it is a copy.
@@ -26,6 +28,8 @@ pub struct TiledEdge {
     pub ends: [Site; 2],
     /// Opposite vertices of the left and the right triangle; `None` if the triangle is missing.
     pub wings: [Option<Site>; 2],
+    /// Whether the bar of the edge is here: an edge of more than two faces is listed for each of its hinges.
+    pub bar: bool,
 }
 
 impl TiledEdge {
@@ -168,24 +172,28 @@ impl CellGrid {
         });
         let kind = match (kind, wings) {
             (EdgeKind::Facet, [Some(_), Some(_)]) => EdgeKind::Facet,
-            (EdgeKind::Facet, [None, None]) => return None,
+            (EdgeKind::Facet, [None, None]) if !sheet.glue.contains_key(&key.whole()) => return None,
             (EdgeKind::Crease, [Some(_), Some(_)]) => EdgeKind::Crease,
+            _ if !key.has_bar() => return None,
             _ => EdgeKind::Boundary,
         };
-        Some(TiledEdge { edge, cell: cell.map(|c| c as usize), kind, ends: [i?, j?], wings })
+        Some(TiledEdge { edge, cell: cell.map(|c| c as usize), kind, ends: [i?, j?], wings, bar: key.has_bar() })
     }
 }
 
+/// Returns the polygons beside every edge: those with the triangles of its wings.
 fn flanks(sheet: &Sheet) -> Vec<[Option<Flank>; 2]> {
-    let numbers: std::collections::BTreeMap<_, _> = sheet.edges.iter().enumerate().map(|(e, x)| (x.key, e)).collect();
-    let mut flanks: Vec<[Option<Flank>; 2]> = sheet.edges.iter().map(|_| [None, None]).collect();
+    let mut at: HashMap<(EdgeKey, Corner), (usize, [i32; 2])> = HashMap::new();
     for triangle in &sheet.triangles {
-        for TriangleSide { key, side, base, opposite } in triangle.sides() {
-            let frame = [-base.shift[0], -base.shift[1]];
-            flanks[numbers[&key]][side] = Some(Flank { polygon: triangle.polygon, frame, opposite });
+        for TriangleSide { key, base, opposite, .. } in triangle.sides() {
+            at.insert((key, opposite), (triangle.polygon, base.shift.map(|n| -n)));
         }
     }
-    flanks
+    let beside = |edge: &Edge, opposite: Corner| {
+        let &(polygon, frame) = at.get(&(edge.key.whole(), opposite))?;
+        Some(Flank { polygon, frame, opposite })
+    };
+    sheet.edges.iter().map(|edge| edge.wings.map(|wing| beside(edge, wing?))).collect()
 }
 
 #[cfg(test)]

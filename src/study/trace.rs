@@ -63,7 +63,7 @@ fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
             let key = wanted.crease.0;
             let found = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
             let edge = found.ok_or_else(|| {
-                let EdgeKey { i, j, shift: [n1, n2] } = key;
+                let EdgeKey { i, j, shift: [n1, n2], .. } = key;
                 let message = format!("the sheet has no crease [{i}, {j}, {n1}, {n2}]");
                 context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
             })?;

@@ -157,7 +157,7 @@ fn side_by_side(one: &Trial, other: &Trial) -> Trial {
     let sheet = built(Sheet { title: "pieces".to_owned(), vertices, polygons, ..Sheet::default() });
     let off = |key: &EdgeKey| {
         let (trial, less) = if key.i < first { (one, 0) } else { (other, first) };
-        let key = EdgeKey { i: key.i - less, j: key.j - less, shift: key.shift };
+        let key = EdgeKey { i: key.i - less, j: key.j - less, shift: key.shift, round: 0 };
         trial.off[trial.sheet.edges.iter().position(|edge| edge.key == key).unwrap()]
     };
     let off = sheet.edges.iter().map(|edge| off(&edge.key)).collect();

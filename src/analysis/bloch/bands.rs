@@ -88,7 +88,9 @@ impl DynamicalMatrix {
             let along = sheet.position(j) - sheet.position(i);
             let (length, direction) = (along.norm(), along.normalize());
             let gradient: Vec<f64> = (-direction).iter().chain(direction.iter()).copied().collect();
-            elements.push(Element::at_rest(vec![i, j], &gradient, stiffnesses.bars / length));
+            if edge.key.has_bar() {
+                elements.push(Element::at_rest(vec![i, j], &gradient, stiffnesses.bars / length));
+            }
             let hinge = match edge.kind {
                 EdgeKind::Crease => stiffnesses.creases,
                 EdgeKind::Facet => stiffnesses.facets,

@@ -54,7 +54,7 @@ pub(crate) struct Pairing {
 pub struct Rigidity {
     /// Vertices of a cell.
     pub vertices: usize,
-    /// Bars in the order of the sheet's edges, then locked facets.
+    /// Bars in their order among the sheet's edges, then locked facets.
     pub rows: Vec<Row>,
 }
 
@@ -67,7 +67,7 @@ impl Rigidity {
     pub fn of_sheet(sheet: &Sheet, rigid_facets: bool) -> Result<Self, BlochError> {
         let lattice = sheet.lattice.ok_or(BlochError::NoLattice)?;
         let mut found = Self::placed(sheet, rigid_facets, |corner| sheet.position(corner), |_| Matrix3::identity());
-        for (row, edge) in found.rows.iter_mut().zip(&sheet.edges) {
+        for (row, edge) in found.rows.iter_mut().zip(sheet.bars()) {
             let (direction, rest) = precise_direction(sheet, &edge.key, &lattice);
             let [i, j] = edge.key.ends();
             *row = Row { terms: vec![(i, -direction), (j, direction)], rests: vec![-rest, rest] };
@@ -108,7 +108,7 @@ impl Rigidity {
     ) -> Self {
         // the direction as seen from the cell of the corner
         let term = |corner: Corner, direction: Vec3| (corner, turn(corner.shift).transpose() * direction);
-        let bars = sheet.edges.iter().map(|edge| {
+        let bars = sheet.bars().map(|edge| {
             let [i, j] = edge.key.ends();
             let along = (place(j) - place(i)).normalize();
             Row::rounded(vec![term(i, -along), term(j, along)])

@@ -25,6 +25,7 @@ pub(super) fn strip(sheet: &Sheet, seam: &Seam, kept: SeamKept, cells: [usize; 2
             kind: edge.kind,
             ends: edge.key.ends().map(|end| site(end, cell)),
             wings: edge.wings.map(|wing| wing.map(|corner| site(corner, cell))),
+            bar: edge.key.has_bar(),
         })
     });
     let triangles = all().flat_map(|cell| {

@@ -22,11 +22,13 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
     for (e, &(ends, assignment)) in drawn.assignments.iter().enumerate() {
         let [a, b] = ends.map(|v| identified.corner[v]);
         let numbers = known.get(&EdgeKey::new(a, b).0).map(Vec::as_slice).unwrap_or_default();
-        let diagonal = numbers.iter().any(|&number| sheet.edges[number].kind == EdgeKind::Facet);
+        // a weld between faces is an edge of the list, as a diagonal is not
+        let is_diagonal = |edge: &Edge| edge.kind == EdgeKind::Facet && !sheet.glue.contains_key(&edge.key.whole());
+        let diagonal = numbers.iter().any(|&number| is_diagonal(&sheet.edges[number]));
         if numbers.is_empty() || (diagonal && assignment != Assignment::Join) {
             return Err(Defect::new(MeshPart::Edge(e), Problem::LooseEdge { edge: e, ends: drawn.edge_name(ends) }));
         }
-        for &number in numbers {
+        for &number in with_one_hinge(sheet, numbers) {
             if assignment == Assignment::Join && sheet.edges[number].kind == EdgeKind::Crease {
                 sheet.edges[number].kind = EdgeKind::Facet;
             }
@@ -82,6 +84,12 @@ fn fault(
         }
         _ => None,
     }
+}
+
+/// Returns these numbers of edges if each has one hinge at most: a letter or an angle says nothing of an edge of more
+/// than two faces.
+pub(super) fn with_one_hinge<'n>(sheet: &Sheet, numbers: &'n [usize]) -> &'n [usize] {
+    if numbers.iter().all(|&number| sheet.edges[number].key.has_bar()) { numbers } else { &[] }
 }
 
 /// Returns the numbers of the edges that each drawn edge has become, keyed by the edge's name before the sheet was

@@ -97,14 +97,18 @@ fn wedges_at_cuts(cuts: &Cuts, polygons: &[Vec<Corner>]) -> BTreeMap<usize, Vec<
 /// Groups the corners of faces at a vertex into fans that are connected by edges without cuts. Fans and their members
 /// are in the order of faces.
 fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedge>> {
-    let mut fans: Vec<(Vec<Wedge>, Vec<EdgeKey>)> = Vec::new();
+    let mut fans: Vec<(Vec<Wedge>, Vec<Corner>)> = Vec::new();
     for &(f, k) in wedges {
         let polygon = &polygons[f];
         let [last, next] = [(k + polygon.len() - 1) % polygon.len(), (k + 1) % polygon.len()];
-        let edges = [last, next].map(|other| EdgeKey::new(polygon[k], polygon[other]).0);
-        let whole: Vec<EdgeKey> = edges.into_iter().filter(|key| !cuts.contains_key(key)).collect();
+        let whole = [last, next].into_iter().filter(|&other| {
+            let key = EdgeKey::new(polygon[k], polygon[other]).0;
+            !cuts.contains_key(&key)
+        });
+        let back = polygon[k].shift.map(|n| -n);
+        let whole: Vec<Corner> = whole.map(|other| polygon[other].translated(back)).collect();
         let (touching, apart): (Vec<_>, Vec<_>) =
-            fans.into_iter().partition(|(_, borders)| borders.iter().any(|key| whole.contains(key)));
+            fans.into_iter().partition(|(_, borders)| borders.iter().any(|end| whole.contains(end)));
         let mut fan = (vec![(f, k)], whole);
         for (members, borders) in touching {
             fan.0.extend(members);
@@ -117,6 +121,22 @@ fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedg
     let mut fans: Vec<Vec<Wedge>> = fans.into_iter().map(|(members, _)| members).collect();
     fans.sort_unstable();
     fans
+}
+
+/// Checks that the faces at every vertex hang together by edges.
+pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]) -> Result<(), Defect> {
+    let mut at: Vec<Vec<Wedge>> = vec![vec![]; identified.homes.len()];
+    for (f, polygon) in polygons.iter().enumerate() {
+        polygon.iter().enumerate().for_each(|(k, corner)| at[corner.vertex].push((f, k)));
+    }
+    match at.iter().position(|wedges| fans(polygons, wedges, &Cuts::new()).len() > 1) {
+        Some(vertex) => {
+            let home = identified.homes[vertex];
+            let problem = Problem::NonManifoldVertex { vertex: drawn.name(home) };
+            Err(Defect::new(MeshPart::Vertex(home), problem))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Checks that the two sides of every cut have become two edges.

@@ -23,12 +23,14 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         of.iter().map(|corners| corners.iter().map(&mut number).collect()).collect()
     };
     let (faces, holes) = (lists(&sheet.polygons), lists(&sheet.holes));
+    let bars = sheet.bars_alone().map(|edge| edge.key.ends().map(|end| number(&end))).collect();
     let named = |(name, corners): (&String, &Vec<Corner>)| {
         let list = corners.iter().filter_map(|corner| numbers.get(&sheet.uncut(*corner)).copied());
         (name.clone(), list.collect())
     };
     let names = sheet.names.iter().map(named).collect();
     let (assignments, fold_angles) = (assignments(sheet, &faces), fold_angles(sheet, &faces));
+    let glue = on_sides(sheet, &faces, &sheet.glue);
     Drawing {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
@@ -42,6 +44,8 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         assignments,
         fold_angles,
         names,
+        glue,
+        bars,
         first: 0,
     }
 }
@@ -59,7 +63,7 @@ fn fold_angles(sheet: &Sheet, faces: &[Vec<usize>]) -> Vec<([usize; 2], Option<f
 }
 
 /// Returns each drawn side whose edge has a value once, with that value.
-fn on_sides<T: Copy>(sheet: &Sheet, faces: &[Vec<usize>], told: &BTreeMap<EdgeKey, T>) -> Vec<([usize; 2], T)> {
+fn on_sides<T: Clone>(sheet: &Sheet, faces: &[Vec<usize>], told: &BTreeMap<EdgeKey, T>) -> Vec<([usize; 2], T)> {
     let mut seen = BTreeSet::new();
     let mut values = Vec::new();
     for (polygon, face) in sheet.polygons.iter().zip(faces) {
@@ -67,10 +71,10 @@ fn on_sides<T: Copy>(sheet: &Sheet, faces: &[Vec<usize>], told: &BTreeMap<EdgeKe
             let next = (k + 1) % polygon.len();
             let key = EdgeKey::new(polygon[k], polygon[next]).0;
             let [i, j] = key.ends().map(|end| sheet.uncut(end));
-            if let Some(&value) = told.get(&key)
+            if let Some(value) = told.get(&key)
                 && seen.insert(EdgeKey::new(i, j).0)
             {
-                values.push(([face[k], face[next]], value));
+                values.push(([face[k], face[next]], value.clone()));
             }
         }
     }

@@ -3,6 +3,7 @@
 use crate::math::Vec3;
 use crate::sheet::ScrewLattice;
 use crate::sheet::assignment::Assignment;
+use crate::sheet::cell::Glue;
 use crate::sheet::error::DrawnEdge;
 use std::collections::BTreeMap;
 
@@ -31,6 +32,11 @@ pub struct Drawing {
     pub assignments: Vec<([usize; 2], Assignment)>,
     /// Fold angles that the file gives to drawn edges, in radians, valley positive; `None` where it gives none.
     pub fold_angles: Vec<([usize; 2], Option<f64>)>,
+    /// What joins the faces of edges of more than two faces, one word for all or for each two neighbours: round the edge from its
+    /// end of lower number to the other, in the sense of a right-handed screw, from the face that is listed first.
+    pub glue: Vec<([usize; 2], Vec<Glue>)>,
+    /// Edges of no face, which have a bar only.
+    pub bars: Vec<[usize; 2]>,
     /// Named lists of vertices, as indices into `coords`.
     pub names: BTreeMap<String, Vec<usize>>,
     /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.

@@ -2,9 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::split::Part;
-use super::{Defect, Drawing, MeshPart, Problem};
-use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, TriangleSide};
+use super::hinges::{self, Flap};
+use super::split::{Part, position};
+use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use crate::sheet::assignment_fault::AssignmentFault;
+use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
+use crate::sheet::pieces::pieces;
 
 /// An edge along the polygons, and the polygons of which it is a side.
 pub(super) struct Side {
@@ -15,8 +18,8 @@ pub(super) struct Side {
     uses: Vec<(usize, bool)>,
 }
 
-/// Returns the sides of polygons in order of first appearance. Each side belongs to one polygon, or to two that run
-/// along it in opposite directions.
+/// Returns the sides of polygons in order of first appearance. If a side belongs to two polygons they run along it in
+/// opposite directions, unless their piece has one side only.
 pub(super) fn sides(drawn: &Drawing, polygons: &[Vec<Corner>]) -> Result<Vec<Side>, Defect> {
     let mut numbers: BTreeMap<EdgeKey, usize> = BTreeMap::new();
     let mut sides: Vec<Side> = Vec::new();
@@ -32,19 +35,34 @@ pub(super) fn sides(drawn: &Drawing, polygons: &[Vec<Corner>]) -> Result<Vec<Sid
             sides[number].uses.push((f, reversed));
         }
     }
-    sides.iter().try_for_each(|side| check_uses(drawn, side))?;
+    let one_sided = one_sided(polygons.len(), &sides);
+    sides.iter().try_for_each(|side| check_uses(drawn, side, &one_sided))?;
     Ok(sides)
 }
 
-fn check_uses(drawn: &Drawing, side: &Side) -> Result<(), Defect> {
-    let edge = drawn.edge_name(side.drawn);
-    let faces: Vec<_> = side.uses.iter().map(|u| drawn.name(u.0)).collect();
+/// Returns for each polygon whether it lies in a piece that has one side only, as a Moebius band has. Edges of more than
+/// two faces say nothing of sides.
+fn one_sided(polygons: usize, sides: &[Side]) -> Vec<bool> {
+    // each polygon has two faces, one for each of its sides, which edges join to those of its neighbours
+    let joined = sides.iter().filter_map(|side| match side.uses[..] {
+        [(f, a), (g, b)] => Some((f, g, usize::from(a == b))),
+        _ => None,
+    });
+    let joints = joined.flat_map(|(f, g, turned)| [0, 1].map(|side| [2 * f + side, 2 * g + (side + turned) % 2]));
+    let mut found = vec![false; polygons];
+    for piece in pieces(2 * polygons, joints, 0..2 * polygons) {
+        piece.windows(2).filter(|pair| pair[0] / 2 == pair[1] / 2).for_each(|pair| found[pair[0] / 2] = true);
+    }
+    found
+}
+
+fn check_uses(drawn: &Drawing, side: &Side, one_sided: &[bool]) -> Result<(), Defect> {
     match side.uses[..] {
-        [(_, a), (g, b)] if a == b => {
-            let problem = Problem::Orientation { edge, faces: [faces[0], faces[1]] };
+        [(f, a), (g, b)] if a == b && !one_sided[f] => {
+            let problem =
+                Problem::Orientation { edge: drawn.edge_name(side.drawn), faces: [f, g].map(|f| drawn.name(f)) };
             Err(Defect::new(MeshPart::Face(g), problem))
         }
-        [_, _, (third, _), ..] => Err(Defect::new(MeshPart::Face(third), Problem::NonManifoldEdge { edge, faces })),
         _ => Ok(()),
     }
 }
@@ -75,8 +93,31 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
     }
 }
 
-/// Returns the edges of the cell, sides first, then diagonals, with the opposite vertices of their triangles.
-pub(super) fn with_wings(drawn: &Drawing, sides: Vec<Side>, parts: &[Part]) -> Result<Vec<Edge>, Defect> {
+/// Returns what joins the faces of edges of more than two faces, by the names of the edges; those of which the drawing
+/// says nothing are left out.
+pub(super) fn glue(drawn: &Drawing, cell: &Identified, sides: &[Side]) -> Result<BTreeMap<EdgeKey, Vec<Glue>>, Defect> {
+    let mut found = BTreeMap::new();
+    for (e, (ends, words)) in drawn.glue.iter().enumerate().filter(|(_, (_, words))| !words.is_empty()) {
+        let key = EdgeKey::new(cell.corner[ends[0]], cell.corner[ends[1]]).0;
+        let faces = sides.iter().find(|side| side.key == key).map_or(0, |side| side.uses.len());
+        let words = if words.len() == 1 { vec![words[0]; faces] } else { words.clone() };
+        if faces < 3 || words.len() != faces {
+            let fault = AssignmentFault::Glue { edge: drawn.edge_name(*ends), faces, found: words.len() };
+            return Err(Defect::new(MeshPart::Edge(e), Problem::Assignment(fault)));
+        }
+        found.insert(key, words);
+    }
+    Ok(found)
+}
+
+/// Returns the edges of the cell, with the opposite vertices of their triangles: sides first, then diagonals, then edges
+/// of no face, then the further hinges of edges of more than two faces.
+pub(super) fn with_wings(
+    drawn: &Drawing,
+    cell: &Identified,
+    (sides, glue): (&[Side], &BTreeMap<EdgeKey, Vec<Glue>>),
+    parts: &[Part],
+) -> Result<Vec<Edge>, Defect> {
     let mut edges: Vec<Edge> = sides.iter().map(bare).collect();
     let mut numbers: BTreeMap<EdgeKey, usize> = edges.iter().enumerate().map(|(e, edge)| (edge.key, e)).collect();
     for part in parts {
@@ -89,15 +130,24 @@ pub(super) fn with_wings(drawn: &Drawing, sides: Vec<Side>, parts: &[Part]) -> R
         }
         edges.push(Edge { key, kind: EdgeKind::Facet, wings: [None; 2] });
     }
-    for part in parts {
-        for TriangleSide { key, side, opposite, .. } in part.triangle.sides() {
-            edges[numbers[&key]].wings[side] = Some(opposite);
+    let mut flaps: Vec<Vec<Flap>> = vec![vec![]; edges.len()];
+    for TriangleSide { key, side, opposite, .. } in parts.iter().flat_map(|part| part.triangle.sides()) {
+        flaps[numbers[&key]].push(Flap { side, opposite });
+    }
+    for &ends in &drawn.bars {
+        let key = EdgeKey::new(cell.corner[ends[0]], cell.corner[ends[1]]).0;
+        if !numbers.contains_key(&key) {
+            edges.push(Edge { key, kind: EdgeKind::Boundary, wings: [None; 2] });
         }
     }
+    let place = |corner| position(drawn, cell, corner);
+    let further: Vec<Edge> =
+        edges.iter_mut().zip(&flaps).flat_map(|(edge, flaps)| hinges::open_out(edge, flaps, glue, place)).collect();
+    edges.extend(further);
     Ok(edges)
 }
 
 fn bare(side: &Side) -> Edge {
-    let kind = if side.uses.len() == 2 { EdgeKind::Crease } else { EdgeKind::Boundary };
+    let kind = if side.uses.len() > 1 { EdgeKind::Crease } else { EdgeKind::Boundary };
     Edge { key: side.key, kind, wings: [None; 2] }
 }

@@ -1,13 +1,13 @@
-//! Checks of single faces, and of the fans that they form around vertices.
+//! Checks of single faces.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::planar::PlacedSide;
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
-use crate::sheet::cell::{Corner, Sheet};
+use crate::sheet::cell::Corner;
 
 /// Checks that all corners exist, that no face has a vertex twice, that no face is drawn twice, and that every vertex
-/// belongs to a face.
+/// belongs to a face or to a bar.
 pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defect> {
     for (h, hole) in drawn.holes.iter().enumerate() {
         check_indices(drawn, hole, MeshPart::Hole(h), || format!("opening {h}"))?;
@@ -28,6 +28,7 @@ pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defe
         }
         face.iter().for_each(|&v| used[identified.corner[v].vertex] = true);
     }
+    drawn.bars.iter().flatten().for_each(|&v| used[identified.corner[v].vertex] = true);
     match used.iter().position(|&u| !u) {
         Some(v) => {
             let home = identified.homes[v];
@@ -104,38 +105,4 @@ pub(crate) fn listed_order(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize
     let others = sides.iter().filter(|ends| !known.contains(&sorted(**ends)));
     let order: Vec<[usize; 2]> = listed.iter().chain(others).copied().collect();
     if order == sides { vec![] } else { order }
-}
-
-/// Checks that the triangles around every vertex form one fan, open at a rim and closed elsewhere.
-pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, sheet: &Sheet) -> Result<(), Defect> {
-    for (v, steps) in fans(sheet).iter().enumerate() {
-        let ends: BTreeSet<_> = steps.values().collect();
-        let start = steps.keys().find(|c| !ends.contains(c)).or(steps.keys().next());
-        let mut count = 0;
-        let mut at = start;
-        while let Some(next) = at.and_then(|c| steps.get(c)) {
-            count += 1;
-            at = (Some(next) != start).then_some(next);
-        }
-        if count != steps.len() {
-            let home = identified.homes[v];
-            let problem = Problem::NonManifoldVertex { vertex: drawn.name(home) };
-            return Err(Defect::new(MeshPart::Vertex(home), problem));
-        }
-    }
-    Ok(())
-}
-
-/// Returns for every vertex the map from one neighbour to the next that its triangles make, counter-clockwise, seen
-/// from the vertex's copy in cell (0, 0).
-fn fans(sheet: &Sheet) -> Vec<BTreeMap<Corner, Corner>> {
-    let mut fans = vec![BTreeMap::new(); sheet.vertices.len()];
-    for triangle in &sheet.triangles {
-        for k in 0..3 {
-            let [at, next, last] = [0, 1, 2].map(|d| triangle.corners[(k + d) % 3]);
-            let back = [-at.shift[0], -at.shift[1]];
-            fans[at.vertex].insert(next.translated(back), last.translated(back));
-        }
-    }
-    fans
 }

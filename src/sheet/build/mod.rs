@@ -1,7 +1,7 @@
 //! The step from a drawn mesh to a sheet: one builder and one set of checks for all file formats and generators.
 //!
 //! Vertices are identified by lattice vectors (`identify`); faces become polygons of the cell (`faces`), which are
-//! separated along cuts (`cuts`) and split into triangles (`split`); then edges get their wings (`edges`),
+//! separated along cuts (`cuts`) and split into triangles (`split`); then edges get their hinges (`edges`, `hinges`),
 //! assignments (`assign`) and target angles (`targets`).
 
 mod assign;
@@ -10,6 +10,7 @@ mod draw;
 mod drawing;
 mod edges;
 mod faces;
+mod hinges;
 mod identify;
 pub(crate) mod planar;
 mod rebuild;
@@ -57,7 +58,8 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     let sides = edges::sides(drawn, &polygons)?;
     edges::check_rims(drawn, &sides, &holes)?;
     let parts = split::triangles(drawn, &identified, &polygons)?;
-    let edges = edges::with_wings(drawn, sides, &parts)?;
+    let glue = edges::glue(drawn, &identified, &sides)?;
+    let edges = edges::with_wings(drawn, &identified, (&sides, &glue), &parts)?;
     let triangles = parts.into_iter().map(|part| part.triangle).collect();
     let mut sheet = Sheet {
         title: drawn.title.clone(),
@@ -71,11 +73,12 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
         holes,
         cut_from,
         names,
+        glue,
         ..Sheet::default()
     };
     assign::assign(drawn, &identified, &mut sheet)?;
     targets::keep(drawn, &identified, &mut sheet)?;
-    faces::check_fans(drawn, &identified, &sheet)?;
+    cuts::check_fans(drawn, &identified, &sheet.polygons)?;
     Ok((sheet, identified))
 }
 
@@ -98,7 +101,7 @@ fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
             return Err(Defect::new(MeshPart::Vertex(v), Problem::Coordinate { vertex: drawn.name(v), value }));
         }
     }
-    if drawn.faces.is_empty() {
+    if drawn.faces.is_empty() && drawn.bars.is_empty() {
         return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "faces" }));
     }
     match (drawn.lattice, &drawn.screws) {

@@ -44,7 +44,8 @@ pub(super) fn triangles(drawn: &Drawing, cell: &Identified, polygons: &[Vec<Corn
     Ok(parts)
 }
 
-fn position(drawn: &Drawing, cell: &Identified, corner: Corner) -> Vec3 {
+/// Returns the position of a corner in the drawing: that of the cell's vertex, moved into its cell.
+pub(super) fn position(drawn: &Drawing, cell: &Identified, corner: Corner) -> Vec3 {
     drawn.copy(&drawn.coords[cell.homes[corner.vertex]], corner.shift)
 }
 

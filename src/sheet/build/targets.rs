@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use super::assign::edges_by_drawn_name;
+use super::assign::{edges_by_drawn_name, with_one_hinge};
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assigned::is_same_angle;
 use crate::sheet::assignment::Assignment;
@@ -32,7 +32,7 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
             return Err(Defect::new(MeshPart::Edge(e), Problem::LooseEdge { edge: e, ends: named.1 }));
         }
         let refused = |fault: FoldAngleFault| Defect::new(MeshPart::FoldAngle(e), Problem::FoldAngle(fault));
-        for edge in numbers.iter().map(|&number| &sheet.edges[number]) {
+        for edge in with_one_hinge(sheet, numbers).iter().map(|&number| &sheet.edges[number]) {
             let is_drawn = is_drawn(sheet, edge, angle);
             if let Some(fault) = fault(named, letters.get(&name).copied(), angle, is_drawn) {
                 return Err(refused(fault));

@@ -24,7 +24,7 @@ const FLAT: f64 = 1e-9;
 const ONE_PLACE: f64 = 1e-9;
 
 /// Keys of the sheet that are not kept where vertices and edges get other numbers.
-const LOST: [&str; 3] = ["foldwell:stiffness", "foldwell:bar_stiffness", "foldwell:names"];
+const LOST: [&str; 4] = ["foldwell:stiffness", "foldwell:bar_stiffness", "foldwell:glue", "foldwell:names"];
 
 /// Returns the sheet of a flat crease pattern, with its vertices merged and its edges split.
 pub(super) fn sheet(

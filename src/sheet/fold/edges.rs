@@ -2,9 +2,10 @@
 
 use serde_json::value::RawValue;
 
-use super::keys::Keys;
+use super::keys::{GLUE, Keys};
 use super::locate::Source;
 use crate::sheet::assignment::Assignment;
+use crate::sheet::cell::Glue;
 use crate::sheet::error::{Problem, SheetError};
 
 /// The edges of a file; the lists are empty if the file does not have the keys.
@@ -68,6 +69,25 @@ fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignm
         letter.and_then(|letter| Assignment::from_letter(&letter)).ok_or_else(|| source.mistyped(row, what(), right))
     };
     rows.iter().enumerate().map(read).collect()
+}
+
+/// Reads what joins the faces of edges of more than two faces, an entry for each edge: no word, one, or one for each
+/// face.
+pub(super) fn glue(
+    source: &Source,
+    keys: &Keys,
+    ends: &[[usize; 2]],
+) -> Result<Vec<([usize; 2], Vec<Glue>)>, SheetError> {
+    let Some(value) = keys.glue else { return Ok(Vec::new()) };
+    let rows = source.list(value, || format!("`{GLUE}`"), "a list of words, lists of words, and nulls")?;
+    check_length(source, value, GLUE, rows.len(), ends.len())?;
+    let read = |(e, (row, ends)): (usize, (&&RawValue, &[usize; 2]))| {
+        let right = "\"fold\", \"weld\", \"free\", a list of these, one for each face of the edge, or null";
+        let one = serde_json::from_str::<Option<Glue>>(row.get()).map(|word| word.into_iter().collect());
+        let words: Result<Vec<Glue>, _> = one.or_else(|_| serde_json::from_str(row.get()));
+        words.map(|words| (*ends, words)).map_err(|_| source.mistyped(row, format!("entry {e} of `{GLUE}`"), right))
+    };
+    rows.iter().zip(ends).enumerate().map(read).collect()
 }
 
 pub(super) fn check_length(

@@ -7,6 +7,9 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
+/// Key of what joins the faces of edges of more than two faces.
+pub(super) const GLUE: &str = "foldwell:glue";
+
 /// The keys of a frame and their values, not parsed yet. Keys that are there twice are refused, and those whose value
 /// is null left out.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +61,7 @@ pub(super) struct Keys<'a> {
     pub(super) holes: Option<&'a RawValue>,
     pub(super) stiffness: Option<&'a RawValue>,
     pub(super) bar_stiffness: Option<&'a RawValue>,
+    pub(super) glue: Option<&'a RawValue>,
     pub(super) names: Option<&'a RawValue>,
 }
 
@@ -77,6 +81,7 @@ impl<'a> Keys<'a> {
             holes: get("foldwell:holes"),
             stiffness: get("foldwell:stiffness"),
             bar_stiffness: get("foldwell:bar_stiffness"),
+            glue: get(GLUE),
             names: get("foldwell:names"),
         }
     }

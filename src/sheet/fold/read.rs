@@ -16,7 +16,7 @@ use crate::sheet::ScrewLattice;
 use crate::sheet::build::{Drawing, rebuild_faces};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
-use crate::sheet::listed::{build_listed, check_ends};
+use crate::sheet::listed::{bars_alone, build_listed, check_ends};
 use crate::sheet::record::FileRecord;
 
 /// The parts of the mesh as they stand in the text, for the line of messages.
@@ -41,12 +41,14 @@ pub(super) fn sheet<'a>(
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     drawn.fold_angles = edges.fold_angles();
     read_holes(source, keys, &mut drawn, &mut rows)?;
+    drawn.glue = edges::glue(source, keys, &edges.ends)?;
     drawn.names = read_names(source, keys, drawn.coords.len())?;
     edges.rebuilt = keys.faces_vertices.is_none();
     let locate = |defect| located(source, keys, &rows, &edges, defect);
     if edges.rebuilt {
         rebuild_faces(&mut drawn, &edges.ends).map_err(locate)?;
     }
+    drawn.bars = bars_alone(&drawn, &edges.ends);
     let (mut sheet, identified) = build_listed(&drawn, &edges.ends).map_err(locate)?;
     sheet.stiffness = stiffness::read(source, keys, &edges, &sheet, &identified)?;
     sheet.record = FileRecord { turned_over: sheet.record.turned_over, ..record::read(frame, &drawn, &edges) };

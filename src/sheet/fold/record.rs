@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use super::edges::Edges;
 use super::frames::Frame;
+use super::keys::GLUE;
 use super::stiffness::{BARS, HINGES};
 use crate::sheet::build::{Drawing, drawn_sides};
 use crate::sheet::record::FileRecord;
@@ -21,7 +22,7 @@ const KEPT: [&str; 8] = [
 ];
 
 /// Keys that define the sheet, or that are written anew.
-const USED: [&str; 14] = [
+const USED: [&str; 15] = [
     "file_spec",
     "file_creator",
     "file_title",
@@ -35,6 +36,7 @@ const USED: [&str; 14] = [
     "foldwell:holes",
     HINGES,
     BARS,
+    GLUE,
     "foldwell:names",
 ];
 
@@ -58,7 +60,7 @@ pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
 /// Reads the content of a frame other than the shape of its sheet. All keys are kept of a finite sheet whose vertices,
 /// edges and faces keep their numbers when it is written; otherwise only those about the file and its frame.
 pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord {
-    let all_listed = edges.ends.is_empty() || edges.ends.len() == drawn_sides(drawn).len();
+    let all_listed = edges.ends.is_empty() || edges.ends.len() == drawn_sides(drawn).len() + drawn.bars.len();
     record(frame, edges, !drawn.is_repeated() && all_listed)
 }
 

@@ -1,14 +1,15 @@
 //! Writing sheets to FOLD files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{Display, Write};
 
+use super::keys::GLUE;
 use super::record::{ATTRIBUTES, CLASSES};
 use super::stiffness::{BARS, HINGES};
 use crate::sheet::assigned::FLAT;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
-use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
+use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, Sheet};
 
 /// Returns `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with
 /// assignment and drawn fold angle, lattice and openings. Coordinates are always three-dimensional, since the edges
@@ -65,18 +66,27 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
         numbers.and_then(|numbers| numbers.first()).map(|&number| &sheet.edges[number])
     };
     let edges: Vec<Option<&Edge>> = sides.iter().map(|&ends| edge(ends)).collect();
-    let letters = edges.iter().map(|edge| edge.map_or(Assignment::Unassigned, |edge| sheet.assignment(edge)));
+    let further: BTreeSet<EdgeKey> =
+        sheet.edges.iter().map(|edge| edge.key).filter(|key| !key.has_bar()).map(EdgeKey::whole).collect();
+    // an edge of more than two faces has neither a letter nor an angle
+    let lettered: Vec<Option<&Edge>> =
+        edges.iter().map(|edge| edge.filter(|edge| !further.contains(&edge.key))).collect();
+    let letters = lettered.iter().map(|edge| edge.map_or(Assignment::Unassigned, |edge| sheet.assignment(edge)));
     let letters: Vec<_> = letters.map(|assignment| format!("\"{assignment}\"")).collect();
     let angle = |edge: &Edge| match sheet.targets.get(&edge.key) {
         Some(target) => Some(in_degrees(*target)),
         None if sheet.targets.is_empty() => degrees(sheet, edge),
         None => None,
     };
-    let angles = edges.iter().map(|edge| edge.and_then(angle));
+    let angles = lettered.iter().map(|edge| edge.and_then(angle));
     let angles: Vec<_> = angles.map(|angle| angle.map_or("null".to_owned(), |a| format!("{a:?}"))).collect();
     field(text, "edges_vertices", &rows(sides.iter().map(numbers)));
     field(text, "edges_assignment", &format!("[{}]", letters.join(", ")));
     field(text, "edges_foldAngle", &format!("[{}]", angles.join(", ")));
+    if !sheet.glue.is_empty() {
+        let words = edges.iter().map(|edge| glue(edge.and_then(|edge| sheet.glue.get(&edge.key))));
+        field(text, GLUE, &format!("[{}]", words.collect::<Vec<_>>().join(", ")));
+    }
     for (key, given) in [(HINGES, &sheet.stiffness.hinges), (BARS, &sheet.stiffness.bars)] {
         if !given.is_empty() {
             let values = edges.iter().map(|edge| stiffness(edge.and_then(|edge| given.get(&edge.key).copied())));
@@ -87,7 +97,7 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
 
 /// Returns the drawn sides of faces in the order of the file from which the sheet was read.
 fn listed(sheet: &Sheet, drawn: &Drawing, corners: &[Corner]) -> Vec<[usize; 2]> {
-    let sides = drawn_sides(drawn).into_iter().map(|(ends, _)| ends);
+    let sides = drawn_sides(drawn).into_iter().map(|(ends, _)| ends).chain(drawn.bars.iter().copied());
     if sheet.listed_edges.is_empty() {
         return sides.collect();
     }
@@ -100,6 +110,11 @@ fn listed(sheet: &Sheet, drawn: &Drawing, corners: &[Corner]) -> Vec<[usize; 2]>
     others.sort_unstable();
     list.extend(others.into_iter().map(|(_, ends)| ends));
     list
+}
+
+/// Returns what joins the faces of an edge as JSON text.
+fn glue(words: Option<&Vec<Glue>>) -> String {
+    serde_json::json!(words).to_string()
 }
 
 /// Returns a stiffness as JSON text, which has no infinite numbers.
@@ -117,6 +132,9 @@ fn corners(sheet: &Sheet, drawn: &Drawing) -> Vec<Corner> {
     let lists = drawn.faces.iter().chain(&drawn.holes).zip(sheet.polygons.iter().chain(&sheet.holes));
     for (numbers, there) in lists {
         numbers.iter().zip(there).for_each(|(&v, &corner)| corners[v] = sheet.uncut(corner));
+    }
+    for (ends, edge) in drawn.bars.iter().zip(sheet.bars_alone()) {
+        ends.iter().zip(edge.key.ends()).for_each(|(&v, corner)| corners[v] = corner);
     }
     corners
 }

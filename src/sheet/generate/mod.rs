@@ -24,6 +24,7 @@ mod resch;
 mod square_twist;
 mod symmetric;
 mod truss;
+mod tubes;
 mod waterbomb;
 mod yoshimura;
 
@@ -46,11 +47,12 @@ pub use resch::Resch;
 pub use square_twist::SquareTwist;
 pub use symmetric::{CellSymmetry, Symmetric};
 pub use truss::Truss;
+pub use tubes::AlignedTubes;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
 /// The names of the patterns, and a page about each.
-const HELP: [(&str, &str); 14] = [
+const HELP: [(&str, &str); 15] = [
     ("miura", include_str!("help/miura.txt")),
     ("miura-patch", include_str!("help/miura-patch.txt")),
     ("eggbox", include_str!("help/eggbox.txt")),
@@ -62,6 +64,7 @@ const HELP: [(&str, &str); 14] = [
     ("resch", include_str!("help/resch.txt")),
     ("hypar", include_str!("help/hypar.txt")),
     ("truss", include_str!("help/truss.txt")),
+    ("aligned-tubes", include_str!("help/aligned-tubes.txt")),
     ("random", include_str!("help/random.txt")),
     ("symmetric", include_str!("help/symmetric.txt")),
     ("random-developable", include_str!("help/random-developable.txt")),
@@ -93,6 +96,8 @@ pub enum Pattern {
     Hypar(Hypar),
     /// The two-bar truss of von Mises.
     Truss(Truss),
+    /// Two aligned Miura tubes that share a wall.
+    AlignedTubes(AlignedTubes),
     /// A random cell that cannot be flattened.
     Random(Random),
     /// A random cell with one symmetry.
@@ -167,6 +172,7 @@ pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
         Pattern::Resch(p) => p.sheet(),
         Pattern::Hypar(p) => p.sheet(),
         Pattern::Truss(p) => p.sheet(),
+        Pattern::AlignedTubes(p) => p.sheet(),
         Pattern::Random(p) => p.sheet(),
         Pattern::Symmetric(p) => p.sheet(),
         Pattern::RandomDevelopable(p) => p.sheet(),

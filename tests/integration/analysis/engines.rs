@@ -34,7 +34,7 @@ impl Scene {
     }
 
     fn open_star(bars: f64) -> Self {
-        Self::new("open-star", Some(EdgeKey { i: 0, j: 1, shift: [0, 0] }), bars)
+        Self::new("open-star", Some(EdgeKey { i: 0, j: 1, shift: [0, 0], round: 0 }), bars)
     }
 
     fn traced(&self, branch: Option<usize>, stop: Stop) -> Vec<Traced> {
@@ -78,7 +78,7 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
 fn rigid_bars_follow_random_cells() {
     for seed in [11, 25, 27] {
         let sheet = generate(&Pattern::Random(Random { seed, size: [2, 2], ..Random::default() })).unwrap();
-        let scene = Scene::of(sheet, Some(EdgeKey { i: 0, j: 1, shift: [0, 0] }), f64::INFINITY);
+        let scene = Scene::of(sheet, Some(EdgeKey { i: 0, j: 1, shift: [0, 0], round: 0 }), f64::INFINITY);
         for traced in &scene.traced(None, Stop::default()) {
             assert!(matches!(traced.end, End::Closed(_)), "{seed}: {:?}", traced.end);
             let found = scene.driven(traced);

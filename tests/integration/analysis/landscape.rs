@@ -283,7 +283,7 @@ fn flat_vertices_cost_bars() {
 fn exact_cylinders_cost_nothing() {
     let case = patch("open-star", [6, 6]);
     let screw = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
-    let lock = screw.sheet().crease(EdgeKey { i: 0, j: 1, shift: [0, 0] }).unwrap();
+    let lock = screw.sheet().crease(EdgeKey { i: 0, j: 1, shift: [0, 0], round: 0 }).unwrap();
     let locked = Terms { locks: vec![(lock, screw.drawn_angles()[lock])], ..Terms::default() };
     let stop = Stop { arc_length: Some(1.0), ..Stop::default() };
     let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop };

@@ -13,7 +13,7 @@ use serde_json::Value;
 const REFERENCE: &str = include_str!("../../cases/open-star.json");
 
 fn edge(sheet: &Sheet, [i, j, n1, n2]: [i64; 4]) -> usize {
-    let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1 as i32, n2 as i32] };
+    let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1 as i32, n2 as i32], round: 0 };
     sheet.edges.iter().position(|edge| edge.key == key).unwrap()
 }
 

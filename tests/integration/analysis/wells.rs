@@ -35,7 +35,7 @@ fn fan(directions: &[f64; 4]) -> Sheet {
 fn on_creases(case: &Assembly, rest: [f64; 4]) -> Vec<f64> {
     let mut all = vec![0.0; case.edges()];
     for (crease, rest) in rest.into_iter().enumerate() {
-        let key = EdgeKey { i: 0, j: crease + 1, shift: [0, 0] };
+        let key = EdgeKey { i: 0, j: crease + 1, shift: [0, 0], round: 0 };
         all[case.sheet().edges.iter().position(|edge| edge.key == key).unwrap()] = rest;
     }
     all

@@ -66,7 +66,7 @@ fn one_lock_on_the_flat_reference_cell() {
     assert_eq!(table.len(), 12);
     for row in table {
         let name: [i32; 4] = serde_json::from_value(row["lock"].clone()).unwrap();
-        let key = EdgeKey { i: name[0] as usize, j: name[1] as usize, shift: [name[2], name[3]] };
+        let key = EdgeKey { i: name[0] as usize, j: name[1] as usize, shift: [name[2], name[3]], round: 0 };
         let lock = sheet.edges.iter().position(|edge| edge.key == key).unwrap();
         let Rays { expected, complex_solutions, distinct, rays, .. } = locked(&sheet, lock).rays;
         let found = [expected, complex_solutions, distinct, rays.len()];

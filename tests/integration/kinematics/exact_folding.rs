@@ -147,7 +147,7 @@ fn fan(directions: &[Vec3; 4]) -> Sheet {
 }
 
 fn crease(sheet: &Sheet, i: usize, j: usize) -> usize {
-    sheet.edges.iter().position(|edge| edge.key == EdgeKey { i, j, shift: [0, 0] }).unwrap()
+    sheet.edges.iter().position(|edge| edge.key == EdgeKey { i, j, shift: [0, 0], round: 0 }).unwrap()
 }
 
 /// Claim: at a vertex with four creases, opposite fold angles satisfy `cos rho2 = A cos rho0 + B`, with `A = sin t3 sin
@@ -281,7 +281,7 @@ fn reference_loops(folding: &Folding) -> Vec<(Vec<f64>, f64)> {
     let reference: serde_json::Value = serde_json::from_str(text).unwrap();
     let list = reference["edge_list"].as_array().unwrap();
     let place = |&edge: &usize| {
-        let EdgeKey { i, j, shift: [n1, n2] } = folding.sheet.edges[edge].key;
+        let EdgeKey { i, j, shift: [n1, n2], .. } = folding.sheet.edges[edge].key;
         list.iter().position(|entry| *entry == serde_json::json!([i, j, n1, n2])).unwrap()
     };
     let places: Vec<usize> = folding.closure.folding_edges().iter().map(place).collect();

@@ -20,7 +20,7 @@ use nalgebra::{DVector, Matrix2, Matrix3x2, Vector2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 fn edge(sheet: &Sheet, [i, j, n1, n2]: [i32; 4]) -> usize {
-    let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1, n2] };
+    let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1, n2], round: 0 };
     sheet.edges.iter().position(|edge| edge.key == key).unwrap()
 }
 

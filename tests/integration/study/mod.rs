@@ -1,5 +1,6 @@
 //! Studies of one kind, from their scene to their summary and tables.
 
+mod assemblies;
 mod barriers;
 mod bloch_runs;
 mod empty_answers;

@@ -1,0 +1,342 @@
+//! Assemblies: edges of more than two faces, pieces that are joined, bars without faces, and sheets with one side.
+//!
+//! Sources: K. Liu and G. H. Paulino's MERLIN, whose two tubes with merged degrees of freedom have the energy
+//! 1.476808587e-5 under the load below; the statics of three flaps, of a hanging chain and of a truss; and a Hessian of
+//! bars and hinges by differences that shares no code with the library.
+
+use crate::common::{Scene, eigenvalues};
+use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
+use foldwell::analysis::modes::modes;
+use foldwell::model::Assembly;
+use foldwell::numerics::DenseMatrix;
+use foldwell::sheet::build::{Drawing, build};
+use foldwell::sheet::generate::AlignedTubes;
+use foldwell::sheet::{EdgeKind, Glue, fold, welded};
+use foldwell::{Pattern, RIGID, Rest, Sheet, generate, relax};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+type Vec3 = Vector3<f64>;
+
+/// Vertices of a ring of the generator: 0 and 1 are those of the shared wall.
+const RING: usize = 6;
+/// Energy of two tubes under a load by MERLIN, ten digits.
+const MERLIN: f64 = 1.476808587e-5;
+const HOME: [usize; 2] = [0, 0];
+
+fn is_shared(vertex: usize) -> bool {
+    vertex % RING < 2
+}
+
+fn tubes() -> Sheet {
+    generate(&Pattern::AlignedTubes(AlignedTubes { fold: 0.6, ..AlignedTubes::default() })).unwrap()
+}
+
+/// The two aligned tubes apart, each with a wall of its own where they touch: the second tube has the vertices from 30
+/// on where the first has 0 and 1.
+fn apart() -> Sheet {
+    let joined = tubes();
+    let own = |vertex: usize| 30 + 2 * (vertex / RING) + vertex % RING;
+    let mut coords = joined.vertices.clone();
+    coords.extend((0..30).filter(|&v| is_shared(v)).map(|v| joined.vertices[v]));
+    let mut faces: Vec<Vec<usize>> =
+        joined.polygons.iter().map(|face| face.iter().map(|corner| corner.vertex).collect()).collect();
+    let wall = |face: &Vec<usize>| face.iter().all(|&v| is_shared(v));
+    let second = |face: &Vec<usize>| face.iter().any(|&v| v % RING > 3);
+    let doubled: Vec<Vec<usize>> = faces.iter().filter(|face| wall(face)).cloned().collect();
+    faces.extend(doubled);
+    let count = faces.len();
+    for (f, face) in faces.iter_mut().enumerate() {
+        if second(face) || f >= count - 4 {
+            face.iter_mut().filter(|v| is_shared(**v)).for_each(|v| *v = own(*v));
+        }
+    }
+    build(&Drawing { coords, faces, ..Drawing::default() }).unwrap()
+}
+
+/// Pins and the load of MERLIN's problem.
+fn energy(sheet: Sheet, [bars, creases, facets]: [Vec<f64>; 3], ties: &[[usize; 2]]) -> f64 {
+    let mut builder = Assembly::patch(sheet, [1, 1]).bars(bars).creases(creases).facets(facets);
+    builder = builder.pin(3, HOME, [true; 3]).pin(2, HOME, [false, true, true]).pin(9, HOME, [false, false, true]);
+    builder = builder.load(28, HOME, [0.0, 0.01, 0.01]);
+    for tie in ties {
+        builder = builder.part(tie.map(|vertex| (vertex, HOME)), [true, true, true, false, false, false]);
+    }
+    relax(&builder.build().unwrap()).unwrap().state.total()
+}
+
+/// Claim: two tubes as pieces whose vertices are tied, and as one mesh in which three faces meet at the sides of the
+/// shared wall, have MERLIN's energy, and that of each other. The shared wall of the one mesh is doubled by its
+/// stiffnesses, and the walls of different tubes are freed of each other. Tolerance: the ten digits of MERLIN, and 1e-10
+/// of the energy, whose parts are 1e-2 of the forces that balance to 1e-12.
+#[test]
+fn tubes_tied_and_drawn_as_one_mesh() {
+    let pieces = apart();
+    let ends = |sheet: &Sheet, k: usize| [sheet.edges[k].key.i, sheet.edges[k].key.j];
+    let all = |sheet: &Sheet, of: &dyn Fn(usize) -> f64| (0..sheet.edges.len()).map(of).collect::<Vec<f64>>();
+    let same = [1e3, 0.1, 1.0].map(|stiffness| all(&pieces, &|_| stiffness));
+    let ties: Vec<[usize; 2]> = (0..10).map(|k| [RING * (k / 2) + k % 2, 30 + k]).collect();
+    let tied = energy(pieces, same, &ties);
+
+    let mut joined = tubes();
+    let mut glue: BTreeMap<_, Vec<Glue>> = BTreeMap::new();
+    for edge in &joined.edges {
+        let [a, b] = edge.wings.map(|wing| wing.is_some_and(|wing| is_shared(wing.vertex)));
+        if joined.hinges_round(edge.key) == 3 {
+            glue.entry(edge.key.whole()).or_default().push(if a || b { Glue::Fold } else { Glue::Free });
+        }
+    }
+    assert_eq!(glue.len(), 8, "four sides of the wall along each of two lines have three faces");
+    joined.glue = glue;
+    let joined = fold::parse(&fold::write(&joined), "joined.fold").unwrap();
+    let on_wall = |k: usize| ends(&joined, k).iter().all(|&v| is_shared(v));
+    let along = |k: usize| joined.hinges_round(joined.edges[k].key) == 2 && joined.edges[k].kind == EdgeKind::Crease;
+    let double = |stiffness: f64, on: bool| if on { 2.0 * stiffness } else { stiffness };
+    let bars = all(&joined, &|k| double(1e3, on_wall(k)));
+    let creases = all(&joined, &|k| double(0.1, on_wall(k) && !along(k)));
+    let facets = all(&joined, &|k| double(1.0, on_wall(k)));
+    let one = energy(joined, [bars, creases, facets], &[]);
+    assert!((tied - MERLIN).abs() < 6e-15 && (one - MERLIN).abs() < 6e-15, "{tied:e} {one:e}");
+    assert!((tied - one).abs() < 1e-10 * MERLIN, "{tied:e} {one:e}");
+}
+
+/// Claim: pieces that touch are joined to the mesh that is drawn as one, and `convert --weld` does it.
+#[test]
+fn pieces_are_welded() {
+    let (joined, less) = welded(&apart()).unwrap();
+    let drawn = tubes();
+    assert_eq!(less, [10, 4]);
+    let named = |sheet: &Sheet| sheet.edges.iter().map(|edge| (edge.key, edge.kind)).collect::<BTreeMap<_, _>>().len();
+    assert_eq!((joined.vertices.len(), joined.polygons.len()), (drawn.vertices.len(), drawn.polygons.len()));
+    assert_eq!((joined.edges.len(), named(&joined)), (drawn.edges.len(), drawn.edges.len()));
+    let folder = crate::common::Folder::new().with("apart.fold", fold::write(&apart()));
+    let said = folder.foldwell("convert apart.fold joined.fold --weld").well();
+    assert!(said.all().contains("10; faces on others left out: 4"), "{}", said.all());
+    let read = fold::parse(&folder.text("joined.fold"), "joined.fold").unwrap();
+    assert_eq!(read.edges, joined.edges);
+}
+
+/// The Hessian of bars and hinges at rest, of all coordinates: by differences of lengths and of angles between faces,
+/// and hinges between all neighbours round an edge.
+fn hessian(sheet: &Sheet, [bars, creases, facets]: [f64; 3]) -> DenseMatrix {
+    let mut at: BTreeMap<[usize; 2], Vec<(usize, usize)>> = BTreeMap::new();
+    for triangle in &sheet.triangles {
+        let [a, b, c] = triangle.corners.map(|corner| corner.vertex);
+        for (i, j, apex) in [(a, b, c), (b, c, a), (c, a, b)] {
+            at.entry([i.min(j), i.max(j)]).or_default().push((apex, triangle.polygon));
+        }
+    }
+    let mut hessian = DenseMatrix::zeros(3 * sheet.vertices.len(), 3 * sheet.vertices.len());
+    let mut add = |points: Vec<usize>, stiffness: f64, measure: &dyn Fn(&[Vec3]) -> f64| {
+        let places: Vec<Vec3> = points.iter().map(|&v| sheet.vertices[v]).collect();
+        let slope = |k: usize| {
+            let at = |step: f64| {
+                let mut moved = places.clone();
+                moved[k / 3][k % 3] += step;
+                measure(&moved)
+            };
+            (at(1e-5) - at(-1e-5)) / 2e-5
+        };
+        let slopes: Vec<f64> = (0..3 * points.len()).map(slope).collect();
+        let index = |k: usize| 3 * points[k / 3] + k % 3;
+        for row in 0..slopes.len() {
+            (0..slopes.len()).for_each(|k| hessian[(index(row), index(k))] += stiffness * slopes[row] * slopes[k]);
+        }
+    };
+    for ([i, j], mut flaps) in at {
+        let along = sheet.vertices[j] - sheet.vertices[i];
+        add(vec![i, j], bars / along.norm(), &|x| (x[1] - x[0]).norm());
+        let arm = |apex: usize| along.normalize().cross(&(sheet.vertices[apex] - sheet.vertices[i]));
+        let [e1, e2] = [arm(flaps[0].0).normalize(), along.normalize().cross(&arm(flaps[0].0)).normalize()];
+        let angle = |apex: usize| arm(apex).dot(&e2).atan2(arm(apex).dot(&e1)).rem_euclid(TAU);
+        flaps.sort_by(|a, b| angle(a.0).total_cmp(&angle(b.0)));
+        let pairs = if flaps.len() < 3 { flaps.len() - 1 } else { flaps.len() };
+        for k in 0..pairs {
+            let (one, other) = (flaps[k], flaps[(k + 1) % flaps.len()]);
+            let stiffness = if one.1 == other.1 { facets } else { creases };
+            add(vec![i, j, one.0, other.0], stiffness * along.norm(), &|x| {
+                // from the straight continuation of one face to the other, so that flat faces are at 0
+                let axis = (x[1] - x[0]).normalize();
+                let [a, b] = [axis.cross(&(x[2] - x[0])), -axis.cross(&(x[3] - x[0]))];
+                axis.dot(&a.cross(&b)).atan2(a.dot(&b))
+            });
+        }
+    }
+    hessian
+}
+
+/// Claim: the eigenvalues of coupled tubes are those of a Hessian by differences, six of rigid motions, and exact folding
+/// says nothing of them. Tolerance: differences of 1e-5 are good to 1e-9 of the largest eigenvalue.
+#[test]
+fn modes_of_coupled_tubes() {
+    let sheet = tubes();
+    let expected = eigenvalues(hessian(&sheet, [1e5, 0.1, 1.0]));
+    let assembly = Assembly::patch(sheet, [1, 1]).bars(1e5).creases(0.1).facets(1.0).rest(Rest::Drawn);
+    let found = modes(&assembly.build().unwrap(), 12, &mut || true).unwrap();
+    assert_eq!((found.rigid_motions, found.folding_modes), (6, None));
+    for (found, expected) in found.eigenvalues.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-9 * 1e5, "{found} {expected}");
+    }
+}
+
+/// Three flaps at the edge of length 1 from the origin to (0, 0, 1), at these angles.
+fn flaps(angles: [f64; 3], glue: &str) -> Sheet {
+    let apexes = angles.map(|angle: f64| format!("[{}, {}, 0.5]", angle.cos(), angle.sin())).join(", ");
+    let text = format!(
+        "{{\"vertices_coords\": [[0,0,0],[0,0,1],{apexes}], \"faces_vertices\": [[0,1,2],[0,1,3],[1,0,4]],
+         \"edges_vertices\": [[0,1]], \"foldwell:glue\": [{glue}]}}"
+    );
+    fold::parse(&text, "flaps.fold").unwrap()
+}
+
+/// Claim: three flaps with three equal hinges at rest at 0 open to 120 degrees, since the fold angles sum up to pi, and
+/// store `3/2 k (pi/3)^2`; two of them that are welded at the angle `a` keep it, and the others share the rest; a
+/// hinge that is left alone comes to rest. Turned and mirrored drawings do the same. Tolerance: 1e-9, where
+/// residuals of 1e-12 end.
+#[test]
+fn three_flaps() {
+    let relaxed = |angles: [f64; 3], glue: &str| {
+        let sheet = flaps(angles, glue);
+        let assembly = Assembly::patch(sheet, [1, 1]).bars(RIGID).creases(2.0).rest(Rest::Flat);
+        relax(&assembly.build().unwrap()).unwrap().state.total()
+    };
+    for [a, b, c] in [[0.0, 1.5, 3.5], [0.0, 3.5, 1.5], [1.0, 2.5, 4.5], [0.3, 2.0, 4.4]] {
+        let all = relaxed([a, b, c], "null");
+        assert!((all - 3.0 * (PI / 3.0).powi(2)).abs() < 1e-9, "{all}");
+        assert!((relaxed([a, b, c], "\"fold\"") - all).abs() < 1e-9);
+        // the pair from the first flap to the next in the sense of the screw
+        let first = (b - a).rem_euclid(TAU).min((c - a).rem_euclid(TAU));
+        let welded = relaxed([a, b, c], "[\"weld\", \"fold\", \"fold\"]");
+        assert!((welded - 2.0 * (first / 2.0).powi(2)).abs() < 1e-9, "{welded} {first}");
+    }
+    let free = relaxed([0.0, 1.8, 4.0], "[\"free\", \"fold\", \"free\"]");
+    assert!(free.abs() < 1e-12, "{free}");
+    let none = flaps([0.0, 1.8, 4.0], "\"free\"");
+    assert!(none.edges.iter().all(|edge| edge.kind == EdgeKind::Boundary) && none.edges.len() == 7);
+}
+
+/// Claim: a file with glue, and with edges of no face, is read as it was written; wrong words are refused with the place,
+/// and so is exact folding of such a sheet.
+#[test]
+fn files_of_assemblies() {
+    let sheet = flaps([0.0, 1.5, 3.5], "[\"weld\", \"fold\", \"free\"]");
+    assert_eq!(fold::parse(&fold::write(&sheet), "flaps.fold").unwrap(), sheet);
+    let text = fold::write(&sheet);
+    for (wrong, message) in [
+        ("[\"weld\", \"fold\"]", "2 word(s) for edge [0, 1] of 3 face(s)"),
+        ("\"glued\"", "entry 0 of `foldwell:glue`"),
+    ] {
+        let text = text.replacen("[\"weld\",\"fold\",\"free\"]", wrong, 1);
+        let error = fold::parse(&text, "flaps.fold").unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+    let lines = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0 }\n[[study]]\nname = \"t\"\nkind = \"trace\"\n";
+    let scene = Scene::on("mesh = \"flaps.fold\"", lines).with("flaps.fold", text);
+    let said = scene.ran();
+    assert!(said.out.text("summary.json").contains("an edge has more than two faces or none"));
+}
+
+/// A chain of bars without faces between two supports, drawn as a circular arc.
+fn chain(bars: usize, length: f64, span: f64) -> Sheet {
+    let angle = |k: usize| PI * k as f64 / bars as f64;
+    let coords: Vec<[f64; 3]> =
+        (0..=bars).map(|k| [-0.5 * span * angle(k).cos(), 0.0, -0.5 * length * angle(k).sin()]).collect();
+    let edges: Vec<[usize; 2]> = (0..bars).map(|k| [k, k + 1]).collect();
+    let text = format!("{{\"vertices_coords\": {coords:?}, \"faces_vertices\": [], \"edges_vertices\": {edges:?}}}");
+    fold::parse(&text, "chain.fold").unwrap()
+}
+
+/// Claim: a chain of equal rigid bars without faces hangs as statics say: with the weight 1 at each joint and the pull
+/// `h`, bar `k` of `n` has the slope `(k - (n - 1)/2) / h`, and `h` is that for which the bars reach over the span.
+/// Tolerance: 1e-9, where residuals of 1e-12 end.
+#[test]
+fn a_hanging_chain() {
+    let (bars, span, length) = (10, 2.0, 3.0);
+    let sheet = chain(bars, length, span);
+    let mut builder = Assembly::patch(sheet, [1, 1]).bars(RIGID);
+    let each = length / bars as f64;
+    builder = builder.rest_lengths(foldwell::model::RestLengths::PerEdge(vec![each; bars]));
+    builder = builder.pin(0, HOME, [true; 3]).pin(bars, HOME, [true; 3]);
+    for joint in 1..bars {
+        builder = builder.load(joint, HOME, [0.0, 0.0, -1.0]);
+    }
+    let slope = |k: usize, pull: f64| (k as f64 - (bars - 1) as f64 / 2.0) / pull;
+    let reach = |pull: f64| (0..bars).map(|k| each / slope(k, pull).hypot(1.0)).sum::<f64>();
+    let (mut low, mut high) = (1e-3, 1e3);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if reach(middle) < span { low = middle } else { high = middle }
+    }
+    let state = relax(&builder.build().unwrap()).unwrap().state;
+    let mut depth = 0.0;
+    for k in 0..bars - 1 {
+        depth += each * slope(k, low) / slope(k, low).hypot(1.0);
+        let found = state.coordinates[3 * (k + 1) + 2];
+        assert!((found - depth).abs() < 1e-9, "joint {}: {found} {depth}", k + 1);
+    }
+}
+
+/// A Moebius band of `n` quadrangles.
+fn moebius(n: usize) -> String {
+    let point = |k: usize, side: f64| {
+        let (round, turn) = (TAU * k as f64 / n as f64, PI * k as f64 / n as f64);
+        let radius = 2.0 + side * 0.4 * turn.cos();
+        [radius * round.cos(), radius * round.sin(), side * 0.4 * turn.sin()]
+    };
+    let coords: Vec<[f64; 3]> = (0..n).flat_map(|k| [point(k, -1.0), point(k, 1.0)]).collect();
+    let next = |k: usize| if k + 1 < n { [2 * k + 2, 2 * k + 3] } else { [1, 0] };
+    let faces: Vec<[usize; 3]> = (0..n)
+        .flat_map(|k| {
+            let [a, b] = next(k);
+            [[2 * k, a, b], [2 * k, b, 2 * k + 1]]
+        })
+        .collect();
+    format!("{{\"vertices_coords\": {coords:?}, \"faces_vertices\": {faces:?}}}")
+}
+
+/// Claim: a Moebius band, which has one side, is a sheet: drawn at rest it has no energy, no more zero modes than its
+/// count of bars says, and the eigenvalues of a Hessian by differences. A sheet with two sides of which one
+/// face is turned over is refused as before.
+#[test]
+fn a_moebius_band() {
+    let sheet = fold::parse(&moebius(9), "moebius.fold").unwrap();
+    assert!(!sheet.is_surface());
+    assert_eq!(sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease).count(), 18);
+    let expected = eigenvalues(hessian(&sheet, [1e3, 1.0, 1.0]));
+    let assembly = Assembly::patch(sheet, [1, 1]).bars(1e3).creases(1.0).rest(Rest::Drawn).build().unwrap();
+    assert!(relax(&assembly).unwrap().state.total() < 1e-20);
+    let found = modes(&assembly, 10, &mut || true).unwrap();
+    for (found, expected) in found.eigenvalues.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-9 * 1e3, "{found} {expected}");
+    }
+    let turned = "{\"vertices_coords\": [[0,0,0],[1,0,0],[1,1,0],[0,1,0.2]], \"faces_vertices\": [[0,1,2],[0,3,2]]}";
+    let error = fold::parse(turned, "turned.fold").unwrap_err().to_string();
+    assert!(error.contains("run along edge"), "{error}");
+}
+
+/// Claim: a periodic block of cells, where three and four faces meet at every edge, has on a torus of 2 x 2 cells the
+/// eigenvalues of the dynamical matrix at the four waves of that period. Two ways: the model, and bands of the sheet.
+/// Tolerance: rounding of the largest, 1e-12 of it.
+#[test]
+fn a_block_of_cells_has_the_bands_of_its_torus() {
+    let coords = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.2, 1.0, 0.0], [1.2, 1.1, 0.0]];
+    let above = coords.map(|[x, y, _]| [x + 0.1, y - 0.05, 0.8]);
+    let text = format!(
+        "{{\"vertices_coords\": {:?}, \"foldwell:lattice\": [[1, 0.1, 0], [0.2, 1, 0]],
+         \"faces_vertices\": [[0,1,3,2],[4,5,7,6],[0,1,5,4],[0,2,6,4]]}}",
+        [coords, above].concat()
+    );
+    let sheet = fold::parse(&text, "block.fold").unwrap();
+    let stiffnesses = Stiffnesses { bars: 30.0, creases: 1.0, facets: 2.0 };
+    let matrix = DynamicalMatrix::new(&sheet, stiffnesses).unwrap();
+    let waves = [[0.0, 0.0], [PI, 0.0], [0.0, PI], [PI, PI]];
+    let mut expected: Vec<f64> = waves.iter().flat_map(|&q| matrix.bands(q).unwrap()).collect();
+    expected.sort_by(f64::total_cmp);
+    let torus = Assembly::fixed_torus(sheet, [2, 2]).bars(30.0).creases(1.0).facets(2.0).rest(Rest::Drawn);
+    let found = modes(&torus.build().unwrap(), 24, &mut || true).unwrap().eigenvalues;
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-12 * 1e3, "{found} {expected}");
+    }
+}
