@@ -273,7 +273,10 @@ def check_elements(checks, path, grid, summary):
     """Every edge and every face of the model once: those of a torus, a screw or a tube are complete, a patch loses some at its rim."""
     counts = np.bincount(grid["cell_arrays"]["edge"][grid["types"] == LINE], minlength=summary["sheet"]["edges"])
     faces = int(np.sum(grid["types"] == TRIANGLE))
-    unique = {tuple(sorted(pair)) for pair in grid["connectivity"][3 * faces:].reshape(-1, 2).tolist()}
+    pairs = grid["connectivity"][3 * faces:].reshape(-1, 2).tolist()
+    numbers = grid["cell_arrays"]["edge"][grid["types"] == LINE].tolist()
+    # an edge of more than two faces is there for each of its hinges
+    unique = {(*sorted(pair), number) for pair, number in zip(pairs, numbers)}
     checks.that(len(unique) == counts.sum(), f"{path}: no line is there twice")
     n1, n2 = summary["shown"]
     if summary["domain"] == "patch":

@@ -235,7 +235,7 @@ pub(super) fn summary_of(file: &SceneFile, assembly: &Assembly, digest: String) 
         digest,
         sheet: SheetSummary {
             vertices: info.vertices,
-            edges: info.edges,
+            edges: assembly.sheet().edges.len(),
             faces: info.faces,
             polygons: info.polygons,
             developable: info.developable,

@@ -47,7 +47,7 @@ pub struct Summary {
 pub struct SheetSummary {
     /// Vertices of a cell.
     pub vertices: usize,
-    /// Edges of a cell, diagonals of polygons included.
+    /// Edges of a cell, diagonals of polygons included; one of more than two faces counts for each of its hinges.
     pub edges: usize,
     /// Triangles of a cell.
     pub faces: usize,

@@ -55,6 +55,13 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
     if !relaxes && !matches!(*context.study.kind, StudyKind::Path(_) | StudyKind::Fold(_)) {
         supported::no_parts(context)?;
     }
+    let folds_exactly = |kind: &StudyKind| {
+        use StudyKind::{Branches, Landscape, Response, Surface, Trace};
+        matches!(kind, Branches(_) | Landscape(_) | Response(_) | Surface(_) | Trace(_))
+    };
+    if folds_exactly(&context.study.kind) {
+        supported::a_surface(context)?;
+    }
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::check(context, spec),
         StudyKind::Modes(spec) => modes::check(context, spec),

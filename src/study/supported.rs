@@ -20,6 +20,18 @@ pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     Err(context.refuse(message, "leave them out, or ask for relax, path, fold or wells").into())
 }
 
+/// Checks that the sheet is a surface with two sides, whose exact folding the study asks for.
+pub(super) fn a_surface(context: &Context<'_>) -> Result<(), StudyError> {
+    if context.assembly.sheet().is_surface() {
+        return Ok(());
+    }
+    let kind = context.study.kind.name();
+    let message = format!("studies of kind {kind} fold surfaces with two sides exactly, and this sheet is none");
+    let help = "an edge has more than two faces or none, or the faces have one side: relax, path, fold, wells, modes and \
+                bands of bloch know such assemblies";
+    Err(context.refuse(message, help).into())
+}
+
 /// Checks that each term has one stiffness.
 pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
     match context.assembly.terms().uneven_term() {
