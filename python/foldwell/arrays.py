@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -52,6 +55,39 @@ def numbers(values: ArrayLike, name: str) -> NDArray[np.float64]:
     if given.dtype.kind not in "fiub":
         raise TypeError(f"{name} has numbers of type {given.dtype}, expected real numbers")
     return np.ascontiguousarray(given, dtype=np.float64)
+
+
+def integers(values: ArrayLike, name: str, form: str) -> NDArray[np.int64]:
+    """Returns `values` as a matrix of two columns of whole numbers; `form` says in messages what is right.
+
+    Raises:
+        ValueError: they are no such matrix.
+    """
+    expected = f"expected whole numbers of shape (m, 2), {form}"
+    try:
+        found = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} has rows of different lengths, {expected}") from error
+    if found.size == 0:
+        return np.zeros((0, 2), dtype=np.int64)
+    if found.dtype.kind not in "iu" or found.ndim != 2 or found.shape[1] != 2:
+        raise ValueError(f"{name} has shape {found.shape} and type {found.dtype}, {expected}")
+    return found.astype(np.int64)
+
+
+def polygons(faces: Iterable[Iterable[int]]) -> list[list[int]]:
+    """Returns faces as lists of vertex numbers.
+
+    Raises:
+        ValueError: a face is no list of whole numbers.
+    """
+    found = []
+    for number, face in enumerate(faces):
+        try:
+            found.append([operator.index(vertex) for vertex in face])
+        except TypeError as error:
+            raise ValueError(f"faces[{number}] is {face!r}, expected a list of vertex numbers such as (0, 1, 2)") from error
+    return found
 
 
 def of_edges(values: ArrayLike, name: str) -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import matrix
+from .arrays import integers, matrix, of_edges, polygons
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -116,13 +116,13 @@ class Sheet:
         """
         points = matrix(vertices, "vertices", (2, 3))
         vectors = None if lattice is None else matrix(lattice, "lattice", (2, 3), rows=2)
-        ends = [] if edges is None else np.asarray(edges, dtype=np.int64).reshape(-1, 2).tolist()
+        ends = [] if edges is None else integers(edges, "edges", "two vertex numbers for each edge").tolist()
         words = [] if letters is None else [str(letter) for letter in letters]
-        angles = [] if fold_angles is None else np.asarray(fold_angles, dtype=float).tolist()
+        angles = [] if fold_angles is None else of_edges([np.nan if angle is None else angle for angle in fold_angles], "fold_angles").tolist()
         for name, values in (("letters", words), ("fold_angles", angles)):
             if values and len(values) != len(ends):
                 raise ValueError(f"{name} has shape ({len(values)},), expected ({len(ends)},), one for each of `edges`")
-        corners = [[int(vertex) for vertex in face] for face in faces]
+        corners = polygons(faces)
         for name, lists in (("faces", corners), ("edges", ends)):
             if (wrong := next((k for k, numbers in enumerate(lists) if min(numbers, default=0) < 0), None)) is not None:
                 raise ValueError(f"{name}[{wrong}] names vertex {min(lists[wrong])}, expected 0 or more")

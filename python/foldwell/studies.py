@@ -8,6 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
+from .arrays import integers
 from .assembly import Assembly
 from .errors import DidNotConverge
 from .progress import Progress, listener
@@ -285,6 +286,7 @@ def wells(
         >>> len(fw.wells(held, starts=4, spread=0.3).summary["wells"])
         1
     """
+    barriers = None if barriers is None else integers(barriers, "barriers", "pairs of wells such as [(0, 1)]").tolist()
     return _study("wells", **locals())
 
 

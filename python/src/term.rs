@@ -3,7 +3,8 @@
 use crate::errors::refused;
 use foldwell::math::Vec3;
 use foldwell::model::{Boundary, Law, Measure, OwnTerm, Site, Spring};
-use nalgebra::SVector;
+use foldwell::numerics::derivatives::{DerivativeError, check_gradient};
+use nalgebra::{SMatrix, SVector};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use std::array;
@@ -60,12 +61,12 @@ impl CalledTerm {
             return Err(refused(py, message, "vertices are numbered cell by cell, as `state.positions`"));
         }
         Ok(assembly.with_own_term(match elements.first().map_or(0, Vec::len) {
-            1 => self.term::<1, 3>(py),
-            2 => self.term::<2, 6>(py),
-            3 => self.term::<3, 9>(py),
-            4 => self.term::<4, 12>(py),
-            5 => self.term::<5, 15>(py),
-            6 => self.term::<6, 18>(py),
+            1 => self.term::<1, 3>(py, assembly)?,
+            2 => self.term::<2, 6>(py, assembly)?,
+            3 => self.term::<3, 9>(py, assembly)?,
+            4 => self.term::<4, 12>(py, assembly)?,
+            5 => self.term::<5, 15>(py, assembly)?,
+            6 => self.term::<6, 18>(py, assembly)?,
             count => {
                 let message = format!("the elements of `{name}` have {count} vertices");
                 return Err(refused(py, message, "an element has 1 to 6 vertices"));
@@ -73,12 +74,30 @@ impl CalledTerm {
         }))
     }
 
-    fn term<const N: usize, const D: usize>(&self, py: Python<'_>) -> OwnTerm {
+    fn term<const N: usize, const D: usize>(&self, py: Python<'_>, assembly: &foldwell::Assembly) -> PyResult<OwnTerm> {
         let measure = Called { function: self.function.clone_ref(py), failure: self.failure.clone() };
         let sites = |vertices: &Vec<usize>| array::from_fn::<_, N, _>(|k| Site { vertex: vertices[k], shift: [0, 0] });
         let elements = self.elements.iter().map(|vertices| (sites(vertices), Spring { stiffness: 1.0, rest: 0.0 }));
-        OwnTerm::with_law::<_, N, D>(&self.name, measure, elements, Itself)
+        let coordinates = &assembly.drawn().coordinates;
+        let all: Vec<Vec3> = coordinates.chunks_exact(3).map(Vec3::from_column_slice).collect();
+        let checked = measure.checked::<N, D>(&all, &self.elements[0]);
+        self.raise()?;
+        checked.map_err(|(what, error)| {
+            let message = format!("the {what} of `{}` is wrong: along a random direction it has {error}", self.name);
+            let help = "it should be that of the energy by the positions, vertex by vertex: x, y and z of the first, then of the second";
+            refused(py, message, help)
+        })?;
+        Ok(OwnTerm::with_law::<_, N, D>(&self.name, measure, elements, Itself))
     }
+}
+
+/// Tolerance of derivatives along a direction, relative. A wrong factor, sign or order is far above it; a function that
+/// rounds to single precision, or whose differences are too rough to judge it, is not refused.
+const TOLERANCE: f64 = 1e-3;
+
+/// Numbers between -1/2 and 1/2 without a pattern, the same every time: multiples of the golden section.
+fn scattered(first: usize) -> impl Iterator<Item = f64> {
+    (first..).map(|k| (k as f64 * 0.618_033_988_749_895).fract() - 0.5)
 }
 
 /// The value of a function in Python as a measure.
@@ -102,6 +121,50 @@ impl Called {
             let called = self.function.bind(py).call1((rows,)).and_then(|found| read(found.extract()?));
             called.map_err(|error| *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(error)).ok()
         })?
+    }
+}
+
+impl Called {
+    /// Compares gradient and Hessian of one element with central differences, each along one direction, near the drawn
+    /// state: a symmetric state may hide what is wrong. A Hessian is compared along two directions, times the second.
+    ///
+    /// # Errors
+    /// The name of the derivative that is wrong, and the difference.
+    fn checked<const N: usize, const D: usize>(
+        &self,
+        all: &[Vec3],
+        vertices: &[usize],
+    ) -> Result<(), (&'static str, DerivativeError)> {
+        let drawn: [Vec3; N] = array::from_fn(|k| all[vertices[k]]);
+        let others = if N > 1 { &drawn[..] } else { all };
+        let size = others.iter().map(|point| (point - drawn[0]).norm()).fold(0.0, f64::max);
+        let [off, along, across] = [1, 101, 211].map(|first| {
+            let mut numbers = scattered(first);
+            SVector::<f64, D>::from_fn(|_, _| size * numbers.next().unwrap_or_default())
+        });
+        let at = |part: &[f64]| -> [Vec3; N] {
+            array::from_fn(|k| drawn[k] + (0.1 * off + part[0] * along).fixed_rows::<3>(3 * k).into_owned())
+        };
+        let gradient = |part: &[f64]| Measure::<N, D>::gradient(self, &at(part)).1;
+        let mut lower = Vec::new();
+        let found = Measure::<N, D>::hessian(self, &at(&[0.0]), &mut lower).1;
+        let hessian = SMatrix::<f64, D, D>::from_fn(|row, column| {
+            let (row, column) = (row.max(column), row.min(column));
+            lower[row * (row + 1) / 2 + column]
+        });
+        let energy = |part: &[f64]| Measure::<N, D>::value(self, &at(part));
+        let slope = |part: &[f64]| gradient(part).dot(&across);
+        for (what, judged) in [
+            ("gradient", check_gradient(energy, &[0.0], &[found.dot(&along)], TOLERANCE)),
+            ("Hessian", check_gradient(slope, &[0.0], &[across.dot(&(hessian * along))], TOLERANCE)),
+        ] {
+            if let Err(error @ DerivativeError::Entry { found, .. }) = judged
+                && found.is_finite()
+            {
+                return Err((what, error));
+            }
+        }
+        Ok(())
     }
 }
 

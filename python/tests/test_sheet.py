@@ -96,6 +96,8 @@ def test_mistakes_are_named(tmp_path):
         ([[0, 0], [1, 0], [1, 1]], [[0, 1, 1]], fw.SheetError, "face"),
         ([[0, 0], [1, 0], [1, 1]], [], fw.SheetError, "face"),
         ([[0, 0], [1, 0], [1, 1]], [[0, 1, -1]], ValueError, r"faces\[0\] names vertex -1"),
+        ([[0, 0], [1, 0], [1, 1]], [0, 1, 2], ValueError, r"faces\[0\] is 0, expected a list of vertex numbers"),
+        ([[0, 0], [1, 0], [1, 1]], [[0, 1, 1.5]], ValueError, r"faces\[0\] is .*, expected a list of vertex numbers"),
     ],
 )
 def test_wrong_arrays_are_refused(vertices, faces, error, words):
@@ -113,6 +115,9 @@ def test_wrong_arrays_are_refused(vertices, faces, error, words):
         ({"edges": [[0, 2]], "letters": ["M", "V"]}, r"letters has shape \(2,\), expected \(1,\)"),
         ({"edges": [[0, 2]], "fold_angles": []}, None),
         ({"edges": [[0, 2]], "letters": ["X"]}, "`X` is no letter"),
+        ({"edges": [0, 2]}, r"edges has shape \(2,\) and type int64, expected whole numbers of shape \(m, 2\)"),
+        ({"edges": [[0, 2], [1]]}, "edges has rows of different lengths"),
+        ({"edges": [[0.5, 2.0]]}, "edges has shape .* type float64, expected whole"),
         ({"lattice": [[0, 0], [1, 0]]}, "lattice"),
     ],
 )

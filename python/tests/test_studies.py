@@ -284,3 +284,17 @@ def test_a_start_belongs_to_the_same_assembly(miura):
             fw.relax(other, start=result)
     with pytest.raises(fw.SceneError, match="another assembly"):
         fw.relax(fw.Assembly.torus(miura, (3, 3), bars=1e4, creases=1.0), start=result)
+
+
+def test_words_stay_words_without_an_event(soft):
+    """The column of events is one of texts in a path without any, in the table and in xarray."""
+    pytest.importorskip("xarray")
+    folded = fw.fold(soft)
+    assert not folded.summary["branches"][0]["events"]
+    for found in (folded.table["event"], folded.to_xarray()["event"].values):
+        assert found.dtype.kind == "U" and set(found) == {""}
+
+
+def test_barriers_are_pairs(soft):
+    with pytest.raises(ValueError, match=r"barriers has shape \(\) and type bool, expected .* pairs of wells such as \[\(0, 1\)\]"):
+        fw.wells(soft, barriers=True)

@@ -84,3 +84,20 @@ def test_what_is_wrong_with_it_is_said(soft, magnets, miura):
         fw.Assembly.torus(miura, bars=1.0).with_term("magnets", [[0, 1]], poles)
     with pytest.raises(fw.SceneError, match="studies of kind landscape do not know the term `magnets`"):
         fw.landscape(magnets, [(1.0, 0.0, 0.0)], [0.1])
+
+
+def test_wrong_derivatives_are_refused_by_name(soft):
+    """A gradient without a factor, a Hessian with a wrong sign, in all elements; what is only rough is taken."""
+
+    def wrong(points, gradient=1.0, hessian=1.0):
+        value, force, stiffness = poles(points)
+        return value, gradient * np.ravel(force), hessian * stiffness
+
+    with pytest.raises(fw.SceneError, match="the gradient of `half` is wrong"):
+        soft.with_term("half", [[0, 12]], lambda points: wrong(points, gradient=0.5))
+    with pytest.raises(fw.SceneError, match="the Hessian of `turned` is wrong"):
+        soft.with_term("turned", [[0, 12]], lambda points: wrong(points, hessian=-1.0))
+    with pytest.raises(fw.SceneError, match="the gradient of `upper` is wrong"):
+        soft.with_term("upper", [[0]], lambda points: (points[0, 2] ** 3, [0, 0, points[0, 2] ** 2], np.diag([0, 0, 2 * points[0, 2]])))
+    single = soft.with_term("single", [[0, 12]], lambda points: poles(np.float32(points)))
+    assert fw.relax(single, must_converge=False).summary["energy"]["single"] > 0.0

@@ -5,6 +5,7 @@ mod stops;
 use super::relax::relax_model;
 use super::state::State;
 use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Element, Gauge, Model};
+use crate::solver::path::ParametrizedProblem;
 use crate::solver::path::{
     self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathObserver, PathSettings, PathState,
 };
@@ -242,14 +243,16 @@ impl PathObserver<DrivenModel> for Seen<'_> {
     }
 }
 
-/// Checks that a drive has an effect on an assembly in its drawn state.
+/// Checks that a drive has an effect on an assembly, in its drawn state or, `restarted`, in another one. Returns the
+/// driven values at the beginning and at the end of its way.
 ///
 /// # Errors
 /// [`DriveError`] if it has none.
-pub fn check_drive(assembly: &Assembly, drive: &Drive) -> Result<(), DriveError> {
+pub fn check_drive(assembly: &Assembly, drive: &Drive, restarted: bool) -> Result<[f64; 2], DriveError> {
     let model = assembly.model(Gauge::Held);
     let drawn = model.values(&model.start());
-    DrivenModel::new(model, drive, drawn, false).map(|_| ())
+    let driven = DrivenModel::new(model, drive, drawn, restarted)?;
+    Ok([driven.drive_at(driven.parameter()), drive.to])
 }
 
 /// Makes the driven model and finds its equilibrium at the beginning.

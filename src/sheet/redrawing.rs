@@ -21,6 +21,10 @@ pub struct Redrawing {
     pub dropped: usize,
     /// Number of cuts between two vertices inside the sheet; each has got a third vertex in its middle, where it opens.
     pub slits: usize,
+    /// Number of faces that are holes: all their sides are boundaries, with faces all round.
+    pub holes: usize,
+    /// Number of creases without a letter, in a drawing of lines of which none has the colour or the layer of a crease.
+    pub unlettered: usize,
 }
 
 /// Two vertices of a drawing of lines that are close enough to be meant as one.
@@ -58,6 +62,12 @@ impl Redrawing {
             (self.not_finite, "lines with a coordinate that is not a finite number are left out"),
             (self.dropped, "auxiliary lines are left out where they end in a face"),
             (self.slits, "cuts of one edge have got a vertex in their middle, where they open"),
+            (self.holes, "faces with boundaries all round and other faces beyond them are left out as holes"),
+            (
+                self.unlettered,
+                "lines between two faces are creases without a letter: no line has the colour of a crease, such as \
+                 red for mountains and blue for valleys, or a DXF layer with such a name, mountain or valley",
+            ),
         ];
         said.extend(counts.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")));
         said

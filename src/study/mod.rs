@@ -29,6 +29,7 @@ pub mod path;
 mod ratios;
 pub mod relax;
 pub mod response;
+mod sides;
 mod start;
 mod states;
 mod summary;

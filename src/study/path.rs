@@ -6,19 +6,20 @@ mod plot;
 mod summary;
 mod table;
 
-use self::drive::{drive, drive_name, folds, has_effect, moves};
+use self::drive::{drive, drive_name, folds, has_effect, lists, moves};
 use self::end::{INSIDE_OUT, end_word, inside_out, reason};
 use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
 use super::context::{Context, Progress};
 use super::error::StudyError;
+use super::sides::RestSides;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
 use super::{ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
-    BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEntry, PathEvent, PathOptions, PathPoint, PathRecord,
-    PathStop, Probe, resume_path,
+    BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
+    PathRecord, PathStop, Probe, resume_path,
 };
 use crate::model::{Assembly, Drive, Driven, Gauge};
 use crate::numerics::{larger, worst};
@@ -44,6 +45,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     ratios::check(context, spec.response.as_ref())?;
     moves(context, spec)?;
     has_effect(context, spec)?;
+    lists(context, spec)?;
     stop(context, spec)?;
     probes(context, spec)?;
     match spec.start.as_ref().map(|start| (&**start, start.span())) {
@@ -186,7 +188,10 @@ fn answer(
     let marks = marks(context, branches);
     answer.add(format!("{}.csv", context.name()), table::table(context, (spec, &probes), branches, marks.as_deref()));
     add_pictures(&mut answer, context, drive, branches, marks.as_deref());
-    let result = summary(context, (drive_name(context, spec), drive), branches, marks.as_deref());
+    let result = PathSummary {
+        not_passed: not_passed(spec, branches),
+        ..summary(context, (drive_name(context, spec), drive), branches, marks.as_deref())
+    };
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
@@ -284,14 +289,34 @@ fn summary(
     branches: &[PathBranch],
     marks: Option<&[Vec<Marks>]>,
 ) -> PathSummary {
-    let branch =
-        |(number, branch): (usize, &PathBranch)| branch_summary(number, branch, marks.map(|marks| &marks[number][..]));
+    let branch = |(number, branch): (usize, &PathBranch)| PathBranchSummary {
+        rest_sides: rest_sides(context, drive, branch),
+        ..branch_summary(number, branch, marks.map(|marks| &marks[number][..]))
+    };
     PathSummary {
         drive: name.to_owned(),
         driven: Words::new(context, drive).driven.to_owned(),
         to: finite(drive.to),
         branches: branches.iter().enumerate().map(branch).collect(),
+        ..PathSummary::default()
     }
+}
+
+/// Returns the sides to which the hinges are folded where a branch has arrived at all rest angles.
+fn rest_sides(context: &Context<'_>, drive: &Drive, branch: &PathBranch) -> Option<RestSides> {
+    let folded = drive.quantity == Driven::Rest && drive.to == 1.0 && branch.end == PathEnd::Arrived;
+    let last = branch.points.last().filter(|_| folded)?;
+    Some(RestSides::of(context, &last.configuration())).filter(|sides| sides.hinges > 0)
+}
+
+/// Returns the values of which the study lists the states, but that no branch passes.
+fn not_passed(spec: &PathSpec, branches: &[PathBranch]) -> Vec<f64> {
+    let passes = |branch: &PathBranch, value: f64| {
+        let off = || branch.points.iter().map(|point| point.drive - value);
+        off().any(|off| off <= 0.0) && off().any(|off| off >= 0.0)
+    };
+    let listed = spec.at.iter().map(|value| value.0);
+    listed.filter(|value| !branches.iter().any(|branch| passes(branch, *value))).collect()
 }
 
 fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -> PathBranchSummary {
@@ -330,12 +355,13 @@ fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -
         first_self_intersection: first
             .map(|point| FirstCrossing { arc_length: point.arc_length, drive: finite(point.drive) }),
         events: branch.points.iter().filter_map(event).collect(),
+        ..PathBranchSummary::default()
     }
 }
 
 /// What was found where branches were sought.
 fn half_branches(BranchPoint { multiplicity, half_branches }: BranchPoint) -> Option<HalfBranchesSummary> {
-    let HalfBranches { found, expected } = half_branches?;
+    let HalfBranches { found, expected, known, left } = half_branches?;
     let along = format!("branches were sought along {multiplicity} directions only, on both sides of each");
     let reason = match (expected, multiplicity) {
         (Some(expected), _) if found == expected => None,
@@ -345,7 +371,7 @@ fn half_branches(BranchPoint { multiplicity, half_branches }: BranchPoint) -> Op
         (None, 2) => Some(format!("{along}: what tells others from each other is rounding error")),
         (None, _) => Some(format!("{along}: {multiplicity} eigenvalues vanish at once")),
     };
-    Some(HalfBranchesSummary { found, expected, reason })
+    Some(HalfBranchesSummary { found, expected, reason, known, left })
 }
 
 fn finite(value: f64) -> Option<f64> {

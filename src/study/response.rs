@@ -130,7 +130,7 @@ fn ratios_table(response: &Response, directions: u32) -> Table {
         let angle = PI * f64::from(k) / f64::from(directions);
         let ratios = ratios_at(response, angle);
         let numbers = ratios.map(|ratio| ratio.map_or(Value::Empty, Value::Number));
-        let reasons = ratios.map(|ratio| ratio.err().map_or(Value::Empty, |reason| Value::Word(reason.word())));
+        let reasons = ratios.map(|ratio| Value::Word(ratio.err().map_or("", |reason| reason.word())));
         table.push([Value::Number(angle)].into_iter().chain(numbers).chain(reasons).collect());
     }
     table

@@ -32,11 +32,11 @@ struct Examined {
 
 /// Relaxes a point and, where that has an answer, other drawings of it; energies of those are in the scene's own unit
 /// and of one piece.
-fn examine(number: usize, point: &Point, all_drawings: bool) -> Examined {
-    let base = relaxed(&point.assembly);
-    let wanted = |k: &usize| base.is_ok() && (all_drawings || number % WAYS.len() == *k);
+fn examine(point: &Point, all_drawings: bool) -> Examined {
+    let (base, seed) = (relaxed(&point.assembly), point.seed());
+    let wanted = |k: &usize| base.is_ok() && (all_drawings || seed as usize % WAYS.len() == *k);
     let ways = (0..WAYS.len()).filter(wanted).map(|k| WAYS[k]);
-    let drawn = ways.filter_map(|way| Some((way, way.of(&point.assembly, &mut Numbers::new(number as u64))?)));
+    let drawn = ways.filter_map(|way| Some((way, way.of(&point.assembly, &mut Numbers::new(seed))?)));
     let energy = |other: &Assembly, factor: f64| relaxed(other).map(|answer| answer.energy / factor);
     let others = drawn.map(|(way, (other, factor))| (way.to_string(), energy(&other, factor))).collect();
     Examined { point: point.clone(), base, others }
@@ -206,8 +206,8 @@ fn summarize(examined: &[Examined], found: &BTreeMap<Place, Exception>) {
 fn scenes_relax_on_a_grid() {
     let asked = std::env::var("FOLDWELL_GRID").unwrap_or_default();
     let all = ["all", "write"].contains(&asked.as_str());
-    let points: Vec<(usize, Point)> = scenes().iter().flat_map(Whole::points).enumerate().collect();
-    let examined = on_all_threads(&points, |(number, point)| examine(*number, point, all));
+    let points: Vec<Point> = scenes().iter().flat_map(Whole::points).collect();
+    let examined = on_all_threads(&points, |point| examine(point, all));
     let found = exceptions(&examined);
     if asked == "write" {
         let found = with_known_reasons(found, &table::exceptions());

@@ -19,8 +19,10 @@ use std::sync::Arc;
 const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 /// The same for a state from which steps are made.
 const WELL_HELD: f64 = 0.5;
-/// The same for a state from which a path goes on, whose states are compared with each other where the same is held.
-const STILL_HELD: f64 = 0.1;
+/// The same for a state from which a path goes on, whose states are compared with each other where the same is held. A
+/// longest step takes up to 0.2 of it: from less a step may pass the state at which it vanishes, beyond which the same
+/// shapes follow once more, and the path would seem to turn back.
+const STILL_HELD: f64 = 0.3;
 /// Largest change of a unit with which a path goes on. Turning the axis moves points in proportion to the curvature: in
 /// the unit of a straight sheet, the stiffness of a curved one against it is so large that all others drown in its
 /// rounding errors.

@@ -304,7 +304,7 @@ pub struct PathSpec {
     /// Values of the drive of which the states are rows of their own, wherever the path passes them; of `fold` parts of
     /// the way, from 0 to 1.
     #[serde(default)]
-    pub at: Vec<Finite>,
+    pub at: Vec<Located<Finite>>,
     /// Columns `probe_NAME` of the table: how far vertices of a patch have moved along an axis since they were drawn.
     #[serde(default)]
     pub probe: Vec<ProbeSpec>,

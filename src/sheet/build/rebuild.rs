@@ -17,18 +17,19 @@ const FLAT: f64 = 1e-6;
 const UPRIGHT: f64 = 0.5;
 
 /// Gives `drawn` the faces that `edges` bound in the plane, without those that are listed as openings and those that
-/// the assignments show to be holes.
+/// the assignments show to be holes; returns the number of these.
 ///
 /// # Errors
 /// [`Defect`] if two vertices stand at one place, if edges cross or are loose, or if they are not connected.
-pub(crate) fn rebuild_faces(drawn: &mut Drawing, edges: &[[usize; 2]]) -> Result<(), Defect> {
+pub(crate) fn rebuild_faces(drawn: &mut Drawing, edges: &[[usize; 2]]) -> Result<usize, Defect> {
     drawn.faces = match laid_down(&drawn.coords) {
         Some(coords) => faces_of(&Drawing { coords, ..drawn.clone() }, edges)?,
         None => faces_of(drawn, edges)?,
     };
     drop_openings(drawn);
+    let faces = drawn.faces.len();
     drop_holes(drawn);
-    Ok(())
+    Ok(faces - drawn.faces.len())
 }
 
 /// Returns the points of a plane that stands upright as points of the plane of x and y; `None` if they are none.

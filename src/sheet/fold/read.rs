@@ -45,13 +45,12 @@ pub(super) fn sheet<'a>(
     drawn.names = read_names(source, keys, drawn.coords.len())?;
     edges.rebuilt = keys.faces_vertices.is_none();
     let locate = |defect| located(source, keys, &rows, &edges, defect);
-    if edges.rebuilt {
-        rebuild_faces(&mut drawn, &edges.ends).map_err(locate)?;
-    }
+    let holes = if edges.rebuilt { rebuild_faces(&mut drawn, &edges.ends).map_err(locate)? } else { 0 };
     drawn.bars = bars_alone(&drawn, &edges.ends);
     let (mut sheet, identified) = build_listed(&drawn, &edges.ends).map_err(locate)?;
     sheet.stiffness = stiffness::read(source, keys, &edges, &sheet, &identified)?;
     sheet.record = FileRecord { turned_over: sheet.record.turned_over, ..record::read(frame, &drawn, &edges) };
+    sheet.record.redrawing.holes = holes;
     Ok(sheet)
 }
 

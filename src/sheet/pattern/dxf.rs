@@ -86,14 +86,14 @@ pub(super) fn lines(text: &str) -> Lines {
                 let corner = entity.corners().map_err(located)?;
                 open.iter_mut().for_each(|polyline: &mut Polyline| polyline.corners.extend(corner.iter()));
             }
-            ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(|p: Polyline| (p.path(), p.line))),
+            ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(Polyline::outline)),
             (name, "ENTITIES") if !IGNORED.contains(&name) => {
-                let (line, is_grey) = entity.meaning(&colours).map_err(located)?;
-                grey += usize::from(is_grey);
+                let (line, named) = entity.meaning(&colours).map_err(located)?;
+                grey += usize::from(line.auxiliary && !named);
                 if name == "POLYLINE" {
-                    open = Some(Polyline { corners: vec![], closed: entity.is_closed(), line });
+                    open = Some(Polyline { corners: vec![], closed: entity.is_closed(), line, named });
                 } else {
-                    outlines.push((entity.outline().map_err(located)?, line));
+                    outlines.push(Outline { path: entity.outline().map_err(located)?, line, named });
                 }
             }
             _ => {}
@@ -110,11 +110,12 @@ struct Polyline {
     corners: Vec<(Point, f64)>,
     closed: bool,
     line: Line,
+    named: bool,
 }
 
 impl Polyline {
-    fn path(&self) -> BezPath {
-        polyline(&self.corners, self.closed)
+    fn outline(self) -> Outline {
+        Outline { path: polyline(&self.corners, self.closed), line: self.line, named: self.named }
     }
 }
 
@@ -230,19 +231,19 @@ impl<'t> Entity<'t> {
         }
     }
 
-    /// Returns the line that this entity draws, without its ends, and whether it is grey; `colours` are those of the
-    /// layers.
+    /// Returns the line that this entity draws, without its ends, and whether the name of its layer says its letter;
+    /// `colours` are those of the layers.
     fn meaning(&self, colours: &HashMap<String, &str>) -> Result<(Line, bool), PatternFault> {
         let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
         let known = LAYERS.iter().find(|(part, _)| layer.contains(part)).map(|(_, letter)| *letter);
-        let (letter, grey) = match known {
-            Some(letter) => (letter, false),
+        let letter = match known {
+            Some(letter) => letter,
             None => {
                 let rgb = self.colour(colours.get(&layer).copied())?;
                 let name = || format!("{} of layer {layer}", self.first(COLOUR).unwrap_or("256"));
                 match colour::letter(rgb) {
                     None if !colour::is_grey(rgb) => return Err(value(&name(), "colour of a line", colour::RIGHT)),
-                    letter => (letter, letter.is_none()),
+                    letter => letter,
                 }
             }
         };
@@ -250,7 +251,7 @@ impl<'t> Entity<'t> {
         let letter = letter.unwrap_or(Assignment::Flat);
         let angle = letter.flat_folded_angle().map(f64::to_degrees).or((letter == Assignment::Flat).then_some(0.0));
         let (contour, ends) = (letter == Assignment::Boundary, Default::default());
-        Ok((Line { ends, letter, angle, auxiliary, contour, at: self.at, flipped: false }, grey))
+        Ok((Line { ends, letter, angle, auxiliary, contour, at: self.at, flipped: false }, known.is_some()))
     }
 
     /// Returns the colour of the entity; without one of its own it has that of its layer.

@@ -50,8 +50,8 @@ pub(crate) struct Line {
     pub angle: Option<f64>,
     /// Whether it is auxiliary: another line on it counts instead, and what separates no faces is left out.
     pub auxiliary: bool,
-    /// Whether it is a contour, which cuts the sheet where it lies between two faces; other boundaries are refused
-    /// there.
+    /// Whether it is the rim of the sheet where it has a face on one side only, whatever its letter. Between two faces
+    /// it has its letter, and cuts the sheet if that is a boundary; boundaries that are no contours are refused there.
     pub contour: bool,
     /// Place in the text of the file, in bytes.
     pub at: usize,
@@ -60,6 +60,11 @@ pub(crate) struct Line {
 }
 
 impl Line {
+    /// Whether it is drawn without a letter: the rim, or a crease, as the faces beside it say.
+    pub(super) fn is_plain(&self) -> bool {
+        self.contour && self.letter == Assignment::Unassigned
+    }
+
     /// Returns the name of the line in messages, in coordinates of the file.
     pub(super) fn name(&self) -> LineName {
         LineName(self.ends.map(|end| [end.x, if self.flipped { flip(end.y) } else { end.y }]))

@@ -15,7 +15,7 @@ use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::plane_fault::PlaneFault;
-use crate::sheet::redrawing::Gap;
+use crate::sheet::redrawing::{Gap, Redrawing};
 
 /// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little
 /// above that distance are this far apart.
@@ -97,16 +97,19 @@ fn built(lines: &[Line], coords: Vec<Vec3>, pieces: &[Piece], head: &Drawing) ->
         let angle = |piece: &Piece| (piece.ends, of(piece).angle.map(f64::to_radians));
         drawn.fold_angles = pieces.iter().map(angle).collect();
     }
-    rebuild_faces(&mut drawn, &edges)?;
-    cut_inner_contours(lines, pieces, &mut drawn);
+    let holes = rebuild_faces(&mut drawn, &edges)?;
+    let unlettered = letter_contours(lines, pieces, &mut drawn);
     let (mut sheet, identified) = build_identified(&drawn)?;
+    sheet.record.redrawing = Redrawing { holes, unlettered, ..Redrawing::default() };
     let order = listed_order(&drawn, &edges);
     sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
     Ok(sheet)
 }
 
-/// Gives contours between two faces the letter of a cut.
-fn cut_inner_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) {
+/// Gives contours that a face is beside the letter of the rim, and those between two faces that of a cut, unless they
+/// are plain: the number of these is returned.
+fn letter_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) -> usize {
+    let mut plain = 0;
     let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     for face in &drawn.faces {
         for (k, &a) in face.iter().enumerate() {
@@ -116,10 +119,15 @@ fn cut_inner_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) {
     }
     for (piece, (ends, letter)) in pieces.iter().zip(&mut drawn.assignments) {
         let [a, b] = *ends;
-        if lines[piece.segment].contour && faces.get(&[a.min(b), a.max(b)]) == Some(&2) {
-            *letter = Assignment::Cut;
+        let line = &lines[piece.segment];
+        match faces.get(&[a.min(b), a.max(b)]) {
+            Some(2) if line.is_plain() => plain += 1,
+            Some(2) if line.contour => *letter = Assignment::Cut,
+            Some(1) if line.contour => *letter = Assignment::Boundary,
+            _ => {}
         }
     }
+    plain
 }
 
 /// Returns the length of the longest line that has no piece and is not auxiliary.
@@ -174,9 +182,9 @@ fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piec
             Entry::Occupied(taken) => {
                 let before = &mut kept[*taken.get()];
                 let [first, second] = [before.segment, piece.segment].map(|k| &lines[k]);
-                if first.auxiliary && !second.auxiliary {
+                if says(first) < says(second) {
                     before.segment = piece.segment;
-                } else if !second.auxiliary && !agree(first, second) {
+                } else if says(first) == says(second) && !first.auxiliary && !agree(first, second) {
                     let meanings = [first, second].map(|line| (line.letter, line.angle));
                     let fault = PatternFault::Overlap { a: first.name(), b: second.name(), meanings };
                     return Err((*piece, fault.into()));
@@ -185,6 +193,15 @@ fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piec
         }
     }
     Ok(kept)
+}
+
+/// Returns how much a line says: of lines on each other the one that says most counts.
+fn says(line: &Line) -> u8 {
+    match line {
+        line if line.auxiliary => 0,
+        line if line.is_plain() => 1,
+        _ => 2,
+    }
 }
 
 fn agree(a: &Line, b: &Line) -> bool {
@@ -204,7 +221,7 @@ fn with_open_slits(lines: &[Line], points: &mut Vec<Vec2>, pieces: Vec<Piece>) -
     let (mut split, mut slits) = (Vec::with_capacity(pieces.len()), 0);
     for piece in pieces {
         let line = &lines[piece.segment];
-        let is_cut = line.letter == Assignment::Cut || line.contour;
+        let is_cut = line.letter == Assignment::Cut || (line.contour && !line.is_plain());
         if is_cut && piece.ends.iter().all(|&v| degree[v] == 1) {
             let [a, b] = piece.ends;
             points.push((points[a] + points[b]) / 2.0);
@@ -243,7 +260,7 @@ fn piece_of(pieces: &[Piece], defect: &Defect) -> Option<usize> {
 
 /// Says a defect of the mesh in terms of the lines, of which one has it.
 fn located(lines: &[Line], number: Option<usize>, defect: Defect) -> Misdrawn {
-    let is_rim = |line: &Line| matches!(line.letter, Assignment::Boundary | Assignment::Cut);
+    let is_rim = |line: &Line| matches!(line.letter, Assignment::Boundary | Assignment::Cut) || line.contour;
     let problem = match (*defect.problem, number.map(|k| lines[k].name())) {
         (Problem::LooseEdge { .. }, Some(line)) if !lines.iter().any(is_rim) => PatternFault::NoRim { line }.into(),
         (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),

@@ -16,7 +16,8 @@
 //! other otherwise, are merged, and lines that lie on each other are one ([`Cleanup`]); faces are what the lines bound.
 //! In these files but DXF y points downwards: a point `(x, y)` of the file is the vertex `(x, -y, 0)`, so that a sheet
 //! looks as in the program that drew it, seen from the side of its face normals. A closed outline of black lines inside
-//! the sheet, with faces all round, is a hole. What was done is in
+//! the sheet, with faces all round, is a hole. In SVG and DXF without any crease black lines between two faces are
+//! creases without a letter, `U`. What was done is in
 //! [`record.redrawing`](crate::sheet::Redrawing) of the sheet.
 //!
 //! Sources: A. Ghassaei, E. D. Demaine, N. Gershenfeld, "Fast, interactive origami simulation using GPU computation",

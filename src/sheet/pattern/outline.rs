@@ -4,30 +4,57 @@ use kurbo::{BezPath, PathEl, Point, Rect};
 
 use super::line::{DrawnLines, Line};
 use crate::math::Vec2;
+use crate::sheet::assignment::Assignment;
 
 /// Largest distance of a polyline from its curve, relative to the extent of the drawing: a quarter of a circle as large
 /// as the drawing has about twelve sides.
 const FLATNESS: f64 = 1e-3;
 
-/// A shape of a drawing: its outline in coordinates of the sheet, and the line of which each of its sides is a copy.
-pub(super) type Outline = (BezPath, Line);
+/// A shape of a drawing.
+pub(super) struct Outline {
+    /// Its outline in coordinates of the sheet.
+    pub path: BezPath,
+    /// The line of which each of its sides is a copy.
+    pub line: Line,
+    /// Whether a name says the letter of the line, and not its colour alone.
+    pub named: bool,
+}
+
+impl Outline {
+    /// Returns the line of the sides. In a drawing whose lines are all `boundaries` colours say nothing: a line without
+    /// a name is plain.
+    fn meant(&self, boundaries: bool) -> Line {
+        if boundaries && !self.named && !self.line.auxiliary {
+            Line { letter: Assignment::Unassigned, contour: true, ..self.line }
+        } else {
+            self.line
+        }
+    }
+
+    /// Whether its line says no more than that the sheet ends there.
+    fn is_boundary(&self) -> bool {
+        self.line.auxiliary || self.line.letter == Assignment::Boundary
+    }
+}
 
 /// Adds the sides of outlines to the lines of a drawing; curves become polylines, and are counted.
 pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
-    let finite = outlines.iter().map(|(path, _)| path.control_box()).filter(Rect::is_finite);
+    let finite = outlines.iter().map(|outline| outline.path.control_box()).filter(Rect::is_finite);
     let bounds = finite.reduce(|all, one| all.union(one)).unwrap_or_default();
     let tolerance = FLATNESS * bounds.width().max(bounds.height());
-    let curved = outlines.iter().filter(|(path, _)| path.iter().any(|part| is_curved(&part))).count();
+    let curved = outlines.iter().filter(|outline| outline.path.iter().any(|part| is_curved(&part))).count();
     if curved > 0 {
         drawn.redrawing.curves = Some((curved, tolerance));
     }
-    for (path, line) in outlines {
+    let boundaries = outlines.iter().all(Outline::is_boundary);
+    for outline in outlines {
+        let line = outline.meant(boundaries);
         let [mut first, mut at] = [Point::ZERO; 2];
         let mut side = |from: Point, to: Point| {
             let ends = [from, to].map(|end| Vec2::new(end.x, end.y));
-            drawn.push(Line { ends, ..*line });
+            drawn.push(Line { ends, ..line });
         };
-        kurbo::flatten(path, tolerance.max(f64::MIN_POSITIVE), |part| match part {
+        kurbo::flatten(&outline.path, tolerance.max(f64::MIN_POSITIVE), |part| match part {
             PathEl::MoveTo(to) => [first, at] = [to; 2],
             PathEl::ClosePath => {
                 side(at, first);

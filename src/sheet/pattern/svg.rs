@@ -121,7 +121,7 @@ impl<'d, 'input> Drawing<'d, 'input> {
         let angle = angle(letter, here.style.opacity * here.style.stroke_opacity, colour);
         let ends = [Vec2::zeros(); 2];
         let line = Line { ends, letter, angle, auxiliary, contour: false, at: node.range().start, flipped: true };
-        self.outlines.push((here.placed() * outline, line));
+        self.outlines.push(Outline { path: here.placed() * outline, line, named: false });
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::analysis::path::check_drive;
 use crate::model::{Drive, DriveError, Driven};
+use crate::output::figure::rounded;
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{PathSpec, StudyKind};
@@ -50,6 +51,26 @@ pub(super) fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     Err(context.file.error_at(span, message, help).into())
 }
 
+/// Checks that the values of which the study lists the states lie on the way of the drive. A sheet that snaps under
+/// loads may also need loads of the other sign.
+pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    if spec.at.is_empty() {
+        return Ok(());
+    }
+    let drive = drive(context, spec)?;
+    let drawn = matches!(spec.start.as_deref(), None | Some(StartSpec::Drawn));
+    // a drive without effect is refused elsewhere
+    let Ok([from, to]) = check_drive(context.assembly, &drive, !drawn) else { return Ok(()) };
+    let before = |value: f64| drive.quantity != Driven::Loads && (value - from) * (to - from) < 0.0;
+    let beyond = |value: f64| (value - to) * (to - from) > 0.0;
+    let Some(off) = spec.at.iter().find(|value| before(value.0) || beyond(value.0)) else { return Ok(()) };
+    let [value, from, to] = [off.0, from, to].map(|number| rounded(number, 12));
+    let message =
+        format!("the drive `{}` does not pass {value}: it goes from {from} to {to}", drive_name(context, spec));
+    let help = format!("give values between {from} and {to}, or drive it farther");
+    Err(context.file.error_at(off.span(), message, help).into())
+}
+
 /// Returns the place in the scene of the value to which the study drives; that of its kind for a study of kind `fold`.
 fn end(context: &Context<'_>, spec: &PathSpec) -> Range<usize> {
     let name = drive_name(context, spec);
@@ -64,8 +85,8 @@ pub(super) fn has_effect(context: &Context<'_>, spec: &PathSpec) -> Result<(), S
     if !matches!(drive.quantity, Driven::Stiffness(_) | Driven::Rest) {
         return Ok(());
     }
-    let (message, help) = match check_drive(context.assembly, &drive) {
-        Ok(()) => return Ok(()),
+    let (message, help) = match check_drive(context.assembly, &drive, false) {
+        Ok(_) => return Ok(()),
         // the path may begin in another state
         Err(DriveError::NoWay { .. }) if drive.quantity == Driven::Rest => return Ok(()),
         Err(error @ DriveError::RestAsDrawn) => {

@@ -2,6 +2,7 @@
 
 use crate::output::counted;
 use crate::output::figure::rounded;
+use crate::study::sides::RestSides;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +18,9 @@ pub struct PathSummary {
     pub to: Option<f64>,
     /// The branches: number 0 begins at the start, the others at branch points.
     pub branches: Vec<PathBranchSummary>,
+    /// Values of `at` that no branch passes: their rows are missing.
+    #[serde(default)]
+    pub not_passed: Vec<f64>,
 }
 
 /// A branch of equilibria.
@@ -41,6 +45,9 @@ pub struct PathBranchSummary {
     pub work: Option<f64>,
     /// Energy of its last state; null where it has none.
     pub energy: Option<f64>,
+    /// The sides to which its last state is folded; null where the path does not arrive at all rest angles.
+    #[serde(default)]
+    pub rest_sides: Option<RestSides>,
     /// Whether all its states are stable while the driven value is held.
     pub stable: bool,
     /// Largest scaled residual of its states; null where it has none.
@@ -82,6 +89,12 @@ pub struct HalfBranchesSummary {
     pub expected: Option<usize>,
     /// The reason for which there may be others than those found; null where there are none.
     pub reason: Option<String>,
+    /// Number of those found that have no branch of their own, since they are on a branch that is listed before.
+    #[serde(default)]
+    pub known: usize,
+    /// Number of those found that have none, since the path was interrupted or has as many branches as may be, 64.
+    #[serde(default)]
+    pub left: usize,
 }
 
 /// The first state of a branch whose faces pass through each other.
@@ -110,9 +123,15 @@ impl PathSummary {
             });
             let number = if self.branches.len() > 1 { format!("branch {}: ", branch.branch) } else { String::new() };
             let end = format!("{number}{} at {} {}", branch.end, self.drive, value(branch.drive));
-            format!("{end}, {}{}", counted(branch.steps, "state"), events.collect::<String>())
+            let folded = branch.rest_sides.map_or(String::new(), |sides| {
+                format!(", energy {:.9e}, {}", branch.energy.unwrap_or(f64::NAN), sides.said())
+            });
+            format!("{end}{folded}, {}{}", counted(branch.steps, "state"), events.collect::<String>())
         });
-        branches.collect::<Vec<_>>().join("; ")
+        let said = branches.collect::<Vec<_>>().join("; ");
+        let listed = |value: &f64| if self.driven == "rest" { percent(*value) } else { rounded(*value, 6) };
+        let missing: Vec<String> = self.not_passed.iter().map(listed).collect();
+        if missing.is_empty() { said } else { format!("{said}; not passed: {} of `at`", missing.join(", ")) }
     }
 }
 
@@ -123,11 +142,12 @@ pub(super) fn percent(part: f64) -> String {
 
 /// Describes how many half branches were found; empty where none were sought.
 fn half_branches(sought: Option<&HalfBranchesSummary>) -> String {
-    match sought {
-        None => String::new(),
-        Some(HalfBranchesSummary { found, expected: Some(expected), .. }) => {
-            format!(", {found} of {expected} half branches")
-        }
-        Some(HalfBranchesSummary { found, .. }) => format!(", {found} half branches, not all directions sought"),
-    }
+    let Some(HalfBranchesSummary { found, expected, known, left, .. }) = sought else { return String::new() };
+    let found = match expected {
+        Some(expected) => format!(", {found} of {expected} half branches"),
+        None => format!(", {found} half branches, not all directions sought"),
+    };
+    let unlisted = [(known, "on a branch that is listed before"), (left, "not followed: too many, or interrupted")];
+    let unlisted = unlisted.iter().filter(|(count, _)| **count > 0).map(|(count, why)| format!(" ({count} {why})"));
+    unlisted.fold(found, |said, why| said + &why)
 }

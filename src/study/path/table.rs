@@ -57,7 +57,8 @@ fn row(
         residual_force: Some(point.residual_force),
         residual_length: Some(point.residual_length),
     };
-    let event = point.event.map_or(Value::Empty, |event| Value::Word(event_word(event)));
+    // a column of words, also where no state is an event
+    let event = Value::Word(point.event.map_or("", event_word));
     let ratios = ratios::of_state(assembly, spec.response.as_ref(), coordinates);
     let state = states::with_all_angles(context, &point.state);
     let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);

@@ -2,6 +2,7 @@
 
 use crate::output::counted;
 use crate::study::energies::EnergySummary;
+use crate::study::sides::RestSides;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -152,9 +153,7 @@ impl RelaxSummary {
         let left =
             self.branch_choice.map_or(String::new(), |BranchChoiceSummary { hinges, on_rest_side, soft_bars }| {
                 let by = if soft_bars { ", by bars that stretch at first" } else { "" };
-                format!(
-                    ", the start was left with {on_rest_side} of {hinges} hinges on the side of their rest angles{by}"
-                )
+                format!(", the start was left with {}{by}", RestSides { hinges, on_rest_side }.said())
             });
         format!(
             "energy {:.9e}, {iterations}, {residuals}{by_way_of}{unstable}{crossing}{branching}{left}",

@@ -189,7 +189,7 @@ fn half_branches_of_drums_are_those_of_group_theory() {
                 if 2 * k == drum.sides { 2 } else { 2 * drum.sides / greatest_common_divisor(drum.sides, k) };
             match point.branch_point.unwrap().half_branches {
                 Some(known @ HalfBranches { expected: Some(_), .. }) => {
-                    let right = HalfBranches { found: expected, expected: Some(expected) };
+                    let right = HalfBranches { found: expected, expected: Some(expected), ..known };
                     assert_eq!(known, right, "{drum:?} at {}, wave number {k}", point.drive);
                     told.insert((drum.sides, k));
                 }

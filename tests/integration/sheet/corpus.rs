@@ -423,7 +423,11 @@ fn other_drawings_are_refused_by_name() {
             on_square("<line x1=\"1\" x2=\"3\" y2=\"5\" stroke=\"blue\"/>"),
             ":3:1: the line from (1, 0) to (3, 5), or a",
         ),
-        (Svg, on_square("<line x2=\"10\" y2=\"10\" stroke=\"black\"/>"), ":3:1: the line from (0, 0) to (10, 10): "),
+        (
+            Svg,
+            on_square("<line x2=\"10\" y2=\"10\" stroke=\"black\"/><line x1=\"10\" y2=\"10\" stroke=\"blue\"/>"),
+            ":3:1: the line from (0, 0) to (10, 10): ",
+        ),
         (
             Svg,
             on_square("<rect x=\"3\" y=\"3\" width=\"2\" height=\"2\" stroke=\"red\"/>"),

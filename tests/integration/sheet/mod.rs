@@ -7,6 +7,7 @@ mod corpus;
 mod flattening;
 mod frames;
 mod mesh_files;
+mod plain_drawings;
 pub(crate) mod random_patterns;
 mod symmetry_types;
 pub(crate) mod targets;

@@ -25,6 +25,8 @@ pub(super) struct Exit {
     /// The first state beyond it, with the reference of the problem there.
     pub first: PathState,
     pub reference: Vec<f64>,
+    /// The branch on which the branch point was found, and the number of its state there.
+    pub found_at: (usize, usize),
     /// The branch that began here.
     pub taken_by: Option<usize>,
 }

@@ -98,6 +98,10 @@ pub struct HalfBranches {
     /// Number of all; `None` where it is not known, since more than two eigenvalues vanish at once or since what tells
     /// directions from each other is rounding error. Then they were sought along null vectors only.
     pub expected: Option<usize>,
+    /// Number of those found that have no branch of their own, since they are on a branch that was followed before.
+    pub known: usize,
+    /// Number of those found that have none, since there are as many branches as may be, or the observer stopped.
+    pub left: usize,
 }
 
 /// A state of a branch.

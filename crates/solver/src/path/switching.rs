@@ -21,9 +21,14 @@ impl<P: ParametrizedProblem> Run<'_, P> {
                 if self.branches.len() >= self.follower.settings.branches || self.is_interrupted() {
                     return Ok(());
                 }
-                let Exit { first, reference, .. } = self.exits[exit].clone();
+                let Exit { first, reference, found_at: (branch, state), .. } = self.exits[exit].clone();
                 self.follower.go_to(&first, &reference)?;
-                if !self.is_known(&first)? {
+                let is_known = self.is_known(&first)?;
+                if let Some(counted) = self.branches[branch].half_branches.get_mut(&state) {
+                    counted.left -= 1;
+                    counted.known += usize::from(is_known);
+                }
+                if !is_known {
                     self.leave(exit)?;
                 }
             }
@@ -47,10 +52,16 @@ impl<P: ParametrizedProblem> Run<'_, P> {
             self.points.push(point.clone());
             self.follower.go_to(&point.state, &point.reference)?;
             let Leaving { firsts, expected } = self.follower.leaving(&point.state, multiplicity)?;
-            let found = HalfBranches { found: firsts.len(), expected };
+            let found = HalfBranches { found: firsts.len(), expected, known: 0, left: firsts.len() };
             self.branches[number].half_branches.insert(state, found);
             for (first, reference) in firsts {
-                self.exits.push(Exit { point: point.clone(), first, reference, taken_by: None });
+                self.exits.push(Exit {
+                    point: point.clone(),
+                    first,
+                    reference,
+                    found_at: (number, state),
+                    taken_by: None,
+                });
             }
         }
         Ok(())
