@@ -91,7 +91,8 @@ class Sheet:
             faces: Polygons as vertex numbers, counter-clockwise. In a periodic sheet the vertices include the copies in
                 neighbouring cells that the faces of one cell need; they are found by the lattice vectors.
             lattice: The two lattice vectors, shape (2, 3); left out: the sheet is finite.
-            edges: Ends of edges, shape (m, 2), to which `letters` and `fold_angles` belong.
+            edges: Ends of edges, shape (m, 2), to which `letters` and `fold_angles` belong. In space an edge of no face is a bar, as
+                cables and struts are; three faces and more may share an edge.
             letters: Letter of each edge as in FOLD: "M" mountain, "V" valley, "F" flat, "B" boundary, "C" cut, "U" unassigned.
             fold_angles: Fold angle of each edge in radians, positive for valleys; where they differ from the drawn ones they are
                 targets (`rest="target"`). NaN: none.

@@ -211,6 +211,19 @@ pub(super) fn angle_defects(sheet: &Sheet) -> impl Iterator<Item = (usize, f64)>
     inner.map(|(vertex, (sum, _))| (vertex, std::f64::consts::TAU - sum))
 }
 
+impl Info {
+    /// Writes what sheets of one surface do not have.
+    fn write_assembly(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.bars_alone > 0 {
+            writeln!(f, "bars without faces     {}", self.bars_alone)?;
+        }
+        if self.joints > 0 {
+            writeln!(f, "joints                 {} edges of more than two faces", self.joints)?;
+        }
+        Ok(())
+    }
+}
+
 impl fmt::Display for Info {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
@@ -227,12 +240,7 @@ impl fmt::Display for Info {
             "edges                  {} ({creases} creases, {facets} facets, {boundary} boundary{cut})",
             self.edges
         )?;
-        if self.bars_alone > 0 {
-            writeln!(f, "bars without faces     {}", self.bars_alone)?;
-        }
-        if self.joints > 0 {
-            writeln!(f, "edges of several hinges {} (more than two faces meet there)", self.joints)?;
-        }
+        self.write_assembly(f)?;
         writeln!(f, "triangles              {} (of {} polygons)", self.faces, self.polygons)?;
         writeln!(f, "pieces                 {}", self.pieces)?;
         writeln!(f, "Euler characteristic   {}", self.euler_characteristic)?;

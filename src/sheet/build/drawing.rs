@@ -7,6 +7,9 @@ use crate::sheet::cell::Glue;
 use crate::sheet::error::DrawnEdge;
 use std::collections::BTreeMap;
 
+/// An edge of more than two faces, and words for what joins them.
+pub type GluedEdge = ([usize; 2], Vec<Glue>);
+
 /// A mesh as a file draws it, before it becomes a sheet.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
@@ -34,7 +37,7 @@ pub struct Drawing {
     pub fold_angles: Vec<([usize; 2], Option<f64>)>,
     /// What joins the faces of edges of more than two faces, one word for all or for each two neighbours: round the edge from its
     /// end of lower number to the other, in the sense of a right-handed screw, from the face that is listed first.
-    pub glue: Vec<([usize; 2], Vec<Glue>)>,
+    pub glue: Vec<GluedEdge>,
     /// Edges of no face, which have a bar only.
     pub bars: Vec<[usize; 2]>,
     /// Named lists of vertices, as indices into `coords`.

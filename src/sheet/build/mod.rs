@@ -23,7 +23,7 @@ use super::memory::free_memory;
 use crate::math::Vec3;
 pub(crate) use assign::edges_by_drawn_name;
 pub use draw::draw;
-pub use drawing::Drawing;
+pub use drawing::{Drawing, GluedEdge};
 pub(crate) use faces::{listed_order, sides as drawn_sides};
 pub(crate) use identify::{Identified, check_places, coincident};
 pub(crate) use rebuild::rebuild_faces;

@@ -5,6 +5,7 @@ use serde_json::value::RawValue;
 use super::keys::{GLUE, Keys};
 use super::locate::Source;
 use crate::sheet::assignment::Assignment;
+use crate::sheet::build::GluedEdge;
 use crate::sheet::cell::Glue;
 use crate::sheet::error::{Problem, SheetError};
 
@@ -73,11 +74,7 @@ fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignm
 
 /// Reads what joins the faces of edges of more than two faces, an entry for each edge: no word, one, or one for each
 /// face.
-pub(super) fn glue(
-    source: &Source,
-    keys: &Keys,
-    ends: &[[usize; 2]],
-) -> Result<Vec<([usize; 2], Vec<Glue>)>, SheetError> {
+pub(super) fn glue(source: &Source, keys: &Keys, ends: &[[usize; 2]]) -> Result<Vec<GluedEdge>, SheetError> {
     let Some(value) = keys.glue else { return Ok(Vec::new()) };
     let rows = source.list(value, || format!("`{GLUE}`"), "a list of words, lists of words, and nulls")?;
     check_length(source, value, GLUE, rows.len(), ends.len())?;

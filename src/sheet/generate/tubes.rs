@@ -17,9 +17,9 @@ const RING: usize = 6;
 
 /// Two tubes of Miura-ori along x that share a wall of parallelograms, so that three faces meet at its edges.
 ///
-/// Ring `r` is that of `r = 0` moved by `(r b cos f, 0, [r odd] b sin f)`. In it the shared wall has the side
-/// `u = (p, q, 0)` of length `a`, `p = a cos t / cos f`; the first tube has the sides `u` and `v = (p, -q, 0)`, the second
-/// one `u` and `-v`. Both fold together without stretching.
+/// Ring `r` is that of `r = 0` moved by `(r b cos f, [r odd] b sin f, 0)`. The shared wall has the side `u = (0, y, z)` of
+/// length `a`, `y = a cos t / sin f`; the first tube has the sides `u` and `v = (0, y, -z)`, the second one `u` and `-v`.
+/// Both fold together without stretching.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct AlignedTubes {
@@ -30,7 +30,7 @@ pub struct AlignedTubes {
     /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
     #[serde(deserialize_with = "radians")]
     pub sector: f64,
-    /// Angle `f` between the zigzags and the axis in radians, above 0 and below `t`. Default pi/4.
+    /// Angle `f` between the zigzags and the axis in radians, in `(pi/2 - t, pi/2)`. Default pi/4.
     #[serde(deserialize_with = "radians")]
     pub fold: f64,
     /// Number of zigzags along the axis, 1 to 500. Default 2.
@@ -47,13 +47,13 @@ impl AlignedTubes {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
         let t = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
-        let f = angle_between("fold", self.fold, 0.0, t)?;
+        let f = angle_between("fold", self.fold, FRAC_PI_2 - t, FRAC_PI_2)?;
         let cells = count("cells", self.cells, 1, 500)?;
-        let p = a * libm::cos(t) / libm::cos(f);
-        let q = (a * a - p * p).sqrt();
-        let (u, v) = (Vec3::new(p, q, 0.0), Vec3::new(p, -q, 0.0));
+        let y = a * libm::cos(t) / libm::sin(f);
+        let z = (a * a - y * y).sqrt();
+        let (u, v) = (Vec3::new(0.0, y, z), Vec3::new(0.0, y, -z));
         let ring = [Vec3::zeros(), u, u + v, v, u - v, -v];
-        let place = |r: usize| Vec3::new(r as f64 * b * libm::cos(f), 0.0, (r % 2) as f64 * b * libm::sin(f));
+        let place = |r: usize| Vec3::new(r as f64 * b * libm::cos(f), (r % 2) as f64 * b * libm::sin(f), 0.0);
         let walls = [[0, 1], [1, 2], [2, 3], [3, 0], [1, 4], [4, 5], [5, 0]];
         let face = |r: usize, [i, j]: [usize; 2]| {
             [i, j, j + RING, i + RING].map(|vertex| Corner::home(r * RING + vertex)).to_vec()

@@ -29,8 +29,17 @@ fn is_shared(vertex: usize) -> bool {
     vertex % RING < 2
 }
 
+/// MERLIN's two tubes of rhombi with an angle of 60 degrees, whose zigzags stand at 0.6 rad to the axis; vertices and
+/// faces are in the order of the generator.
 fn tubes() -> Sheet {
-    generate(&Pattern::AlignedTubes(AlignedTubes { fold: 0.6, ..AlignedTubes::default() })).unwrap()
+    let generated = generate(&Pattern::AlignedTubes(AlignedTubes::default())).unwrap();
+    let p = 0.5 / 0.6f64.cos();
+    let (u, v) = (Vec3::new(p, (1.0 - p * p).sqrt(), 0.0), Vec3::new(p, -(1.0 - p * p).sqrt(), 0.0));
+    let ring = [Vec3::zeros(), u, u + v, v, u - v, -v];
+    let place = |r: usize| Vec3::new(r as f64 * 0.6f64.cos(), 0.0, (r % 2) as f64 * 0.6f64.sin());
+    let coords = (0..30).map(|k| ring[k % RING] + place(k / RING)).collect();
+    let faces = generated.polygons.iter().map(|face| face.iter().map(|corner| corner.vertex).collect()).collect();
+    build(&Drawing { coords, faces, ..Drawing::default() }).unwrap()
 }
 
 /// The two aligned tubes apart, each with a wall of its own where they touch: the second tube has the vertices from 30
@@ -170,7 +179,7 @@ fn hessian(sheet: &Sheet, [bars, creases, facets]: [f64; 3]) -> DenseMatrix {
 /// says nothing of them. Tolerance: differences of 1e-5 are good to 1e-9 of the largest eigenvalue.
 #[test]
 fn modes_of_coupled_tubes() {
-    let sheet = tubes();
+    let sheet = generate(&Pattern::AlignedTubes(AlignedTubes::default())).unwrap();
     let expected = eigenvalues(hessian(&sheet, [1e5, 0.1, 1.0]));
     let assembly = Assembly::patch(sheet, [1, 1]).bars(1e5).creases(0.1).facets(1.0).rest(Rest::Drawn);
     let found = modes(&assembly.build().unwrap(), 12, &mut || true).unwrap();
@@ -234,6 +243,54 @@ fn files_of_assemblies() {
     let lines = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0 }\n[[study]]\nname = \"t\"\nkind = \"trace\"\n";
     let scene = Scene::on("mesh = \"flaps.fold\"", lines).with("flaps.fold", text);
     scene.refused("studies of kind trace fold surfaces with two sides exactly");
+}
+
+/// Claim: scenes mean all hinges of an edge: a lock without an angle keeps the drawn state of the three flaps, a row of a
+/// table is for each of them, and a lock with an angle is refused; a bar without a face has no stiffness from the
+/// material. The stiffness of the shared bar is that of three triangles. Tolerance: rounding; 1e-9 of the energy.
+#[test]
+fn what_scenes_say_of_joints() {
+    let drawn = [0.0, 1.5, 3.5];
+    let text = fold::write(&flaps(drawn, "null"));
+    let scene = |lines: &str, creases: &str| {
+        let terms =
+            format!("[energy]\nbars = {{ stiffness = inf }}\ncreases = {{ {creases}, rest = \"flat\" }}\n{lines}");
+        let study = "[[study]]\nname = \"r\"\nkind = \"relax\"\n";
+        Scene::on("mesh = \"flaps.fold\"", &format!("{terms}{study}")).with("flaps.fold", text.clone())
+    };
+    let energy = |scene: Scene| scene.converged().relax("r").energy.total;
+    let angles = [PI - 1.5, PI - 2.0, PI - (TAU - 3.5)];
+    let held = angles.iter().map(|angle| angle.powi(2)).sum::<f64>();
+    let locked = energy(scene("[[lock]]\ncrease = [0, 1]\n", "stiffness = 2.0"));
+    assert!((locked - held).abs() < 1e-9, "{locked} {held}");
+    scene("[[lock]]\ncrease = [0, 1]\nangle = 1.0\n", "stiffness = 2.0").refused("the crease has 3 hinges");
+    let listed = scene("", "stiffness = { file = \"k.csv\" }").with("k.csv", "i,j,stiffness\n0,1,2.0\n");
+    assert!((energy(listed) - 3.0 * (PI / 3.0).powi(2)).abs() < 1e-9);
+
+    let material = foldwell::model::Material { young: 3.0, poisson: 0.25, thickness: 0.1, crease_length: None };
+    let sheet = flaps(drawn, "null");
+    let assembly = Assembly::patch(sheet.clone(), [1, 1]).material(material).creases(1.0).build().unwrap();
+    let bars = material.bars(&assembly);
+    let section = |edge: usize| {
+        let ends = [sheet.edges[edge].key.i, sheet.edges[edge].key.j];
+        let beside = sheet
+            .triangles
+            .iter()
+            .filter(|triangle| ends.iter().all(|end| triangle.corners.iter().any(|corner| corner.vertex == *end)));
+        beside
+            .map(|triangle| {
+                let [a, b, c] = triangle.corners.map(|corner| sheet.vertices[corner.vertex]);
+                let perimeter = (b - a).norm() + (c - b).norm() + (a - c).norm();
+                (b - a).cross(&(c - a)).norm() * 0.1 / (0.75 * perimeter)
+            })
+            .sum::<f64>()
+    };
+    for (edge, found) in sheet.edges.iter().enumerate().filter(|(_, found)| found.key.has_bar()) {
+        assert!((bars.of(edge) - 3.0 * section(edge)).abs() < 1e-14, "{:?}", found.key);
+    }
+    let alone = "{\"vertices_coords\": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], \"faces_vertices\": [[0,1,2]], \"edges_vertices\": [[1,3]]}";
+    let lines = "[material]\nyoung = 1.0\npoisson = 0.3\nthickness = 0.1\n[energy]\nbars = {}\n[[study]]\nname = \"r\"\nkind = \"relax\"\n";
+    Scene::on("mesh = \"alone.fold\"", lines).with("alone.fold", alone).refused("which has no face");
 }
 
 /// A chain of bars without faces between two supports, drawn as a circular arc.
