@@ -71,7 +71,7 @@ fn black_is_a_boundary_beside_creases() {
 #[test]
 fn holes_are_counted() {
     let side = |x: usize, y: usize, [dx, dy]: [usize; 2]| {
-        let rim = x + dx == 0 || y + dy == 0 || (dx == 0 && x % 3 == 0) || (dy == 0 && y % 3 == 0);
+        let rim = x + dx == 0 || y + dy == 0 || (dx == 0 && x.is_multiple_of(3)) || (dy == 0 && y.is_multiple_of(3));
         let inner = (dx == 0 && (1..=2).contains(&x) && y == 1) || (dy == 0 && (1..=2).contains(&y) && x == 1);
         ([[x, y], [x + dx, y + dy]], if rim || inner { 1 } else { 2 })
     };
