@@ -11,7 +11,7 @@ use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let sheet: Sheet = foldwell::sheet::fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold")?;
-    let lock = EdgeKey { i: 0, j: 1, shift: [0, 0] };
+    let lock = EdgeKey { i: 0, j: 1, shift: [0, 0], round: 0 };
     let assembly = Assembly::screw(sheet, [6, 6]).lock(lock, None).build()?;
     let stop = Stop { arc_length: Some(60.0), ..Stop::default() };
     let options = TraceOptions { max_step: 0.1, tolerance: 3e-14, branch: None, stop };
