@@ -143,7 +143,7 @@ pub struct Sheet {
     pub targets: BTreeMap<EdgeKey, f64>,
     /// Stiffnesses that the file gives its edges.
     pub stiffness: MeshStiffness,
-    /// What joins the faces of edges of more than two faces, in the order of [`Drawing::glue`](super::Drawing::glue);
+    /// What joins the faces of edges of more than two faces, in the order of [`Drawing::glue`](super::build::Drawing::glue);
     /// edges whose faces all fold are left out.
     pub glue: BTreeMap<EdgeKey, Vec<Glue>>,
     /// Named lists of vertices (`foldwell:names`), each vertex as the corner that the file draws.
