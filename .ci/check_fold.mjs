@@ -66,6 +66,11 @@ function edges(file, fold, flat) {
     check(file, Math.sign(angle) === { M: -1, V: 1 }[letter] || ((flat || "FUBJ".includes(letter)) && Math.abs(angle) <= TOLERANCE),
       `edge ${edge}: "${letter}" at ${angle} degrees`);
     if (border) return;
+    const has = (face) => face.some((v, k) => name([v, face[(k + 1) % face.length]]) === name(edge));
+    if (fold.faces_vertices.filter(has).length > 2) {
+      check(file, letter === "U" && angle === null, `edge ${edge} of more than two faces: "${letter}" at ${angle} degrees`);
+      return;
+    }
     // edges_faces[0] lies left of the edge; in a valley the two normals point into each other
     const [left, right] = own.edges_faces[at].map((face) => normals[face]);
     if (!left || !right) return;
