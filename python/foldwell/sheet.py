@@ -119,7 +119,8 @@ class Sheet:
         vectors = None if lattice is None else matrix(lattice, "lattice", (2, 3), rows=2)
         ends = [] if edges is None else integers(edges, "edges", "two vertex numbers for each edge").tolist()
         words = [] if letters is None else [str(letter) for letter in letters]
-        angles = [] if fold_angles is None else of_edges([np.nan if angle is None else angle for angle in fold_angles], "fold_angles").tolist()
+        given = [] if fold_angles is None else np.atleast_1d(np.asarray(fold_angles, dtype=object)).tolist()
+        angles = of_edges([np.nan if angle is None else angle for angle in given], "fold_angles").tolist()
         for name, values in (("letters", words), ("fold_angles", angles)):
             if values and len(values) != len(ends):
                 raise ValueError(f"{name} has shape ({len(values)},), expected ({len(ends)},), one for each of `edges`")
