@@ -71,6 +71,17 @@ pub enum AssemblyError {
         /// The name of the edge that was given.
         key: EdgeKey,
     },
+    /// An angle is given for the lock of a crease at which more than two faces meet.
+    #[error(
+        "the crease [{}, {}, {}, {}] has {hinges} hinges: a lock without an angle keeps all of them",
+        key.i, key.j, key.shift[0], key.shift[1]
+    )]
+    SeveralHinges {
+        /// The name of the edge that was given.
+        key: EdgeKey,
+        /// Number of its hinges.
+        hinges: usize,
+    },
     /// No copy of a crease is between two faces of the tiling.
     #[error(
         "no copy of the crease [{}, {}, {}, {}] folds in a patch of {} x {} cells",

@@ -280,6 +280,10 @@ impl Builder {
         }
         let mut terms = Terms { bars, creases, facets, mass, laws: given.laws, ..Terms::default() };
         for (crease, angle) in given.locks {
+            let hinges = bare.sheet().hinges_round(crease);
+            if angle.is_some() && hinges > 1 {
+                return Err(AssemblyError::SeveralHinges { key: crease, hinges });
+            }
             let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.start_angles()[k])));
             terms.locks.extend(locked);
         }
@@ -373,11 +377,9 @@ fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
 /// Returns the numbers of the tiling's edges that are copies of this crease and have a hinge.
 fn copies(assembly: &Assembly, crease: EdgeKey) -> Result<Vec<usize>, AssemblyError> {
     let (sheet, tiling, angles) = (assembly.sheet(), assembly.tiling(), assembly.drawn_angles());
-    sheet.crease(crease).ok_or(AssemblyError::NoCrease { key: crease })?;
-    let name = EdgeKey::new(crease.ends()[0], crease.ends()[1]).0;
+    let name = sheet.edges[sheet.crease(crease).ok_or(AssemblyError::NoCrease { key: crease })?].key;
     let is_copy = |k: &usize| sheet.edges[tiling.edges[*k].edge].key.whole() == name && !angles[*k].is_nan();
-    let found = (0..tiling.edges.len()).filter(is_copy);
-    let found: Vec<usize> = found.collect();
+    let found: Vec<usize> = (0..tiling.edges.len()).filter(is_copy).collect();
     if found.is_empty() { Err(AssemblyError::NoCopy { key: crease, cells: tiling.cells }) } else { Ok(found) }
 }
 

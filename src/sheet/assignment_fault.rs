@@ -40,7 +40,7 @@ pub enum AssignmentFault {
         /// Fold angle that the vertices draw, in degrees.
         drawn: f64,
     },
-    /// What joins the faces of an edge is given for an edge of one or two faces, or for another number of faces.
+    /// The words of `foldwell:glue` for an edge are not one, or one for each face, or the edge has two faces or less.
     #[error(
         "`foldwell:glue` has {found} word(s) for edge {edge} of {faces} face(s); it is for edges of three or more faces, \
          and has one word, or one for each face"

@@ -46,7 +46,7 @@ pub enum EdgeKind {
     Boundary,
 }
 
-/// What joins two neighbouring faces of an edge of more than two faces (`foldwell:glue`).
+/// The joint between two neighbouring faces of an edge of more than two faces (`foldwell:glue`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Glue {
@@ -143,8 +143,8 @@ pub struct Sheet {
     pub targets: BTreeMap<EdgeKey, f64>,
     /// Stiffnesses that the file gives its edges.
     pub stiffness: MeshStiffness,
-    /// What joins the faces of edges of more than two faces, in the order of [`Drawing::glue`](super::build::Drawing::glue);
-    /// edges whose faces all fold are left out.
+    /// Joints between neighbouring faces of edges of more than two faces, one for each face, in the order of
+    /// [`Drawing::glue`](super::build::Drawing::glue). At edges that are left out all faces fold.
     pub glue: BTreeMap<EdgeKey, Vec<Glue>>,
     /// Named lists of vertices (`foldwell:names`), each vertex as the corner that the file draws.
     pub names: BTreeMap<String, Vec<Corner>>,
@@ -186,9 +186,10 @@ impl EdgeKey {
         }
     }
 
-    /// Returns the name of the edge without the number of a hinge round it.
+    /// Returns the name of the edge, in the direction of [`EdgeKey::new`] and without the number of a hinge round it.
     pub fn whole(self) -> Self {
-        Self { round: 0, ..self }
+        let [a, b] = self.ends();
+        Self::new(a, b).0
     }
 
     /// Whether the edge has its bar here: an edge of more than two faces is listed for each of its hinges.
@@ -263,8 +264,7 @@ impl Sheet {
 
     /// Returns the number of the crease with this name, in either direction; `None` if there is no such crease.
     pub fn crease(&self, key: EdgeKey) -> Option<usize> {
-        let [a, b] = key.ends();
-        let (key, _) = EdgeKey::new(a, b);
+        let key = key.whole();
         self.edges.iter().position(|edge| edge.key == key && edge.kind == EdgeKind::Crease)
     }
 

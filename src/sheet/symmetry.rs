@@ -65,7 +65,8 @@ pub struct Symmetry {
 /// A linear map of the lattice onto itself.
 type LatticeMap = [[i32; 2]; 2];
 
-/// Returns the symmetries of order two of a periodic sheet, one of each kind and direction; none for other sheets.
+/// Returns the symmetries of order two of a periodic sheet, one of each kind and direction; none for finite
+/// sheets and for those that are no surface with two sides.
 ///
 /// ```
 /// use foldwell::sheet::generate::{Pattern, generate};
@@ -78,7 +79,7 @@ type LatticeMap = [[i32; 2]; 2];
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn symmetries(sheet: &Sheet) -> Vec<Symmetry> {
-    let Some(lattice) = sheet.lattice else { return vec![] };
+    let Some(lattice) = sheet.lattice.filter(|_| sheet.is_surface()) else { return vec![] };
     let frame = Frame::new(sheet, lattice);
     let mut found = Vec::new();
     for map in frame.lattice_maps() {

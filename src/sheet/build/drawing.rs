@@ -7,7 +7,7 @@ use crate::sheet::cell::Glue;
 use crate::sheet::error::DrawnEdge;
 use std::collections::BTreeMap;
 
-/// An edge of more than two faces, and words for what joins them.
+/// The ends of an edge of more than two faces, and the words for the joints between these.
 pub type GluedEdge = ([usize; 2], Vec<Glue>);
 
 /// A mesh as a file draws it, before it becomes a sheet.
@@ -35,8 +35,9 @@ pub struct Drawing {
     pub assignments: Vec<([usize; 2], Assignment)>,
     /// Fold angles that the file gives to drawn edges, in radians, valley positive; `None` where it gives none.
     pub fold_angles: Vec<([usize; 2], Option<f64>)>,
-    /// What joins the faces of edges of more than two faces, one word for all or for each two neighbours: round the edge from its
-    /// end of lower number to the other, in the sense of a right-handed screw, from the face that is listed first.
+    /// Words for the joints between neighbouring faces of edges of more than two faces: one word for all joints of an
+    /// edge, or one for each. They begin at the face that is listed first and go on in the sense of a right-handed screw
+    /// along the edge, from its end of lower number to the other.
     pub glue: Vec<GluedEdge>,
     /// Edges of no face, which have a bar only.
     pub bars: Vec<[usize; 2]>,

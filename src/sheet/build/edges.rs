@@ -43,7 +43,7 @@ pub(super) fn sides(drawn: &Drawing, polygons: &[Vec<Corner>]) -> Result<Vec<Sid
 /// Returns for each polygon whether it lies in a piece that has one side only, as a Moebius band has. Edges of more than
 /// two faces say nothing of sides.
 fn one_sided(polygons: usize, sides: &[Side]) -> Vec<bool> {
-    // each polygon has two faces, one for each of its sides, which edges join to those of its neighbours
+    // the upper and the lower side of each polygon, 2 f and 2 f + 1, which edges join to those of its neighbours
     let joined = sides.iter().filter_map(|side| match side.uses[..] {
         [(f, a), (g, b)] => Some((f, g, usize::from(a == b))),
         _ => None,
@@ -93,8 +93,8 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
     }
 }
 
-/// Returns what joins the faces of edges of more than two faces, by the names of the edges; those of which the drawing
-/// says nothing are left out.
+/// Returns the joints between the faces of edges of more than two faces, by the names of the edges; those of which the
+/// drawing says nothing are left out.
 pub(super) fn glue(drawn: &Drawing, cell: &Identified, sides: &[Side]) -> Result<BTreeMap<EdgeKey, Vec<Glue>>, Defect> {
     let mut found = BTreeMap::new();
     for (e, (ends, words)) in drawn.glue.iter().enumerate().filter(|(_, (_, words))| !words.is_empty()) {

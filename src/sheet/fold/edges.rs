@@ -72,7 +72,7 @@ fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignm
     rows.iter().enumerate().map(read).collect()
 }
 
-/// Reads what joins the faces of edges of more than two faces, an entry for each edge: no word, one, or one for each
+/// Reads the joints between the faces of edges of more than two faces, an entry for each edge: no word, one, or one for each
 /// face.
 pub(super) fn glue(source: &Source, keys: &Keys, ends: &[[usize; 2]]) -> Result<Vec<GluedEdge>, SheetError> {
     let Some(value) = keys.glue else { return Ok(Vec::new()) };

@@ -7,7 +7,7 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
-/// Key of what joins the faces of edges of more than two faces.
+/// Key of the joints between the faces of edges of more than two faces.
 pub(super) const GLUE: &str = "foldwell:glue";
 
 /// The keys of a frame and their values, not parsed yet. Keys that are there twice are refused, and those whose value

@@ -112,7 +112,7 @@ fn listed(sheet: &Sheet, drawn: &Drawing, corners: &[Corner]) -> Vec<[usize; 2]>
     list
 }
 
-/// Returns what joins the faces of an edge as JSON text.
+/// Returns the joints between the faces of an edge as JSON text.
 fn glue(words: Option<&Vec<Glue>>) -> String {
     serde_json::json!(words).to_string()
 }

@@ -7,11 +7,12 @@
 use crate::common::{Scene, eigenvalues};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
 use foldwell::analysis::modes::modes;
-use foldwell::model::Assembly;
+use foldwell::model::{Assembly, AssemblyError};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::AlignedTubes;
-use foldwell::sheet::{EdgeKind, Glue, fold, welded};
+use foldwell::sheet::symmetry::symmetries;
+use foldwell::sheet::{EdgeKey, EdgeKind, Glue, fold, welded};
 use foldwell::{Pattern, RIGID, Rest, Sheet, generate, relax};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -267,6 +268,15 @@ fn what_scenes_say_of_joints() {
     let listed = scene("", "stiffness = { file = \"k.csv\" }").with("k.csv", "i,j,n1,n2,stiffness\n0,1,0,0,2.0\n");
     assert!((energy(listed) - 3.0 * (PI / 3.0).powi(2)).abs() < 1e-9);
 
+    for [i, j] in [[0, 1], [1, 0]] {
+        let lock = |angle| {
+            let bare = Assembly::patch(flaps(drawn, "null"), [1, 1]).bars(RIGID).creases(2.0);
+            bare.lock(EdgeKey { i, j, shift: [0, 0], round: 0 }, angle).build()
+        };
+        assert_eq!(lock(None).unwrap().terms().locks.len(), 3);
+        assert!(matches!(lock(Some(1.0)), Err(AssemblyError::SeveralHinges { hinges: 3, .. })));
+    }
+
     let material = foldwell::model::Material { young: 3.0, poisson: 0.25, thickness: 0.1, crease_length: None };
     let sheet = flaps(drawn, "null");
     let assembly = Assembly::patch(sheet.clone(), [1, 1]).material(material).creases(1.0).build().unwrap();
@@ -384,6 +394,7 @@ fn a_block_of_cells_has_the_bands_of_its_torus() {
         [coords, above].concat()
     );
     let sheet = fold::parse(&text, "block.fold").unwrap();
+    assert!(symmetries(&sheet).is_empty(), "symmetries say nothing of hinges round an edge");
     let stiffnesses = Stiffnesses { bars: 30.0, creases: 1.0, facets: 2.0 };
     let matrix = DynamicalMatrix::new(&sheet, stiffnesses).unwrap();
     let waves = [[0.0, 0.0], [PI, 0.0], [0.0, PI], [PI, PI]];
