@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -28,14 +28,15 @@ static AT_WORK: AtomicUsize = AtomicUsize::new(0);
 
 /// A message of the working thread to the waiting one.
 enum News<R> {
-    Progress(Progress),
+    /// A step, and what the working thread waits for: it goes on when this sender is dropped.
+    Progress(Progress, Sender<()>),
     /// It has ended, with its result or the words of a panic.
     Done(Result<R, String>),
 }
 
 /// Does some work on a thread of its own while the calling thread, which lets other Python threads run, calls
-/// `progress(study, step, of, residual)` after every step. If the callback returns `False`, the work stops after its
-/// step and its result is returned. At Ctrl-C, at an exception in the callback and when the interpreter ends, the
+/// `progress(study, step, of, residual)` after every step, for which the work waits. If the callback returns `False`, the
+/// work stops after that step and its result is returned. At Ctrl-C, at an exception in the callback and when the interpreter ends, the
 /// exception is raised at once; the thread, which never touches Python, ends after its step by itself.
 pub(crate) fn watched<R: Send + 'static>(
     py: Python<'_>,
@@ -61,7 +62,9 @@ fn spawned<R: Send + 'static>(
     let worker = move || {
         let observer = |progress: &Progress| {
             if listens {
-                let _ = sender.send(News::Progress(progress.clone())); // nobody hears it after Ctrl-C
+                let (told, waiting) = mpsc::channel();
+                let _ = sender.send(News::Progress(progress.clone(), told)); // nobody hears it after Ctrl-C
+                let _ = waiting.recv();
             }
             if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
@@ -81,11 +84,12 @@ fn wait<R>(
     stop: &AtomicBool,
 ) -> PyResult<Result<R, String>> {
     loop {
-        let heard = match receiver.recv_timeout(PATIENCE) {
+        let step = match receiver.recv_timeout(PATIENCE) {
             Ok(News::Done(done)) => return Ok(done),
-            Ok(News::Progress(progress)) => Python::attach(|py| tell(py, callback, &progress)),
-            Err(_) => Python::attach(|py| py.check_signals().map(|()| true)),
+            Ok(News::Progress(progress, told)) => Some((progress, told)), // dropped when it is known whether to stop
+            Err(_) => None,
         };
+        let heard = Python::attach(|py| tell(py, callback, step.as_ref().map(|(progress, _)| progress)));
         let ending = ENDING.load(Ordering::Relaxed).then(|| PyKeyboardInterrupt::new_err("the interpreter ends"));
         if !matches!(heard, Ok(true)) || ending.is_some() {
             stop.store(true, Ordering::Relaxed);
@@ -95,10 +99,10 @@ fn wait<R>(
     }
 }
 
-/// Calls the callback; returns whether to go on.
-fn tell(py: Python<'_>, callback: Option<&Py<PyAny>>, progress: &Progress) -> PyResult<bool> {
+/// Looks at signals and calls the callback after a step; returns whether to go on.
+fn tell(py: Python<'_>, callback: Option<&Py<PyAny>>, step: Option<&Progress>) -> PyResult<bool> {
     py.check_signals()?;
-    let Some(callback) = callback else { return Ok(true) };
+    let (Some(callback), Some(progress)) = (callback, step) else { return Ok(true) };
     let residual = Some(progress.residual).filter(|residual| !residual.is_nan());
     let said = callback.bind(py).call1((&progress.study, progress.step, progress.of, residual))?;
     Ok(said.is_none() || said.is_truthy()?)

@@ -58,8 +58,13 @@ def test_a_sweep_in_memory_has_the_same_table(executor, expected, monkeypatch):
 
 
 def test_a_sweep_in_memory_stops():
-    """Points that were not computed are missing; a scene that is wrong is refused before."""
-    found = fw.sweep(SCENE, AXES, threads=1, progress=lambda study, step, of, residual: step < 3)
+    """Points that were not computed are missing, however slow who stops it is; a wrong scene is refused before."""
+
+    def stops_after_three(study, step, of, residual):
+        time.sleep(0.1)  # longer than a point
+        return step < 3
+
+    found = fw.sweep(SCENE, AXES, threads=1, progress=stops_after_three)
     assert found.status.values.ravel().tolist().count("missing") == 15
     with pytest.raises(fw.SceneError, match="point 1"):
         fw.sweep(SCENE, {"energy.bars.stiffness": [1.0, -2.0]})
