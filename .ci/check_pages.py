@@ -49,6 +49,7 @@ FIGURES = {
     "miura-response": "miura-response/elastic-ratios",
     "miura-spectrum": "miura-spectrum/spectrum",
     "miura-weight": "miura-weight/hung",
+    "miura-yield": "miura-yield/pulled-reaction",
     "near-cross-wells": "near-cross-wells/wells",
     "quad-cell-folded": "quad-cell/roll",
     "quad-cell-strain": "quad-cell/roll-strain",

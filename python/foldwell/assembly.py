@@ -69,8 +69,8 @@ class Assembly:
         *,
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
-        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
-        material: Table | None = None, units: Table | None = None,
+        laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
+        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
         pins: Tables | None = None, loads: Tables | ArrayLike | None = None, pressures: Tables | None = None,
         parts: Tables | None = None, springs: Tables | None = None,
     ) -> Assembly:
@@ -101,6 +101,7 @@ class Assembly:
                 "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`; a formula, `{"kind": "formula", "torque":
                 "k*sinh(m - m0)"}`; a measured curve, `{"kind": "table", "points": np.column_stack([angle, torque])}`, angles in
                 radians off rest.
+            yields: Where elements yield, by term: `{"creases": {"moment": 0.2, "hardening": 0.05}, "bars": {"force": 3.0}}`.
             mass: Mass, from which frequencies and weight follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
             material: The elastic sheet from which stiffnesses follow that are not given: `{"young": 1400.0, "poisson": 0.4,
                 "thickness": 0.3, "crease_length": 20.0}`; without `crease_length` there are no creases. Left out: none.
@@ -128,8 +129,8 @@ class Assembly:
         lattice: str = "free",
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
-        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
-        material: Table | None = None, units: Table | None = None,
+        laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
+        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
@@ -150,8 +151,8 @@ class Assembly:
         *,
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
-        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
-        material: Table | None = None, units: Table | None = None,
+        laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
+        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a screw: one cell repeated by two commuting screw motions, so that the sheet can be a cylinder.
 
@@ -180,8 +181,8 @@ class Assembly:
         inwards: bool | None = None,
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
-        laws: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None, mass: Table | None = None,
-        material: Table | None = None, units: Table | None = None,
+        laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
+        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a tube: the sheet rolled up, or drawn as a tube, and closed so that the cell `seam` lies on cell (0, 0).
 
@@ -476,6 +477,7 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     keys = [(term, key, given.get(name), name) for term, (key, name) in own.items()]
     keys += [("creases", "fraction", given.get("fraction"), "fraction")]
     keys += [(term, "law", law, f"laws[{term!r}]") for term, law in given.get("laws", {}).items()]
+    keys += [(term, "yield", bound, f"yields[{term!r}]") for term, bound in given.get("yields", {}).items()]
     curves = {term for term, law in given.get("laws", {}).items() if isinstance(law, Mapping) and law.get("kind") == "table"}
     for term, key, value, name in keys:
         if value is not None and term not in {*energy, *curves} and "material" not in given:

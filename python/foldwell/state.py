@@ -112,6 +112,19 @@ class State:
         """Torque of the hinge of each edge, the derivative of its energy by the fold angle, shape (m,)."""
         return self._inner.torques
 
+    @property
+    def memory(self) -> dict[str, NDArray[np.float64]]:
+        """What edges keep that have yielded, each of shape (m,): `plastic_angle` of hinges in radians, `plastic_strain` of bars, and
+        how far these have gone in all, `plastic_angle_total` and `plastic_strain_total`. Empty where nothing yields.
+
+        Example:
+            >>> import foldwell as fw
+            >>> sheet = fw.Assembly.patch(fw.generate("miura"), (2, 2), creases=1.0, rest="flat", yields={"creases": {"moment": 0.1}})
+            >>> sorted(fw.relax(sheet).state.memory)
+            ['plastic_angle', 'plastic_angle_total']
+        """
+        return self._inner.memory
+
     def save(self, path: str | os.PathLike[str], *, thickness: float | None = None) -> None:
         """Writes the state in the format of the ending.
 
@@ -157,7 +170,7 @@ class State:
             grid.point_data[name] = numbers
         faces, inner = len(self.faces), self._inner
         floats = {"fold_angle": inner.fold_angles, "rest_angle": inner.rest_angles, "strain": inner.strains}
-        floats |= {"energy": inner.energies, "tension": inner.tensions, "torque": inner.torques}
+        floats |= {"energy": inner.energies, "tension": inner.tensions, "torque": inner.torques, **inner.memory}
         for name, values in floats.items():
             grid.cell_data[name] = np.concatenate([np.full(faces, np.nan), values])
         grid.cell_data["self_intersecting"] = np.concatenate([self.self_intersecting, np.zeros(len(self.edges), np.uint8)])

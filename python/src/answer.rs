@@ -6,7 +6,7 @@ use crate::errors::raise;
 use crate::state::State;
 use foldwell::Picture;
 use foldwell::analysis::restored;
-use foldwell::model::Configuration;
+use foldwell::model::{Configuration, Memory};
 use foldwell::output::{Artifact, Column, OutputError, files};
 use foldwell::run::{Computed, RunError};
 use numpy::PyArrayMethods;
@@ -42,7 +42,7 @@ enum Values<'py> {
 /// Content of a pickled file: name, bytes, and the columns of a table.
 type KeptFile<'py> = (String, Bound<'py, PyBytes>, Option<Vec<(String, Values<'py>)>>);
 /// Content of a pickled configuration: coordinates, angles and tensions.
-type KeptState<'py> = (Array1<'py, f64>, Array1<'py, f64>, Option<Array1<'py, f64>>);
+type KeptState<'py> = (Array1<'py, f64>, Array1<'py, f64>, Option<Array1<'py, f64>>, Vec<[f64; 2]>);
 /// Content of a pickled answer: summary as JSON, assembly, states by file, other files, and final configuration.
 type Kept<'py> = (String, Py<Assembly>, Vec<(String, Py<State>)>, Vec<KeptFile<'py>>, Option<KeptState<'py>>);
 
@@ -188,8 +188,9 @@ impl Answer {
             kept.push((name.clone(), PyBytes::new(py, &bytes), columns));
         }
         let array = |values: &Vec<f64>| vector(py, values.clone());
-        let saved = answer.saved.as_ref().map(|Configuration { coordinates, angles, tension }| {
-            (array(coordinates), array(angles), tension.as_ref().map(array))
+        let saved = answer.saved.as_ref().map(|Configuration { coordinates, angles, tension, memory }| {
+            let memory = memory.iter().map(|memory| [memory.kept, memory.gone]).collect();
+            (array(coordinates), array(angles), tension.as_ref().map(array), memory)
         });
         let states = answer.states.iter().map(|(name, state)| (name.clone(), state.clone_ref(py))).collect();
         let state = (answer.summary.clone(), answer.assembly.clone_ref(py), states, kept, saved);
@@ -211,9 +212,11 @@ impl Answer {
             let columns = columns.map(|all| all.into_iter().map(column).collect::<PyResult<_>>()).transpose()?;
             kept.push((name, File::Kept { bytes: bytes.as_bytes().to_vec(), columns }));
         }
-        let configuration = |(coordinates, angles, tension): KeptState<'_>| {
+        let configuration = |(coordinates, angles, tension, memory): KeptState<'_>| {
             let tension = tension.map(|tension| tension.to_vec()).transpose()?;
-            PyResult::Ok(Configuration { coordinates: coordinates.to_vec()?, angles: angles.to_vec()?, tension })
+            let memory = memory.into_iter().map(|[kept, gone]| Memory { kept, gone }).collect();
+            let state = Configuration::new(coordinates.to_vec()?, angles.to_vec()?, tension);
+            PyResult::Ok(Configuration { memory, ..state })
         };
         Ok(Self { summary, assembly, states, files: kept, saved: saved.map(configuration).transpose()? })
     }

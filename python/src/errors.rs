@@ -55,6 +55,7 @@ pub(crate) fn argument(key: &str) -> String {
         ["energy", "facets", "rest", ..] => "facet_rest".to_owned(),
         ["study", _, "kind"] => String::new(), // it is in the name of the function
         ["energy", term, "law", ..] => format!("laws.{term}"),
+        ["energy", term, "yield", ref rest @ ..] => [&["yields", term], rest].concat().join("."),
         ["energy", term, "stiffness", ..] => term.to_owned(),
         ["energy", _, ref rest @ ..] | ["sheet", ref rest @ ..] | ["study", _, ref rest @ ..] => rest.join("."),
         [list @ ("lock" | "pin" | "load" | "pressure" | "part" | "spring" | "drive"), ref rest @ ..] => {

@@ -9,6 +9,7 @@ use foldwell::output::vtk;
 use foldwell::run;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A state of a sheet; see `foldwell.State`.
@@ -93,6 +94,11 @@ impl State {
     #[getter]
     fn torques<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
         view(slf, &slf.get().picture.torque)
+    }
+
+    #[getter]
+    fn memory<'py>(slf: &Bound<'py, Self>) -> BTreeMap<&'static str, Array1<'py, f64>> {
+        slf.get().picture.memory.iter().map(|(name, values)| (*name, view(slf, values))).collect()
     }
 
     /// Returns the addresses of the positions and the fold angles in the memory of the library.

@@ -238,7 +238,7 @@ impl Track<'_> {
         let last = self.known.last().map(|(_, at)| at.clone());
         let coordinates = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
         let angles = model.angles_among(&self.angles);
-        let (here, is_held_as_drawn) = model.enter_well_held(&Configuration { coordinates, angles, tension: None });
+        let (here, is_held_as_drawn) = model.enter_well_held(&Configuration::new(coordinates, angles, None));
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
         let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));
         let (relaxed, model, _) = relax_model(model, start, self.options, observe)

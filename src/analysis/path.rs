@@ -4,7 +4,7 @@ mod stops;
 
 use super::relax::relax_model;
 use super::state::State;
-use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Element, Gauge, Model};
+use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Element, Gauge, Memory, Model};
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::path::{
     self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathObserver, PathSettings, PathState,
@@ -28,11 +28,13 @@ pub struct PathOptions {
     pub stop: PathStop,
     /// Driven values of which the states are points of their own, wherever the path passes them.
     pub at: Vec<f64>,
+    /// Driven values to which the drive goes, one after the other, when it has come to the end that it names: to and fro.
+    pub then: Vec<f64>,
 }
 
 impl Default for PathOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-12, max_step: 0.05, switch: false, stop: PathStop::default(), at: vec![] }
+        Self { tolerance: 1e-12, max_step: 0.05, switch: false, stop: PathStop::default(), at: vec![], then: vec![] }
     }
 }
 
@@ -73,6 +75,8 @@ pub struct PathPoint {
     pub tension: Vec<f64>,
     /// Angles of the elements, from which angles continue; see [`crate::model::Model::angles`].
     pub angles: Vec<f64>,
+    /// What elements remember that yield; see [`Configuration::memory`].
+    pub memory: Vec<Memory>,
     /// Largest unbalanced force over the largest force of an element.
     pub residual_force: f64,
     /// Largest gap of a stiff measure over its natural size.
@@ -207,6 +211,7 @@ pub fn resume_path(
         tolerance: options.tolerance,
         max_step: options.max_step,
         target: driven.target(),
+        then: options.then.iter().map(|value| driven.parameter_at(*value)).collect(),
         listed: options.at.iter().map(|value| driven.parameter_at(*value)).collect(),
         length: options.stop.arc_length.unwrap_or(f64::INFINITY),
         switch: options.switch,
@@ -214,33 +219,47 @@ pub fn resume_path(
     };
     let settings = PathSettings { steps: options.stop.states.unwrap_or(settings.steps), ..settings };
     let mut watch = Stops::new(assembly, &options.stop, driven.has_conjugate_limits());
-    let mut seen = Seen { measures, branches: vec![], callbacks };
+    let ways = [driven.parameter(), settings.target].into_iter().chain(settings.then.iter().copied()).collect();
+    let mut seen = Seen { measures, ways, branches: vec![], callbacks };
     let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut seen, record)?;
-    Ok(found.iter().zip(seen.branches).map(|(branch, points)| ended(branch, points, &options.stop)).collect())
+    Ok(found.iter().zip(seen.branches).map(|(branch, (points, _))| ended(branch, points, &options.stop)).collect())
 }
 
 /// The points of a path so far, and its observers.
 struct Seen<'a> {
     /// Number of stiff measures of the model without drive.
     measures: usize,
-    branches: Vec<Vec<PathPoint>>,
+    /// Parameters at the beginning and at the ends of all ways.
+    ways: Vec<f64>,
+    /// The states of each branch, and how often its parameter has begun to go another way.
+    branches: Vec<(Vec<PathPoint>, usize)>,
     callbacks: PathCallbacks<'a>,
 }
 
 impl PathObserver<DrivenModel> for Seen<'_> {
     fn state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) -> bool {
         self.known_state(branch, driven, marked);
-        self.branches[branch].last().is_none_or(|point| (self.callbacks.observe)(branch, point))
+        self.branches[branch].0.last().is_none_or(|point| (self.callbacks.observe)(branch, point))
     }
 
     fn known_state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) {
-        self.branches.resize_with(self.branches.len().max(branch + 1), Vec::new);
-        self.branches[branch].push(point(driven, marked, self.measures));
+        self.branches.resize_with(self.branches.len().max(branch + 1), Default::default);
+        let turns = self.branches[branch].1;
+        let part = part_of(&self.ways, turns, marked.state.parameter);
+        let (points, turns) = &mut self.branches[branch];
+        points.push(PathPoint { part, ..point(driven, marked, self.measures) });
+        *turns += usize::from(marked.mark == Some(PathMark::Turned));
     }
 
     fn entry(&mut self, entry: &PathEntry) -> bool {
         (self.callbacks.keep)(entry)
     }
+}
+
+/// The part of all ways that a parameter has gone on the way after this many turns.
+fn part_of(ways: &[f64], turns: usize, parameter: f64) -> f64 {
+    let lengths = || ways.windows(2).map(|way| (way[1] - way[0]).abs());
+    (lengths().take(turns).sum::<f64>() + (parameter - ways[turns]).abs()) / lengths().sum::<f64>()
 }
 
 /// Checks that a drive has an effect on an assembly, in its drawn state or, `restarted`, in another one. Returns the
@@ -294,13 +313,14 @@ fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoi
     PathPoint {
         arc_length: state.arc_length,
         drive: driven.drive_at(*parameter),
-        part: driven.part_at(*parameter),
+        part: f64::NAN,
         reaction: driven.reaction_of(*conjugate, *parameter),
         work: driven.work_of(*work, *conjugate, *parameter),
         state: State::new(&driven.model, x, tension),
         x: x.clone(),
         tension: tension[..measures].to_vec(),
         angles: angles_at(&driven.model, x),
+        memory: driven.model.memory_after(x),
         residual_force: state.residual_force,
         residual_length: state.residual_length,
         negative_eigenvalues: state.negative_eigenvalues,
@@ -325,7 +345,7 @@ fn event(driven: &DrivenModel, mark: PathMark) -> Option<PathEvent> {
         (PathMark::BranchPoint(_), _) => Some(PathEvent::BranchPoint),
         (PathMark::Watched(CROSSING), _) => Some(PathEvent::SelfIntersection),
         (PathMark::Watched(_), _) => Some(PathEvent::Stop),
-        (PathMark::Listed, _) => None,
+        (PathMark::Listed | PathMark::Turned, _) => None,
     }
 }
 
@@ -357,8 +377,8 @@ fn ended(branch: &Branch, mut points: Vec<PathPoint>, stop: &PathStop) -> PathBr
 impl PathPoint {
     /// The state as one from which another analysis begins.
     pub fn configuration(&self) -> Configuration {
-        let Self { state, angles, tension, .. } = self;
-        Configuration { coordinates: state.coordinates.clone(), angles: angles.clone(), tension: Some(tension.clone()) }
+        let Self { state, angles, tension, memory, .. } = self.clone();
+        Configuration { coordinates: state.coordinates, angles, tension: Some(tension), memory }
     }
 }
 

@@ -4,8 +4,8 @@
 //! stiffness, those of finite stiffness follow from the geometry, and those of rigid measures from the balance of
 //! forces.
 
-use super::state::State;
-use crate::model::{Assembly, Configuration, Gauge, Model, TermKind};
+use super::state::{REMEMBERED, State};
+use crate::model::{Assembly, Configuration, Element, Gauge, Memory, Model, TermKind};
 use crate::solver::{HessianKind, Linearization, Problem, Residuals, Start, Tangent};
 
 /// Scaled disagreement of a measure and its tension up to which the tension is taken.
@@ -162,6 +162,19 @@ fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_la
     // what supports carry stands on no edge
     tensions.resize(by_law.len(), 0.0);
     tensions
+}
+
+/// What the elements of a model remember, from what is known of it on every edge by name; nothing where that is not
+/// finite.
+pub fn memory(model: &Model, on_edges: impl Fn(&str) -> Vec<f64>) -> Vec<Memory> {
+    let known = REMEMBERED.map(|names| names.map(&on_edges));
+    let number = |values: &[f64], edge: usize| Some(values[edge]).filter(|number| number.is_finite()).unwrap_or(0.0);
+    let remembered = model.elements().filter(Element::remembers).map(|element| {
+        let [kept, gone] = &known[usize::from(element.is_angle())];
+        let at = |edge| Memory { kept: number(kept, edge), gone: number(gone, edge) };
+        element.edge().map_or_else(Memory::default, at)
+    });
+    remembered.collect()
 }
 
 /// The angles from which those of the model continue: those of the edges where they are known, its own elsewhere.

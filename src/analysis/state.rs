@@ -1,9 +1,14 @@
 //! A state of a model, edge by edge and as a cylinder.
 
 use crate::math::Vec3;
-use crate::model::{Domain, Drawn, Element, Model, TermKind, Turns};
+use crate::model::{Domain, Drawn, Element, Memory, Model, TermKind, Turns};
 use crate::solver::Problem;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+
+/// The numbers that bars, and hinges, remember that yield: what they keep, and how far that has gone in all.
+pub(crate) const REMEMBERED: [[&str; 2]; 2] =
+    [["plastic_strain", "plastic_strain_total"], ["plastic_angle", "plastic_angle_total"]];
 
 /// What an equilibrium, or any other state, looks like.
 ///
@@ -51,6 +56,12 @@ pub struct State {
     pub tension: Vec<f64>,
     /// Torque of the hinges over every edge, that of a lock included; NaN where there is none.
     pub torque: Vec<f64>,
+    /// Energy that elements have dissipated which yield, on all the way to this state.
+    pub dissipated: f64,
+    /// What elements remember that yield, on every edge; NaN where there is none. Strains of bars by `plastic_strain` and
+    /// `plastic_strain_total`, angles of hinges in radians by `plastic_angle` and `plastic_angle_total`: what they keep
+    /// without force, and the sum of the sizes of all its changes. Empty where nothing yields.
+    pub memory: BTreeMap<&'static str, Vec<f64>>,
 }
 
 impl State {
@@ -69,6 +80,8 @@ impl State {
             energy: vec![0.0; edges],
             tension: unknown(),
             torque: unknown(),
+            dissipated: 0.0,
+            memory: BTreeMap::new(),
         }
     }
 
@@ -114,6 +127,7 @@ impl State {
             return;
         }
         let Some(edge) = element.edge() else { return self.add_own(element.name(), energy) };
+        let energy = energy - self.remember(element, edge, value);
         let rest = element.spring.rest;
         if element.is_angle() {
             (self.fold_angle[edge], self.rest_angle[edge]) = (value, rest);
@@ -129,6 +143,20 @@ impl State {
             TermKind::Facets => self.energy_facets += energy,
             TermKind::Locks | TermKind::Own | TermKind::Pressure => debug_assert!(energy == 0.0, "locks are rigid"),
         }
+    }
+
+    /// Notes what an element remembers after a value; returns what it has dissipated.
+    fn remember(&mut self, element: &Element<'_>, edge: usize, value: f64) -> f64 {
+        if !element.remembers() {
+            return 0.0;
+        }
+        let (Memory { kept, gone }, dissipated) = element.after(value);
+        let edges = self.energy.len();
+        for (name, number) in REMEMBERED[usize::from(element.is_angle())].into_iter().zip([kept, gone]) {
+            self.memory.entry(name).or_insert_with(|| vec![f64::NAN; edges])[edge] = number;
+        }
+        self.dissipated += dissipated;
+        dissipated
     }
 
     /// Adds to the energy of a term of one's own.

@@ -7,7 +7,7 @@
 
 use super::boundary::Drawn;
 use super::element::{Elements, Term, TermKind};
-use super::law::{Spring, Stored};
+use super::law::{Law, Spring, Stored, TermLaw};
 use super::measure::{FoldAngle, Length};
 use super::part::Part;
 use super::problem::{Bodies, Conditions, Equations, Gauge, Model, Support};
@@ -63,9 +63,11 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
     let in_part = inside_a_part(&terms.parts, tiling.positions.len());
     let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
     if let Some(given) = &terms.bars {
-        stiff.push(bars(drawn, tiling, given, &in_part, Stored::Spring));
-        if let Some(law) = &terms.laws.bars {
-            soft.push(bars(drawn, tiling, given, &in_part, Stored::BeyondSpring(law.clone())));
+        let moves = |edge: usize| !in_part(&tiling.edges[edge].ends);
+        stiff.push(bars(drawn, tiling, given, moves, Stored::Spring));
+        for law in terms.laws.bars.iter().flat_map(TermLaw::different) {
+            let has_law = |edge| moves(edge) && law_of(&terms.laws.bars, edge) == Some(law);
+            soft.push(bars(drawn, tiling, given, has_law, Stored::BeyondSpring(law.clone())));
         }
     }
     let softest = softest(terms);
@@ -73,19 +75,22 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
         (TermKind::Creases, EdgeKind::Crease, &terms.creases, &terms.laws.creases),
         (TermKind::Facets, EdgeKind::Facet, &terms.facets, &terms.laws.facets),
     ];
-    for (term, kind, hinges, law) in kinds {
+    for (term, kind, hinges, laws) in kinds {
         let Some(hinges) = hinges else { continue };
         let has_tension = |edge: usize| {
             let stiffness = hinges.stiffness.of(edge);
             stiffness > STIFF_RATIO * softest || stiffness.is_infinite()
         };
         let here = |edge: usize| tiling.edges[edge].kind == kind && moves(edge) && !hinges.stiffness.of(edge).is_nan();
-        let of_soft = law.clone().map_or(Stored::Spring, Stored::Law);
-        soft.push(hinge_term(term, drawn, tiling, |edge| here(edge) && !has_tension(edge), hinges, of_soft));
+        let springs = |edge| here(edge) && !has_tension(edge) && law_of(laws, edge).is_none();
+        soft.push(hinge_term(term, drawn, tiling, springs, hinges, Stored::Spring));
         stiff.push(hinge_term(term, drawn, tiling, |edge| here(edge) && has_tension(edge), hinges, Stored::Spring));
-        if let Some(law) = law {
-            let elastic = |edge| here(edge) && has_tension(edge) && hinges.stiffness.of(edge).is_finite();
-            soft.push(hinge_term(term, drawn, tiling, elastic, hinges, Stored::BeyondSpring(law.clone())));
+        for law in laws.iter().flat_map(TermLaw::different) {
+            let has_law = |edge| here(edge) && law_of(laws, edge) == Some(law);
+            let alone = |edge| has_law(edge) && !has_tension(edge);
+            soft.push(hinge_term(term, drawn, tiling, alone, hinges, Stored::Law(law.clone())));
+            let beyond = |edge| has_law(edge) && has_tension(edge) && hinges.stiffness.of(edge).is_finite();
+            soft.push(hinge_term(term, drawn, tiling, beyond, hinges, Stored::BeyondSpring(law.clone())));
         }
     }
     if !terms.locks.is_empty() {
@@ -108,6 +113,11 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
         list.springs.extend(&own.springs);
     }
     [soft, stiff]
+}
+
+/// Returns the law of the element at an edge; `None` if it is a linear spring.
+fn law_of(laws: &Option<TermLaw>, edge: usize) -> Option<&Arc<dyn Law>> {
+    laws.as_ref().and_then(|laws| laws.of(edge))
 }
 
 /// Returns the force on every coordinate, zero where a pin takes it up. The list is empty if all forces are zero, so
@@ -150,12 +160,12 @@ fn bars(
     drawn: &Drawn,
     tiling: &Tiling,
     bars: &Bars,
-    rigid: impl Fn(&[Site]) -> bool,
+    moves: impl Fn(usize) -> bool,
     stored: Stored,
 ) -> (Term<Length, 2, 6>, Vec<Spring>) {
     let edges = tiling.edges.iter().enumerate();
     let wanted = |stiffness: f64| if stored.is_law() { stiffness.is_finite() } else { !stiffness.is_nan() };
-    let there = edges.filter(|(edge, tiled)| tiled.bar && !rigid(&tiled.ends) && wanted(bars.stiffness.of(*edge)));
+    let there = edges.filter(|(edge, tiled)| tiled.bar && moves(*edge) && wanted(bars.stiffness.of(*edge)));
     let bar = |(edge, tiled): (usize, &TiledEdge)| {
         let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
         ((tiled.ends, Some(edge)), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })

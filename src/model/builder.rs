@@ -5,7 +5,7 @@ use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
 use super::domain::OwnDomain;
-use super::law::{Law, Laws};
+use super::law::{Laws, TermLaw};
 use super::mass::Mass;
 use super::material::Material;
 use super::part::Part;
@@ -14,7 +14,6 @@ use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
 use crate::math::Vec3;
 use crate::sheet::{EdgeKey, EdgeKind, Sheet};
-use std::sync::Arc;
 
 /// The rest angles of the creases, or of the facets, in radians.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -224,24 +223,25 @@ impl Builder {
         self
     }
 
-    /// Gives the bars that are not rigid a law other than that of a spring; their stiffness is that at rest.
+    /// Gives the bars that are not rigid a law other than that of a spring, or a list with one for each edge of the tiling;
+    /// their stiffness is that at rest.
     #[must_use]
-    pub fn bar_law(mut self, law: impl Law + 'static) -> Self {
-        self.given.laws.bars = Some(Arc::new(law));
+    pub fn bar_law(mut self, law: impl Into<TermLaw>) -> Self {
+        self.given.laws.bars = Some(law.into());
         self
     }
 
     /// Gives the creases that are not rigid a law, as [`Builder::bar_law`] does.
     #[must_use]
-    pub fn crease_law(mut self, law: impl Law + 'static) -> Self {
-        self.given.laws.creases = Some(Arc::new(law));
+    pub fn crease_law(mut self, law: impl Into<TermLaw>) -> Self {
+        self.given.laws.creases = Some(law.into());
         self
     }
 
     /// Gives the diagonals of polygons that are not rigid a law, as [`Builder::bar_law`] does.
     #[must_use]
-    pub fn facet_law(mut self, law: impl Law + 'static) -> Self {
-        self.given.laws.facets = Some(Arc::new(law));
+    pub fn facet_law(mut self, law: impl Into<TermLaw>) -> Self {
+        self.given.laws.facets = Some(law.into());
         self
     }
 
@@ -278,7 +278,8 @@ impl Builder {
         if let Some(mass) = mass.map(Mass::amount).filter(|mass| !(*mass > 0.0 && mass.is_finite())) {
             return Err(AssemblyError::Mass { mass });
         }
-        let mut terms = Terms { bars, creases, facets, mass, laws: given.laws, ..Terms::default() };
+        let mut terms =
+            Terms { bars, creases, facets, mass, laws: given.laws.for_edges(bare.edges())?, ..Terms::default() };
         for (crease, angle) in given.locks {
             let hinges = bare.sheet().hinges_round(crease);
             if angle.is_some() && hinges > 1 {

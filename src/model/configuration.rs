@@ -1,5 +1,6 @@
 //! A state of a sheet as a value: what answers, files and restarts hold, and what every analysis begins from.
 
+use super::law::Memory;
 use super::problem::Model;
 use crate::solver::{Problem, Start};
 use serde::{Deserialize, Serialize};
@@ -16,9 +17,17 @@ pub struct Configuration {
     /// Tensions of the stiff measures of the model; `None` where they are not known.
     #[serde(default)]
     pub tension: Option<Vec<f64>>,
+    /// What the elements remember that have a memory, as those that yield, in the order of the model; empty where none has.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub memory: Vec<Memory>,
 }
 
 impl Configuration {
+    /// A state whose elements remember nothing.
+    pub fn new(coordinates: Vec<f64>, angles: Vec<f64>, tension: Option<Vec<f64>>) -> Self {
+        Self { coordinates, angles, tension, memory: vec![] }
+    }
+
     /// The tensions; none where they are not known.
     pub fn tensions(&self) -> &[f64] {
         self.tension.as_deref().unwrap_or_default()
@@ -27,14 +36,14 @@ impl Configuration {
     /// The same state, whose tensions are not known.
     #[must_use]
     pub fn without_tension(&self) -> Self {
-        Self { coordinates: self.coordinates.clone(), angles: self.angles.clone(), tension: None }
+        Self { tension: None, ..self.clone() }
     }
 }
 
 impl Model {
     /// The state with these unknowns, where the angles of hinges last continued, and these tensions.
     pub fn configuration(&self, x: &[f64], tension: Option<Vec<f64>>) -> Configuration {
-        Configuration { coordinates: self.coordinates(x), angles: self.angles(), tension }
+        Configuration { coordinates: self.coordinates(x), angles: self.angles(), tension, memory: self.memory_after(x) }
     }
 
     /// Makes a state the reference state: coordinates held against drift keep the values that they have in it, and
@@ -42,6 +51,7 @@ impl Model {
     /// has stiff measures.
     pub fn enter(&mut self, state: &Configuration) -> Start {
         self.set_angles(&state.angles);
+        self.set_memory(&state.memory);
         let x = self.start_from(state.coordinates.clone());
         let measures = self.compliance().len();
         Start { x, tension: state.tension.clone().filter(|tension| tension.len() == measures) }

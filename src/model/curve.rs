@@ -1,6 +1,6 @@
 //! Laws of what an element is off its rest value: a hinge of an angle, a bar of a strain.
 
-use super::law::Law;
+use super::law::{Law, Memory};
 use std::fmt;
 
 /// The energy of a hinge by the angle, or of a bar by the strain, that it is off rest; both in units of the spring
@@ -8,15 +8,45 @@ use std::fmt;
 pub trait ForceCurve: fmt::Debug + Send + Sync {
     /// Returns the energy and its first two derivatives, that is torque and stiffness. The energy is 0 at 0.
     fn at(&self, off: f64) -> [f64; 3];
+
+    /// Returns the curve of an element with this memory; see [`Law::remembering`].
+    fn remembering(&self, _memory: Memory) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
+    /// Returns the memory of an element that has gone to a value; see [`Law::after`].
+    fn after(&self, _off: f64) -> Memory {
+        Memory::default()
+    }
+
+    /// Returns what an element with the memory of this curve has dissipated; see [`Law::dissipated`].
+    fn dissipated(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The law of a hinge whose torque follows a curve: `phi = f(m - rest)`, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfAngle<C>(pub C);
 
-impl<C: ForceCurve> Law for OfAngle<C> {
+impl<C: ForceCurve + 'static> Law for OfAngle<C> {
     fn at(&self, angle: f64, rest: f64) -> [f64; 3] {
         self.0.at(angle - rest)
+    }
+
+    fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
+        Some(Box::new(OfAngle(self.0.remembering(memory)?)))
+    }
+
+    fn after(&self, angle: f64, rest: f64) -> Memory {
+        self.0.after(angle - rest)
+    }
+
+    fn dissipated(&self, _rest: f64) -> f64 {
+        self.0.dissipated()
     }
 }
 
@@ -24,9 +54,21 @@ impl<C: ForceCurve> Law for OfAngle<C> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfStrain<C>(pub C);
 
-impl<C: ForceCurve> Law for OfStrain<C> {
+impl<C: ForceCurve + 'static> Law for OfStrain<C> {
     fn at(&self, length: f64, rest: f64) -> [f64; 3] {
         of_stretch(rest, self.0.at((length - rest) / rest))
+    }
+
+    fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
+        Some(Box::new(OfStrain(self.0.remembering(memory)?)))
+    }
+
+    fn after(&self, length: f64, rest: f64) -> Memory {
+        self.0.after((length - rest) / rest)
+    }
+
+    fn dissipated(&self, rest: f64) -> f64 {
+        rest * rest * self.0.dissipated()
     }
 
     fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {

@@ -1,7 +1,7 @@
 //! Terms of the energy: lists of elements with the same measure; and the elements of a model, each with a spring law.
 
 use super::domain::{Domain, Site};
-use super::law::{Spring, Stored};
+use super::law::{Memory, Spring, Stored};
 use super::measure::Measure;
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
@@ -200,6 +200,8 @@ pub struct Element<'a> {
     pub spring: Spring,
     /// Its angle in the last accepted state, in radians; not a number for a length.
     pub(super) last: f64,
+    /// What it remembers.
+    pub(super) memory: Memory,
     pub(super) domain: &'a Domain,
     pub(super) term: &'a dyn Elements,
     /// Its number in the term.
@@ -243,14 +245,25 @@ impl<'a> Element<'a> {
         continued(self.last, self.term.value(self.index, self.domain, x))
     }
 
-    /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value.
+    /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value. The energy is what
+    /// it stores and has dissipated.
     pub fn response(&self, value: f64) -> [f64; 3] {
-        self.term.stored().at(value, self.spring)
+        self.term.stored().at(value, self.spring, self.memory)
+    }
+
+    /// Whether its law has a memory.
+    pub(crate) fn remembers(&self) -> bool {
+        self.term.stored().remembers()
+    }
+
+    /// Returns its memory after a value, and what it has dissipated up to there.
+    pub(crate) fn after(&self, value: f64) -> (Memory, f64) {
+        self.term.stored().after(value, self.spring, self.memory)
     }
 
     /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
     pub(crate) fn by_rest(&self, value: f64) -> [f64; 3] {
-        self.term.stored().by_rest(value, self.spring)
+        self.term.stored().by_rest(value, self.spring, self.memory)
     }
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
@@ -275,7 +288,7 @@ impl<'a> Element<'a> {
 
     /// Whether it has no force at its rest value, and the stiffness of its spring there.
     pub(crate) fn is_spring_at_rest(&self) -> bool {
-        let [_, force, stiffness] = self.term.stored().at(self.spring.rest, self.spring);
+        let [_, force, stiffness] = self.term.stored().at(self.spring.rest, self.spring, Memory::default());
         let expected = if self.is_beyond_spring() { 0.0 } else { self.spring.stiffness };
         let known = 1e-9 * self.spring.stiffness;
         !self.has_law() || (force.abs() <= known * self.spring.rest.abs() && (stiffness - expected).abs() <= known)

@@ -1,5 +1,7 @@
 //! Springs and other laws: how the energy of an element depends on the value of its measure.
 
+use super::assembly_error::AssemblyError;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
@@ -52,6 +54,33 @@ pub trait Law: fmt::Debug + Send + Sync {
         let [_, force, stiffness] = self.at(value, rest);
         [-force, -stiffness, stiffness]
     }
+
+    /// Returns this law for an element with this memory, if the law has one, as plasticity has; the law itself is that
+    /// of an element that nothing has happened to, whose memory is zero. Its energy is then what the element stores
+    /// *and* has dissipated where its memory is that [after](Law::after) the value.
+    fn remembering(&self, _memory: Memory) -> Option<Box<dyn Law>> {
+        None
+    }
+
+    /// Returns the memory of an element that has gone to a value, steadily from the one at which it got its memory.
+    fn after(&self, _value: f64, _rest: f64) -> Memory {
+        Memory::default()
+    }
+
+    /// Returns what an element with the memory of this law has dissipated, over the spring constant.
+    fn dissipated(&self, _rest: f64) -> f64 {
+        0.0
+    }
+}
+
+/// The memory of an element: the value off rest that it keeps where nothing pulls at it, and the sum of the sizes of all
+/// changes of that value; angles in radians, or strains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// What it keeps.
+    pub kept: f64,
+    /// How far that has gone in all.
+    pub gone: f64,
 }
 
 /// Laws are equal where they are the same object.
@@ -61,22 +90,93 @@ impl PartialEq for dyn Law {
     }
 }
 
+/// The laws of the elements of a term.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TermLaw {
+    /// The same for all elements.
+    Uniform(Arc<dyn Law>),
+    /// One for each edge of the tiling; `None` is a linear spring.
+    PerEdge(Vec<Option<Arc<dyn Law>>>),
+}
+
+impl<L: Law + 'static> From<L> for TermLaw {
+    fn from(law: L) -> Self {
+        Self::Uniform(Arc::new(law))
+    }
+}
+
+impl From<Vec<Option<Arc<dyn Law>>>> for TermLaw {
+    fn from(each: Vec<Option<Arc<dyn Law>>>) -> Self {
+        Self::PerEdge(each)
+    }
+}
+
+impl TermLaw {
+    /// Returns the law of the element at an edge of the tiling; `None` if it is a linear spring.
+    pub fn of(&self, edge: usize) -> Option<&Arc<dyn Law>> {
+        match self {
+            Self::Uniform(law) => Some(law),
+            Self::PerEdge(each) => each[edge].as_ref(),
+        }
+    }
+
+    /// Returns all different laws.
+    pub(super) fn different(&self) -> Vec<&Arc<dyn Law>> {
+        let mut found: Vec<&Arc<dyn Law>> = vec![];
+        let each = match self {
+            Self::Uniform(law) => return vec![law],
+            Self::PerEdge(each) => each,
+        };
+        for law in each.iter().flatten() {
+            if !found.contains(&law) {
+                found.push(law);
+            }
+        }
+        found
+    }
+}
+
 /// The laws of the terms; `None` is a linear spring.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laws {
     /// That of the bars.
-    pub bars: Option<Arc<dyn Law>>,
+    pub bars: Option<TermLaw>,
     /// That of the creases.
-    pub creases: Option<Arc<dyn Law>>,
+    pub creases: Option<TermLaw>,
     /// That of the facets.
-    pub facets: Option<Arc<dyn Law>>,
+    pub facets: Option<TermLaw>,
 }
 
 impl Laws {
+    fn all(&self) -> [(&'static str, &Option<TermLaw>); 3] {
+        [("bars", &self.bars), ("creases", &self.creases), ("facets", &self.facets)]
+    }
+
+    /// Returns the laws if every list has one for each of this many edges.
+    pub(super) fn for_edges(self, edges: usize) -> Result<Self, AssemblyError> {
+        for (_, law) in self.all() {
+            if let Some(TermLaw::PerEdge(each)) = law
+                && each.len() != edges
+            {
+                return Err(AssemblyError::Count { what: "laws", given: each.len(), edges });
+            }
+        }
+        Ok(self)
+    }
+
     /// Returns the name of the first term that has a law; `None` if all are springs.
     pub fn first(&self) -> Option<&'static str> {
-        let all = [("bars", &self.bars), ("creases", &self.creases), ("facets", &self.facets)];
-        all.into_iter().find(|(_, law)| law.is_some()).map(|(name, _)| name)
+        self.all().into_iter().find(|(_, law)| law.is_some()).map(|(name, _)| name)
+    }
+
+    /// Returns the name of the first term of which a law has a memory; `None` if there is none.
+    pub fn first_with_memory(&self) -> Option<&'static str> {
+        let remembers = |law: &&Arc<dyn Law>| law.remembering(Memory::default()).is_some();
+        let found = self
+            .all()
+            .into_iter()
+            .find(|(_, law)| law.as_ref().is_some_and(|law| law.different().iter().any(remembers)));
+        found.map(|(name, _)| name)
     }
 }
 
@@ -98,29 +198,58 @@ impl Stored {
         !matches!(self, Self::Spring)
     }
 
-    /// Returns energy, force and stiffness at a value.
-    pub(super) fn at(&self, value: f64, spring: Spring) -> [f64; 3] {
-        let off = value - spring.rest;
-        let scaled = |unit: [f64; 3]| unit.map(|part| spring.stiffness * part);
+    /// Whether elements have a memory.
+    pub(super) fn remembers(&self) -> bool {
+        self.remembering(Memory::default()).is_some()
+    }
+
+    fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
         match self {
-            Self::Spring => {
-                let force = spring.stiffness * off;
-                [0.5 * force * off, force, spring.stiffness]
-            }
-            Self::Law(law) => scaled(law.at(value, spring.rest)),
-            Self::BeyondSpring(law) => scaled(beyond(law.at(value, spring.rest), [0.5 * off * off, off, 1.0])),
+            Self::Spring => None,
+            Self::Law(law) | Self::BeyondSpring(law) => law.remembering(memory),
         }
     }
 
-    /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
-    pub(super) fn by_rest(&self, value: f64, spring: Spring) -> [f64; 3] {
-        let linear = [spring.rest - value, -1.0, 1.0];
+    /// Returns energy, force and stiffness at a value.
+    pub(super) fn at(&self, value: f64, spring: Spring, memory: Memory) -> [f64; 3] {
+        let off = value - spring.rest;
+        let linear = [0.5 * off * off, off, 1.0];
+        let known = |law: &Arc<dyn Law>| match law.remembering(memory) {
+            Some(law) => law.at(value, spring.rest),
+            None => law.at(value, spring.rest),
+        };
         let unit = match self {
-            Self::Spring => linear,
-            Self::Law(law) => law.by_rest(value, spring.rest),
-            Self::BeyondSpring(law) => beyond(law.by_rest(value, spring.rest), linear),
+            Self::Spring => {
+                let force = spring.stiffness * off;
+                return [0.5 * force * off, force, spring.stiffness];
+            }
+            Self::Law(law) => known(law),
+            Self::BeyondSpring(law) => beyond(known(law), linear),
         };
         unit.map(|part| spring.stiffness * part)
+    }
+
+    /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
+    pub(super) fn by_rest(&self, value: f64, spring: Spring, memory: Memory) -> [f64; 3] {
+        let linear = [spring.rest - value, -1.0, 1.0];
+        let known = |law: &Arc<dyn Law>| match law.remembering(memory) {
+            Some(law) => law.by_rest(value, spring.rest),
+            None => law.by_rest(value, spring.rest),
+        };
+        let unit = match self {
+            Self::Spring => linear,
+            Self::Law(law) => known(law),
+            Self::BeyondSpring(law) => beyond(known(law), linear),
+        };
+        unit.map(|part| spring.stiffness * part)
+    }
+
+    /// Returns the memory after a value, and what has been dissipated up to there.
+    pub(super) fn after(&self, value: f64, spring: Spring, memory: Memory) -> (Memory, f64) {
+        let Some(law) = self.remembering(memory) else { return (memory, 0.0) };
+        let after = law.after(value, spring.rest);
+        let dissipated = self.remembering(after).map_or(0.0, |law| law.dissipated(spring.rest));
+        (after, spring.stiffness * dissipated)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::domain::Domain;
 use super::element::{Element, Elements};
 use super::gauge;
-use super::law::Spring;
+use super::law::{Memory, Spring};
 use crate::math::Vec3;
 use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::Cliques;
@@ -74,6 +74,8 @@ pub struct Model {
     springs: Vec<Spring>,
     /// Angles of all elements in the last accepted state, from which angles continue; not numbers for lengths.
     last: Vec<f64>,
+    /// What all elements remember.
+    memory: Vec<Memory>,
     /// Generalised coordinates of the reference state, which is the drawn state or the one that replaced it: those of
     /// all points, then the poses of rigid parts. Held coordinates keep these values.
     base: Vec<f64>,
@@ -112,6 +114,7 @@ impl Model {
         let mut model = Self {
             equations: Arc::new(equations),
             last: vec![f64::NAN; springs.len()],
+            memory: vec![Memory::default(); springs.len()],
             springs,
             base,
             supports,
@@ -311,8 +314,8 @@ impl Model {
     }
 
     fn element<'a>(&'a self, term: &'a dyn Elements, index: usize, number: usize) -> Element<'a> {
-        let (spring, last) = (self.springs[number], self.last[number]);
-        Element { number, spring, last, domain: &self.equations.domain, term, index }
+        let (spring, last, memory) = (self.springs[number], self.last[number], self.memory[number]);
+        Element { number, spring, last, memory, domain: &self.equations.domain, term, index }
     }
 
     /// Number of elements that enter with their energy.
@@ -356,6 +359,31 @@ impl Model {
     pub(super) fn set_angles(&mut self, angles: &[f64]) {
         let numbers: Vec<usize> = self.elements().filter(Element::is_angle).map(|element| element.number).collect();
         numbers.into_iter().zip(angles).for_each(|(number, angle)| self.last[number] = *angle);
+    }
+
+    /// Returns the memories after a state, given its unknowns, of all elements that have one, soft ones first.
+    pub(crate) fn memory_after(&self, x: &[f64]) -> Vec<Memory> {
+        if !self.remembers() {
+            return vec![];
+        }
+        let all = self.coordinates(x);
+        let elements = self.elements().filter(Element::remembers);
+        elements.map(|element| element.after(element.value(&all)).0).collect()
+    }
+
+    /// Sets the memories of all elements that have one, in the same order; zero where there are too few.
+    pub(super) fn set_memory(&mut self, memory: &[Memory]) {
+        if self.remembers() {
+            let numbers = self.elements().filter(Element::remembers).map(|element| element.number);
+            let numbers: Vec<usize> = numbers.collect();
+            let given = memory.iter().copied().chain(std::iter::repeat(Memory::default()));
+            numbers.into_iter().zip(given).for_each(|(number, memory)| self.memory[number] = memory);
+        }
+    }
+
+    /// Whether any element has a memory.
+    pub(crate) fn remembers(&self) -> bool {
+        self.equations.soft.iter().any(|term| term.stored().remembers())
     }
 
     /// Returns the angles of the hinges, in the order of [`Model::angles`], among those of all edges.

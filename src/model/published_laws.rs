@@ -88,7 +88,7 @@ fn green_lagrange(stretch: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Bilinear, Formula, Measured, OfAngle, OfStrain, Power};
+    use super::super::{Bilinear, ElasticPlastic, Formula, Measured, Memory, OfAngle, OfStrain, Power};
     use super::*;
 
     const ANGLES: [f64; 4] = [-2.9, -1.0, 0.7, 2.4];
@@ -101,6 +101,7 @@ mod tests {
     fn laws() -> Vec<LawAtValues> {
         let bilinear = Bilinear { ratio: 0.2, at: [-0.9, 0.3] };
         let measured = Measured::new(&POINTS).unwrap();
+        let yields = ElasticPlastic { at: 0.05, kinematic: 0.2, isotropic: 0.1, memory: Memory::default() };
         let torque = "k*(sinh(2*(m - m0))/2 + 0.1*(m - m0)^3 + 0.3*m0*(m - m0)^2)";
         vec![
             (Box::new(Stiffening { limits: [-2.0, 1.0] }), ANGLES, 0.3, true),
@@ -114,6 +115,8 @@ mod tests {
             (Box::new(OfStrain(bilinear)), LENGTHS, 1.2, true),
             (Box::new(OfStrain(measured)), LENGTHS, 1.2, true),
             (Box::new(Formula::of_length("k*m0*ln(m/m0)").unwrap()), LENGTHS, 1.2, true),
+            (Box::new(OfAngle(yields)), ANGLES, 0.3, true),
+            (Box::new(OfStrain(yields)), LENGTHS, 1.2, true),
         ]
     }
 

@@ -7,7 +7,7 @@ use crate::analysis::state::State;
 use crate::math::Vec3;
 use crate::model::{Assembly, Drawn};
 use crate::sheet::{Assignment, Corner, EdgeKey, EdgeKind, Sheet};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// A state of a sheet as a mesh, in which copies of vertices in other cells are points of their own.
 ///
@@ -44,6 +44,8 @@ pub struct Picture {
     pub tension: Vec<f64>,
     /// Torque of the hinge, the derivative of its energy by the fold angle.
     pub torque: Vec<f64>,
+    /// What elements remember that yield, by name; see [`State::memory`].
+    pub memory: BTreeMap<&'static str, Vec<f64>>,
 }
 
 impl Picture {
@@ -73,6 +75,7 @@ impl Picture {
             energy: on_lines(&state.energy),
             tension: on_lines(&state.tension),
             torque: on_lines(&state.torque),
+            memory: state.memory.iter().map(|(name, values)| (*name, on_lines(values))).collect(),
         }
     }
 
@@ -118,6 +121,7 @@ impl Picture {
             tension: nan.clone(),
             torque: nan.clone(),
             energy: nan,
+            memory: BTreeMap::new(),
         }
     }
 
@@ -151,7 +155,8 @@ impl Picture {
             ("tension", self.tension.len(), lines),
             ("torque", self.torque.len(), lines),
         ];
-        if let Some(&(array, found, expected)) = arrays.iter().find(|(_, found, expected)| found != expected) {
+        let arrays = arrays.into_iter().chain(self.memory.iter().map(|(name, values)| (*name, values.len(), lines)));
+        if let Some((array, found, expected)) = { arrays }.find(|(_, found, expected)| found != expected) {
             return Err(ShapeError::Length { array, found, expected });
         }
         let mut used = self.triangles.iter().flatten().chain(self.lines.iter().flatten());
@@ -192,6 +197,7 @@ pub(super) mod samples {
             energy: vec![0.5 * angle * angle, 0.0, 0.0, 0.0, 0.0],
             tension: vec![1e-3, 0.0, 0.0, -2e-5, 0.0],
             torque: vec![angle, none, none, none, none],
+            memory: BTreeMap::new(),
         }
     }
 }

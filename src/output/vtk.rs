@@ -231,6 +231,7 @@ fn attributes(picture: &Picture) -> Attributes {
     let cell = |axis: usize| IOBuffer::I32(picture.places.iter().map(|(_, cell)| cell[axis]).collect());
     let letters = picture.letters.iter().map(|letter| letter.number() as i32);
     let letters = vec![-1; faces].into_iter().chain(letters).collect();
+    let remembered = picture.memory.iter().map(|(name, values)| scalars(name, on_lines(values)));
     Attributes {
         point: vec![
             array("displacement", ElementType::Vectors, coordinates(&picture.displacement)),
@@ -248,7 +249,10 @@ fn attributes(picture: &Picture) -> Attributes {
             scalars("self_intersecting", IOBuffer::U8(crossing)),
             scalars("edge", IOBuffer::I32(edges)),
             scalars("assignment", IOBuffer::I32(letters)),
-        ],
+        ]
+        .into_iter()
+        .chain(remembered)
+        .collect(),
     }
 }
 

@@ -110,6 +110,7 @@ pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &Conf
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Memory;
 
     /// Claim: a state is read back bit by bit, also if its numbers have no short decimal form; a truncated file is
     /// rejected.
@@ -123,11 +124,13 @@ mod tests {
             coordinates: vec![0.1 + 0.2, -0.0, 5e-324, 1e300 / 3.0],
             angles: vec![-std::f64::consts::PI],
             tension: Some(vec![1.0 / 3.0, -0.0]),
+            memory: vec![Memory { kept: 0.1 + 0.2, gone: 1e300 / 3.0 }],
         };
         write_state(&file, folder.path(), "a", &state).unwrap();
         let back = read_state(folder.path(), "a").unwrap();
         let bits = |state: &Configuration| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        assert_eq!((bits(&back), &back.angles, &back.tension), (bits(&state), &state.angles, &state.tension));
+        assert_eq!(bits(&back), bits(&state));
+        assert_eq!(back, state);
         write_state(&file, folder.path(), "b", &state).unwrap();
         assert!(!state_path(folder.path(), "b").exists(), "nothing starts from it");
         std::fs::write(state_path(folder.path(), "a"), "{\"coordinates\":[0.1").unwrap();

@@ -9,12 +9,12 @@ use super::material::material;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::Column;
-use super::spec::{DomainSpec, EnergySpec, HingeLawSpec, Lattice, VertexSet};
+use super::spec::{DomainSpec, EnergySpec, Lattice, VertexSet};
 use super::stiffness::StiffnessSpec;
 use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives, laws, loads};
 use crate::kinematics::folding_modes_with_locked;
-use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, Laws, RIGID, Stiffness, Terms};
+use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Cleanup, Format};
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj, stl};
 use std::ops::Range;
@@ -181,12 +181,7 @@ impl<'a> Reader<'a> {
 
     fn terms(&self) -> Result<Terms, SceneError> {
         let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec } = &self.file.scene.energy;
-        let of_bars = bar_spec.as_ref().and_then(|spec| spec.law.as_ref());
-        let [bar_law, crease_law, facet_law] = [
-            of_bars.map(|law| laws::of_bars(self.file, law)).transpose()?,
-            self.hinge_law(crease_spec.as_ref().and_then(|spec| spec.law.as_ref()))?,
-            self.hinge_law(facet_spec.as_ref().and_then(|spec| spec.law.as_ref()))?,
-        ];
+        let [bar_law, crease_law, facet_law] = laws::given(self.file, &self.file.scene.energy)?;
         let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
         let bars = match self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)? {
             Some(stiffness) => {
@@ -215,15 +210,12 @@ impl<'a> Reader<'a> {
         } else {
             None
         };
-        let [bar_law, crease_law, facet_law] = [bar_law, crease_law, facet_law].map(|own| own.map(|own| own.law));
-        let laws = Laws { bars: bar_law, creases: crease_law, facets: facet_law };
+        let of_hinges = |hinges: &'_ Option<Hinges>| hinges.as_ref().map(|hinges| hinges.stiffness.clone());
+        let stiffness = [bars.as_ref().map(|bars| bars.stiffness.clone()), of_hinges(&creases), of_hinges(&facets)];
+        let laws = laws::of_terms(self.file, [bar_law, crease_law, facet_law], stiffness)?;
         let (locks, mass) = (self.locks()?, mass(self.file));
         let terms = Terms { bars, creases, facets, locks, mass, laws, ..Terms::default() };
         self.placed(terms)
-    }
-
-    fn hinge_law(&self, spec: Option<&Located<HingeLawSpec>>) -> Result<Option<GivenLaw>, SceneError> {
-        spec.map(|law| laws::of_hinges(self.file, law)).transpose()
     }
 
     /// Returns the stiffness of a term, as given, as its law has it at rest or as the material has it; `None` if none

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::places::{Places, motions};
-use super::spec::{AxisSpec, DomainSpec, DriveEnd, DriveSpec, DrivenTerm, VertexSet};
+use super::spec::{AxisSpec, DomainSpec, DriveSpec, DrivenTerm, VertexSet};
 use super::values::{EdgeName, Motions};
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
@@ -98,7 +98,7 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
             Driven::Stiffness(kind)
         }
     };
-    Ok(Drive { quantity, to: spec.to.0.radians })
+    Ok(Drive { quantity, to: spec.to.first.radians })
 }
 
 /// Returns the rest angles as a driven quantity, for the drive or study at this place of the scene.
@@ -159,9 +159,27 @@ fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, 
     }
 }
 
-/// Checks the value at the end of a drive, as far as the scene alone says where it begins.
+/// Checks the values at the ends of a drive, as far as the scene alone says where it begins.
 fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(), SceneError> {
-    let DriveEnd(Angle { radians: to, has_unit }) = *drive.to;
+    let mut from = None;
+    for angle in drive.to.all() {
+        if from == Some(angle.radians) {
+            let message = format!("the drive stays at {}", angle.radians);
+            return Err(file.error_at(drive.to.span(), message, "each way ends elsewhere than the one before"));
+        }
+        end_of_way(file, drive, quantity, (angle, from.is_some()))?;
+        from = Some(angle.radians);
+    }
+    Ok(())
+}
+
+/// Checks the value at the end of one way of a drive, the first one or a later one.
+fn end_of_way(
+    file: &SceneFile,
+    drive: &DriveSpec,
+    quantity: &Quantity<'_>,
+    (Angle { radians: to, has_unit }, later): (Angle, bool),
+) -> Result<(), SceneError> {
     let wrong = |message: String, help: &str| Err(file.error_at(drive.to.span(), message, help));
     let turns = match quantity {
         Quantity::Lock(_) => true,
@@ -181,7 +199,7 @@ fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(
         ),
         Quantity::Stiffness(_) => Ok(()),
         _ if !to.is_finite() => wrong(format!("the number is {to}"), "expected a finite number"),
-        Quantity::Part(..) | Quantity::Vertices(..) if to == 0.0 => wrong(
+        Quantity::Part(..) | Quantity::Vertices(..) if to == 0.0 && !later => wrong(
             "the drive ends where it begins".into(),
             "`to` is a displacement, or an angle, from where a path begins",
         ),
@@ -277,11 +295,11 @@ fn lock(
         return Err(file.error_at(crease.span(), message, help));
     }
     one_hinge(file, assembly.sheet(), crease)?;
-    if locks.iter().all(|(_, angle)| *angle == spec.to.0.radians) {
+    if locks.iter().all(|(_, angle)| *angle == spec.to.first.radians) {
         let help = "give another angle, in radians, to which the lock is driven";
         return Err(file.error_at(
             spec.to.span(),
-            format!("the crease is locked at {} already", spec.to.0.radians),
+            format!("the crease is locked at {} already", spec.to.first.radians),
             help,
         ));
     }

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use super::error::TableFault;
 use super::rows::numbered_lines;
-use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec};
+use super::spec::{BarLawSpec, BarYieldSpec, CurveSpec, EnergySpec, HingeLawSpec, HingeYieldSpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{
-    Bilinear, CurveError, Formula, FormulaError, GreenLagrange, Law, Measured, OfAngle, OfStrain, Ogden, Power,
-    Stiffening,
+    Bilinear, CurveError, ElasticPlastic, Formula, FormulaError, GreenLagrange, Law, Laws, Measured, Memory, OfAngle,
+    OfStrain, Ogden, Power, Stiffening, Stiffness, TermLaw,
 };
 use crate::sheet::text::read_text;
 
@@ -28,11 +28,45 @@ impl<L: Law + 'static> From<L> for GivenLaw {
     }
 }
 
+/// Returns the laws that bars, creases and facets are given.
+///
+/// # Errors
+/// [`SceneError`] if a curve or a formula is none.
+pub(super) fn given(file: &SceneFile, energy: &EnergySpec) -> Result<[Option<GivenLaw>; 3], SceneError> {
+    let EnergySpec { bars, creases, facets } = energy;
+    let of_hinges = |law: Option<&Located<HingeLawSpec>>| law.map(|law| of_hinges(file, law)).transpose();
+    Ok([
+        bars.as_ref().and_then(|spec| spec.law.as_ref()).map(|law| of_bars(file, law)).transpose()?,
+        of_hinges(creases.as_ref().and_then(|spec| spec.law.as_ref()))?,
+        of_hinges(facets.as_ref().and_then(|spec| spec.law.as_ref()))?,
+    ])
+}
+
+/// Returns the laws of the elements of bars, creases and facets, from those that are given and from where they yield.
+///
+/// # Errors
+/// [`SceneError`] if a term has both, or none of its elements can yield.
+pub(super) fn of_terms(
+    file: &SceneFile,
+    [of_bars, of_creases, of_facets]: [Option<GivenLaw>; 3],
+    [bar, crease, facet]: [Option<Stiffness>; 3],
+) -> Result<Laws, SceneError> {
+    let EnergySpec { bars, creases, facets } = &file.scene.energy;
+    let in_bars = bars.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
+    let in_creases = creases.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
+    let in_facets = facets.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
+    Ok(Laws {
+        bars: of_term(file, of_bars, (in_bars, bar), OfStrain)?,
+        creases: of_term(file, of_creases, (in_creases, crease), OfAngle)?,
+        facets: of_term(file, of_facets, (in_facets, facet), OfAngle)?,
+    })
+}
+
 /// Returns the law of the bars.
 ///
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
-pub(super) fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<GivenLaw, SceneError> {
+fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<GivenLaw, SceneError> {
     match &**spec {
         BarLawSpec::Ogden { exponents } => Ok(Ogden { exponents: exponents.0 }.into()),
         BarLawSpec::GreenLagrange {} => Ok(GreenLagrange.into()),
@@ -46,7 +80,7 @@ pub(super) fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<Gi
 ///
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
-pub(super) fn of_hinges(file: &SceneFile, spec: &Located<HingeLawSpec>) -> Result<GivenLaw, SceneError> {
+fn of_hinges(file: &SceneFile, spec: &Located<HingeLawSpec>) -> Result<GivenLaw, SceneError> {
     match &**spec {
         HingeLawSpec::Stiffening { limits } => Ok(Stiffening { limits: limits.0 }.into()),
         HingeLawSpec::Power { exponent } => Ok(OfAngle(Power { exponent: exponent.0 }).into()),
@@ -54,6 +88,74 @@ pub(super) fn of_hinges(file: &SceneFile, spec: &Located<HingeLawSpec>) -> Resul
         HingeLawSpec::Table(curve) => table(file, (curve, spec.span()), ["angle", "torque"], OfAngle),
         HingeLawSpec::Formula { torque } => formula(file, spec.span(), Formula::of_angle(torque), "angle"),
     }
+}
+
+/// A bound at which the elements of a term yield, and its hardening: slope and isotropic part.
+struct Yield {
+    bound: f64,
+    slope: f64,
+    isotropic: f64,
+    span: Range<usize>,
+}
+
+impl From<&Located<BarYieldSpec>> for Yield {
+    fn from(spec: &Located<BarYieldSpec>) -> Self {
+        let BarYieldSpec { force, hardening, isotropic } = **spec;
+        Self { bound: force.0, slope: hardening.0, isotropic: isotropic.0, span: spec.span() }
+    }
+}
+
+impl From<&Located<HingeYieldSpec>> for Yield {
+    fn from(spec: &Located<HingeYieldSpec>) -> Self {
+        let HingeYieldSpec { moment, hardening, isotropic } = **spec;
+        Self { bound: moment.0, slope: hardening.0, isotropic: isotropic.0, span: spec.span() }
+    }
+}
+
+impl Yield {
+    /// The law of an element of this stiffness; `None` if it is rigid, or none is there.
+    fn of(&self, stiffness: f64) -> Option<ElasticPlastic> {
+        let hardening = self.slope / (1.0 - self.slope);
+        let [isotropic, kinematic] = [self.isotropic * hardening, (1.0 - self.isotropic) * hardening];
+        let there = stiffness.is_finite();
+        there.then(|| ElasticPlastic { at: self.bound / stiffness, kinematic, isotropic, memory: Memory::default() })
+    }
+}
+
+/// Returns the laws of the elements of a term, given its law and where it yields, which may be left out.
+///
+/// # Errors
+/// [`SceneError`] if the term has both, or none of its elements can yield.
+fn of_term<L: Law + 'static>(
+    file: &SceneFile,
+    law: Option<GivenLaw>,
+    (yields, stiffness): (Option<Yield>, Option<Stiffness>),
+    of_curve: fn(ElasticPlastic) -> L,
+) -> Result<Option<TermLaw>, SceneError> {
+    let (Some(yields), Some(stiffness)) = (yields, stiffness) else {
+        return Ok(law.map(|law| TermLaw::Uniform(law.law)));
+    };
+    let refused = |message: &str, help: &str| Err(file.error_at(yields.span.clone(), message, help));
+    if law.is_some() {
+        return refused("the term has a law and yields at once", "leave out `law`: what yields is linear up to there");
+    }
+    if stiffness.is_rigid() {
+        return refused("what is rigid does not yield", "give the term a finite stiffness");
+    }
+    let mut known: Vec<(f64, Arc<dyn Law>)> = vec![];
+    let mut of = |stiffness: f64| {
+        let law = yields.of(stiffness)?;
+        if let Some((_, law)) = known.iter().find(|(other, _)| *other == stiffness) {
+            return Some(law.clone());
+        }
+        let law: Arc<dyn Law> = Arc::new(of_curve(law));
+        known.push((stiffness, law.clone()));
+        Some(law)
+    };
+    Ok(match stiffness {
+        Stiffness::Uniform(stiffness) => of(stiffness).map(TermLaw::Uniform),
+        Stiffness::PerEdge(each) => Some(TermLaw::PerEdge(each.iter().map(|stiffness| of(*stiffness)).collect())),
+    })
 }
 
 /// Returns the law of a curve, which says the stiffness at rest too.

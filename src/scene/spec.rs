@@ -213,7 +213,7 @@ impl EnergySpec {
     }
 }
 
-/// `bars = { stiffness, rest, law }`.
+/// `bars = { stiffness, rest, law, yield }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BarsSpec {
@@ -224,9 +224,12 @@ pub struct BarsSpec {
     pub rest: Option<Located<RestLengthSpec>>,
     /// How the force grows with the stretch; left out: linearly.
     pub law: Option<Located<BarLawSpec>>,
+    /// Where it yields; left out: nowhere.
+    #[serde(rename = "yield")]
+    pub yields: Option<Located<BarYieldSpec>>,
 }
 
-/// `creases = { stiffness, rest, fraction, law }`.
+/// `creases = { stiffness, rest, fraction, law, yield }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
@@ -240,9 +243,12 @@ pub struct CreasesSpec {
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
     pub law: Option<Located<HingeLawSpec>>,
+    /// Where it yields; left out: nowhere.
+    #[serde(rename = "yield")]
+    pub yields: Option<Located<HingeYieldSpec>>,
 }
 
-/// `facets = { stiffness, rest, fraction, law }`.
+/// `facets = { stiffness, rest, fraction, law, yield }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacetsSpec {
@@ -256,6 +262,9 @@ pub struct FacetsSpec {
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
     pub law: Option<Located<HingeLawSpec>>,
+    /// Where it yields; left out: nowhere.
+    #[serde(rename = "yield")]
+    pub yields: Option<Located<HingeYieldSpec>>,
 }
 
 /// `mass = { vertex }` or `mass = { area }`: exactly one of both.

@@ -63,6 +63,9 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
     if folds_exactly(&context.study.kind) {
         supported::a_surface(context)?;
     }
+    if matches!(*context.study.kind, StudyKind::Wells(_) | StudyKind::Trace(_) | StudyKind::Surface(_)) {
+        supported::no_memory(context)?;
+    }
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::check(context, spec),
         StudyKind::Modes(spec) => modes::check(context, spec),

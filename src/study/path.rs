@@ -6,7 +6,7 @@ mod plot;
 mod summary;
 mod table;
 
-use self::drive::{drive, drive_name, folds, has_effect, lists, moves};
+use self::drive::{drive, drive_name, folds, follows, has_effect, lists, moves, then};
 use self::end::{INSIDE_OUT, end_word, inside_out, reason};
 use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
@@ -48,6 +48,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     lists(context, spec)?;
     stop(context, spec)?;
     probes(context, spec)?;
+    follows(context, spec)?;
     match spec.start.as_ref().map(|start| (&**start, start.span())) {
         Some((StartSpec::Random(_), span)) => {
             let help =
@@ -70,6 +71,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         switch: spec.switch,
         stop,
         at: spec.at.iter().map(|value| value.0).collect(),
+        then: then(context, spec),
         ..PathOptions::default()
     };
     let options = PathOptions {
@@ -349,6 +351,7 @@ fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -
         reaction: last.map(|point| point.reaction),
         work: last.map(|point| point.work),
         energy: last.map(|point| point.state.total()),
+        dissipated: last.filter(|point| !point.memory.is_empty()).map(|point| point.state.dissipated),
         stable: regular.all(|point| point.negative_eigenvalues == Some(0)),
         max_residual: worst(branch.points.iter().map(|point| larger(point.residual_force, point.residual_length))),
         self_intersecting: marks.map(|marks| marks.iter().any(|marks| marks.any)),

@@ -154,6 +154,7 @@ fn add_states(answer: &mut Answer, context: &Context<'_>, states: &[Reached<'_>]
 fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
     RelaxSummary {
         energy: energies::summary(context.assembly.terms(), &relaxed.state),
+        dissipated: (!relaxed.configuration.memory.is_empty()).then_some(relaxed.state.dissipated),
         iterations: relaxed.iterations,
         factorizations: relaxed.factorizations,
         chord_solves: relaxed.solves,

@@ -78,8 +78,9 @@ fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, me
         None => vec![f64::NAN; edges],
     };
     let angles = restored::angles(model, &on_edges(&mesh.fold_angle));
+    let memory = restored::memory(model, |name| on_edges(&mesh.memory.get(name).cloned()));
     let forces = Forces::OfEdges { tension: on_edges(&mesh.tension), torque: on_edges(&mesh.torque) };
-    (model.enter(&Configuration { coordinates, angles, tension: None }).x, forces)
+    (model.enter(&Configuration { memory, ..Configuration::new(coordinates, angles, None) }).x, forces)
 }
 
 /// Returns the coordinates in the start file and the content of that file; `None` if the start is not a file.

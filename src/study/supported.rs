@@ -50,6 +50,15 @@ pub(super) fn linear_springs(context: &Context<'_>, what: &str) -> Result<(), St
     Err(context.refuse(message, "leave out `law` of bars, creases and facets, and terms of your own").into())
 }
 
+/// Checks that nothing yields: what does has other states where it comes on another way.
+pub(super) fn no_memory(context: &Context<'_>) -> Result<(), StudyError> {
+    let Some(term) = context.assembly.terms().laws.first_with_memory() else { return Ok(()) };
+    let kind = context.study.kind.name();
+    let message =
+        format!("the states of {kind} do not depend on how they are reached, and those of {term} that yield do");
+    Err(context.refuse(message, "leave out `yield`, or ask for relax, path or fold").into())
+}
+
 /// Checks that the bars are at rest as drawn.
 pub(super) fn drawn_lengths(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
     match context.assembly.bars_off_rest() {

@@ -165,7 +165,7 @@ fn add_files(
     if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
         add_mesh(answer, context, mesh(context.assembly, surface, &rows), max_curvature);
         let angles = context.assembly.model(Gauge::Held).angles_among(&last.angles);
-        answer.state = Some(Configuration { coordinates: state.coordinates.clone(), angles, tension: None });
+        answer.state = Some(Configuration::new(state.coordinates.clone(), angles, None));
     }
 }
 

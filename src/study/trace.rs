@@ -133,7 +133,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
 
 /// Makes the state with these coordinates and fold angles of all edges the reference state of a model, and returns it.
 pub(crate) fn enter_folded(model: &mut Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
-    let folded = Configuration { coordinates, angles: model.angles_among(angles), tension: None };
+    let folded = Configuration::new(coordinates, model.angles_among(angles), None);
     model.enter(&folded);
     state_at(model, folded.coordinates, angles)
 }
@@ -245,7 +245,7 @@ fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option
         (None, Some(folded)) => (coordinates_in(assembly.boundary(), folded), &folded.angles),
         (None, None) => return None,
     };
-    Some(Configuration { coordinates, angles: model.angles_among(angles), tension: None })
+    Some(Configuration::new(coordinates, model.angles_among(angles), None))
 }
 
 /// Returns a relaxed state with the fold angles of all edges.

@@ -147,5 +147,5 @@ pub fn moduli(assembly: &Assembly) -> Result<ModuliOf, ResponseError> {
 fn drawn_state(assembly: &Assembly) -> Configuration {
     let model = assembly.model(Gauge::Free);
     let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
-    Configuration { coordinates: assembly.drawn().coordinates.clone(), angles: model.angles(), tension: Some(tension) }
+    Configuration::new(assembly.drawn().coordinates.clone(), model.angles(), Some(tension))
 }

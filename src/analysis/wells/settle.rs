@@ -52,7 +52,7 @@ impl MinimumTracker {
 
     /// The state with these coordinates, whose angles continue from these fold angles of all edges.
     pub(crate) fn at(&self, coordinates: Vec<f64>, fold_angle: &[f64]) -> Configuration {
-        Configuration { coordinates, angles: restored::angles(&self.model, fold_angle), tension: None }
+        Configuration::new(coordinates, restored::angles(&self.model, fold_angle), None)
     }
 
     /// Stiffness of the elastic hinges: the metric.

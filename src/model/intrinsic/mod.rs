@@ -158,7 +158,7 @@ impl IntrinsicModel {
             element.edge().map_or(0.0, |edge| of_edges[edge])
         };
         let tension = Some(model.stiff().map(force).collect());
-        model.enter(&Configuration { coordinates, angles: model.angles_among(&angles), tension })
+        model.enter(&Configuration::new(coordinates, model.angles_among(&angles), tension))
     }
 }
 

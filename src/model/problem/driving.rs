@@ -6,6 +6,7 @@ mod effect;
 use super::{Model, POSE, Support};
 use crate::model::drive::{Drive, DriveError, Driven};
 use crate::model::element::{Element, Local, TermKind};
+use crate::model::law::Memory;
 use crate::numerics::vector::dot;
 use crate::solver::path::{ParametrizedProblem, Rates};
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem};
@@ -100,11 +101,6 @@ impl DrivenModel {
     /// Returns the parameter at the end of the drive.
     pub fn target(&self) -> f64 {
         self.target
-    }
-
-    /// Returns the part of the way, from 0 at the beginning to 1 at the end, that a parameter has gone.
-    pub fn part_at(&self, parameter: f64) -> f64 {
-        1.0 - (self.target - parameter).abs() / self.way
     }
 
     /// Returns the driven value that belongs to a parameter.
@@ -206,12 +202,29 @@ impl ParametrizedProblem for DrivenModel {
         self.parameter
     }
 
-    fn reference(&self) -> Vec<f64> {
-        self.model.angles()
+    /// Angles, then the memories of all elements that have one.
+    fn reference(&self, x: &[f64]) -> Vec<f64> {
+        let memory = self.model.memory_after(x);
+        self.model.angles().into_iter().chain(memory.iter().flat_map(|memory| [memory.kept, memory.gone])).collect()
     }
 
     fn set_reference(&mut self, reference: &[f64]) {
-        self.model.set_angles(reference);
+        let angles = self.model.elements().filter(Element::is_angle).count().min(reference.len());
+        self.model.set_angles(&reference[..angles]);
+        let memory = reference[angles..].chunks_exact(2).map(|pair| Memory { kept: pair[0], gone: pair[1] });
+        self.model.set_memory(&memory.collect::<Vec<_>>());
+    }
+
+    fn conjugate_integral(&self, x: &[f64], tension: &[f64]) -> Option<f64> {
+        if !self.model.remembers() {
+            return None;
+        }
+        let of_stiff = self.model.compliance().iter().zip(tension).map(|(c, t)| 0.5 * c * t * t).sum::<f64>();
+        let potential = self.model.energy(x) + of_stiff;
+        Some(match &self.effect {
+            Effect::Loads { origin, .. } => -potential - origin * self.parameter,
+            _ => potential,
+        })
     }
 
     fn choice(&self) -> Vec<f64> {

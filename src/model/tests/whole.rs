@@ -8,7 +8,6 @@ use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
 use crate::sheet::{EdgeKind, generate};
 use crate::solver::{HessianKind, Linearization, Problem};
-use std::sync::Arc;
 
 /// Miura-ori with the given boundary conditions: the smallest tiling that has creases and facets.
 fn sheet(boundary: Boundary) -> Assembly {
@@ -45,9 +44,9 @@ fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) 
 /// Laws of bars, creases and facets, whose limits lie among the angles of the states that are looked at.
 fn laws() -> Laws {
     Laws {
-        bars: Some(Arc::new(Ogden { exponents: [5.0, 1.0] })),
-        creases: Some(Arc::new(Stiffening { limits: [-0.3, 0.9] })),
-        facets: Some(Arc::new(Stiffening { limits: [-0.01, 0.01] })),
+        bars: Some(Ogden { exponents: [5.0, 1.0] }.into()),
+        creases: Some(Stiffening { limits: [-0.3, 0.9] }.into()),
+        facets: Some(Stiffening { limits: [-0.01, 0.01] }.into()),
     }
 }
 

@@ -210,6 +210,7 @@ mod tests {
                 energy: on_edges.clone(),
                 tension: on_edges.clone(),
                 torque: on_edges,
+                memory: std::collections::BTreeMap::new(),
             }
         };
         let file = |state: usize| (format!("a/a_{state:04}.vtu"), Content::StateRead(Box::new(picture(state))));

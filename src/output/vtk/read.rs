@@ -1,10 +1,12 @@
 //! Reader of VTU files: the mesh of a sheet, or the picture of a state.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use vtkio::model::{Attribute, Attributes, CellType, Cells, DataSet, UnstructuredGridPiece, Vtk};
 
 use super::appended::inlined;
+use crate::analysis::state::REMEMBERED;
 use crate::math::Vec3;
 use crate::output::OutputError;
 use crate::output::fault::VtuFault;
@@ -30,6 +32,8 @@ pub struct VtuMesh {
     pub tension: Option<Vec<f64>>,
     /// Torque of the hinge on each line; `None` if the file has no such array.
     pub torque: Option<Vec<f64>>,
+    /// What elements remember that yield, on each line, by name; see [`crate::analysis::state::State::memory`].
+    pub memory: BTreeMap<&'static str, Vec<f64>>,
 }
 
 /// Reads a VTU file of triangles, polygons and lines, uncompressed or compressed with zlib or LZMA. The points of all
@@ -90,6 +94,7 @@ pub fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
         energy: on_lines("energy"),
         tension: on_lines("tension"),
         torque: on_lines("torque"),
+        memory: memory_on(&piece.data, &line_cells),
         fold_angle,
         points: mesh.points,
         triangles: mesh.triangles,
@@ -156,9 +161,16 @@ fn mesh_of(piece: UnstructuredGridPiece) -> Result<VtuMesh, VtuFault> {
     let line_cells = mesh.add_cells(piece.cells)?;
     let on_lines = |name: &str| numbers_on(name, &piece.data, &line_cells);
     (mesh.fold_angle, mesh.tension, mesh.torque) = (on_lines("fold_angle"), on_lines("tension"), on_lines("torque"));
+    mesh.memory = memory_on(&piece.data, &line_cells);
     let letters = on_lines("assignment");
     mesh.letters = letters.and_then(|numbers| numbers.into_iter().map(Assignment::from_number).collect());
     Ok(mesh)
+}
+
+/// Returns what elements on these lines remember that yield.
+fn memory_on(data: &Attributes, line_cells: &[usize]) -> BTreeMap<&'static str, Vec<f64>> {
+    let names = REMEMBERED.into_iter().flatten();
+    names.filter_map(|name| Some((name, numbers_on(name, data, line_cells)?))).collect()
 }
 
 /// Returns the pieces of the grid of a VTU file; panics of the parser are errors.
@@ -195,6 +207,9 @@ impl VtuMesh {
         self.letters = both(self.letters, other.letters);
         self.tension = both(self.tension, other.tension);
         self.torque = both(self.torque, other.torque);
+        let memory = other.memory.into_iter();
+        self.memory =
+            memory.filter_map(|(name, own)| Some((name, both(self.memory.remove(name), Some(own))?))).collect();
         self
     }
 

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
-use serde::de::{Error, SeqAccess, Unexpected};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, IntoDeserializer, SeqAccess, Unexpected};
 
 use super::vertices::VertexSet;
 use crate::scene::Located;
@@ -49,20 +49,69 @@ pub struct DriveSpec {
     /// The stiffness of this term.
     pub stiffness: Option<Located<DrivenTerm>>,
     /// The value at the end: a displacement or an angle from where the path begins, a factor, the angle of a lock, or a
-    /// stiffness (`inf`: exactly rigid). An angle may be a text with its unit, "60 deg".
+    /// stiffness (`inf`: exactly rigid). An angle may be a text with its unit, "60 deg". A list of such values, as
+    /// [0.3, -0.3, 0.3], are the ends of ways to and fro.
     pub to: Located<DriveEnd>,
 }
 
-/// The value at the end of a drive: a number, or, of an angle, a text with its unit.
-#[derive(Clone, Copy, Debug, PartialEq, JsonSchema)]
-#[schemars(transparent)]
-pub struct DriveEnd(pub Angle);
+/// The value at the end of a drive: a number, or, of an angle, a text with its unit; or the ends of several ways.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveEnd {
+    /// The first end.
+    pub first: Angle,
+    /// The ends of the ways from there.
+    pub then: Vec<Angle>,
+}
 
-impl<'de> Deserialize<'de> for DriveEnd {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let right = "expected a number, or of an angle a text with its unit such as \"60 deg\"";
-        let wrong = |_| D::Error::custom(format!("this is no end of a drive, {right}"));
-        Angle::deserialize(deserializer).map(Self).map_err(wrong)
+impl DriveEnd {
+    const RIGHT: &str = "a number, of an angle a text with its unit such as \"60 deg\", or a list of these";
+
+    /// Returns all ends.
+    pub(crate) fn all(&self) -> impl Iterator<Item = Angle> + '_ {
+        std::iter::once(self.first).chain(self.then.iter().copied())
+    }
+
+    fn wrong<E: Error>() -> E {
+        E::custom(format!("this is no end of a drive, expected {}", Self::RIGHT))
+    }
+
+    fn one<E: Error>(angle: Result<Angle, serde::de::value::Error>) -> Result<Self, E> {
+        angle.map(|first| Self { first, then: vec![] }).map_err(|_| Self::wrong())
+    }
+}
+
+read_as_written!(DriveEnd);
+
+impl Written for DriveEnd {
+    const FORMS: &str = Self::RIGHT;
+
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        Self::one(Angle::deserialize(word.into_deserializer()))
+    }
+
+    fn from_number<E: Error>(number: f64) -> Result<Self, E> {
+        Self::one(Angle::deserialize(number.into_deserializer()))
+    }
+
+    fn from_whole<E: Error>(number: i64) -> Result<Self, E> {
+        Self::one(Angle::deserialize(number.into_deserializer()))
+    }
+
+    fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let all = Vec::<Angle>::deserialize(SeqAccessDeserializer::new(list)).map_err(|_| Self::wrong())?;
+        let (first, then) = all.split_first().ok_or_else(Self::wrong)?;
+        Ok(Self { first: *first, then: then.to_vec() })
+    }
+}
+
+impl JsonSchema for DriveEnd {
+    fn schema_name() -> Cow<'static, str> {
+        "DriveEnd".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let one = generator.subschema_for::<Angle>();
+        json_schema!({ "anyOf": [one, { "type": "array", "minItems": 1, "items": one }] })
     }
 }
 

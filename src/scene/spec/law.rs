@@ -31,6 +31,15 @@ pub enum LawFault {
         "the stiffness changes at {0} and {1} off rest, expected one at most 0, one at least 0, and one of them finite"
     )]
     Yields(f64, f64),
+    /// A force or moment at which elements yield is none.
+    #[error("it yields at {0}, expected a positive number")]
+    Bound(f64),
+    /// A part of one is none.
+    #[error("the part is {0}, expected a number from 0 to 1")]
+    Part(f64),
+    /// A hardening does not lie between that without and that of an element that does not yield.
+    #[error("the hardening is {0}, expected a number from 0 to below 1: the slope beyond the bound over the stiffness")]
+    Slope(f64),
     /// Two limits of a law are not on both sides of flat.
     #[error("the limits are {0} and {1} rad, expected one between -pi and 0, and one between 0 and pi")]
     Limits(f64, f64),
@@ -107,6 +116,80 @@ pub struct CurveSpec {
     pub file: Option<PathBuf>,
     /// The same numbers in the scene, a pair for each point.
     pub points: Option<Vec<[f64; 2]>>,
+}
+
+/// `yield = { force, hardening, isotropic }`: bars that yield.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[schemars(rename = "BarYield")]
+#[serde(deny_unknown_fields)]
+pub struct BarYieldSpec {
+    /// The force at which a bar first yields.
+    pub force: Bound,
+    /// Slope of the force beyond the bound over the stiffness, below 1; left out: 0.
+    #[serde(default)]
+    pub hardening: Slope,
+    /// The part of the hardening that widens the bound on both sides (isotropic); the other part shifts it (kinematic).
+    /// Left out: 0.
+    #[serde(default)]
+    pub isotropic: Part,
+}
+
+/// `yield = { moment, hardening, isotropic }`: creases or facets that yield.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[schemars(rename = "HingeYield")]
+#[serde(deny_unknown_fields)]
+pub struct HingeYieldSpec {
+    /// The torque per length at which a hinge first yields.
+    pub moment: Bound,
+    /// Slope of the torque beyond the bound over the stiffness, below 1; left out: 0.
+    #[serde(default)]
+    pub hardening: Slope,
+    /// The part of the hardening that widens the bound on both sides (isotropic); the other part shifts it (kinematic).
+    /// Left out: 0.
+    #[serde(default)]
+    pub isotropic: Part,
+}
+
+/// A force, or a torque per length, at which an element yields.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("exclusiveMinimum" = 0))]
+pub struct Bound(pub(crate) f64);
+
+impl TryFrom<f64> for Bound {
+    type Error = LawFault;
+
+    fn try_from(bound: f64) -> Result<Self, LawFault> {
+        if bound > 0.0 && bound.is_finite() { Ok(Self(bound)) } else { Err(LawFault::Bound(bound)) }
+    }
+}
+
+/// The slope of a force beyond the bound over the stiffness.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
+pub struct Slope(pub(crate) f64);
+
+impl TryFrom<f64> for Slope {
+    type Error = LawFault;
+
+    fn try_from(slope: f64) -> Result<Self, LawFault> {
+        if (0.0..1.0).contains(&slope) { Ok(Self(slope)) } else { Err(LawFault::Slope(slope)) }
+    }
+}
+
+/// A part of one, from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("minimum" = 0, "maximum" = 1))]
+pub struct Part(pub(crate) f64);
+
+impl TryFrom<f64> for Part {
+    type Error = LawFault;
+
+    fn try_from(part: f64) -> Result<Self, LawFault> {
+        if (0.0..=1.0).contains(&part) { Ok(Self(part)) } else { Err(LawFault::Part(part)) }
+    }
 }
 
 /// A ratio of stiffnesses.

@@ -5,7 +5,7 @@ use crate::model::{Drive, DriveError, Driven};
 use crate::output::figure::rounded;
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
-use crate::scene::spec::{PathSpec, StudyKind};
+use crate::scene::spec::{DriveSpec, PathSpec, StudyKind};
 use crate::study::context::Context;
 use crate::study::error::StudyError;
 use std::ops::Range;
@@ -61,6 +61,10 @@ pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     let drawn = matches!(spec.start.as_deref(), None | Some(StartSpec::Drawn));
     // a drive without effect is refused elsewhere
     let Ok([from, to]) = check_drive(context.assembly, &drive, !drawn) else { return Ok(()) };
+    let (way, then) = (to - from, then(context, spec));
+    let farther = |far: f64, value: &f64| if (value - far) * way > 0.0 { *value } else { far };
+    let nearer = |near: f64, value: &f64| if (value - near) * way < 0.0 { *value } else { near };
+    let [from, to] = [then.iter().fold(from, nearer), then.iter().fold(to, farther)];
     let before = |value: f64| drive.quantity != Driven::Loads && (value - from) * (to - from) < 0.0;
     let beyond = |value: f64| (value - to) * (to - from) > 0.0;
     let Some(off) = spec.at.iter().find(|value| before(value.0) || beyond(value.0)) else { return Ok(()) };
@@ -71,11 +75,35 @@ pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     Err(context.file.error_at(off.span(), message, help).into())
 }
 
+/// Returns the values to which the drive goes after its first end.
+pub(super) fn then(context: &Context<'_>, spec: &PathSpec) -> Vec<f64> {
+    let ends = table(context, spec).map(|table| &table.to.then);
+    ends.into_iter().flatten().map(|angle| angle.radians).collect()
+}
+
+/// Checks that branches are asked for only where they are sought.
+pub(super) fn follows(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    let to_and_fro = !then(context, spec).is_empty();
+    if !spec.switch || !(to_and_fro || context.assembly.terms().laws.first_with_memory().is_some()) {
+        return Ok(());
+    }
+    let (message, place) = if to_and_fro {
+        ("branches are not followed where a drive goes to and fro", end(context, spec))
+    } else {
+        ("branches are not sought where elements yield: stiffness jumps there", context.study.kind.span())
+    };
+    Err(context.file.error_at(place, message, "leave out `switch`").into())
+}
+
+/// Returns the drive that the study names, as the scene gives it; `None` for a study of kind `fold`.
+fn table<'a>(context: &'a Context<'_>, spec: &PathSpec) -> Option<&'a DriveSpec> {
+    let name = drive_name(context, spec);
+    context.file.scene.drives.iter().find(|drive| !folds(context) && drive.name.0 == name)
+}
+
 /// Returns the place in the scene of the value to which the study drives; that of its kind for a study of kind `fold`.
 fn end(context: &Context<'_>, spec: &PathSpec) -> Range<usize> {
-    let name = drive_name(context, spec);
-    let table = context.file.scene.drives.iter().find(|drive| !folds(context) && drive.name.0 == name);
-    table.map_or(context.study.kind.span(), |table| table.to.span())
+    table(context, spec).map_or(context.study.kind.span(), |table| table.to.span())
 }
 
 /// Checks that a driven stiffness is one number, and another one than that at the end, and that driven rest angles are

@@ -14,7 +14,7 @@ pub struct PathSummary {
     /// The kind of the driven quantity.
     #[schemars(extend("enum" = ["displacement", "rotation", "load", "lock", "rest", "stiffness"]))]
     pub driven: String,
-    /// Its value at the end that was asked for; null: infinite stiffness.
+    /// Its value at the first end that was asked for; null: infinite stiffness.
     pub to: Option<f64>,
     /// The branches: number 0 begins at the start, the others at branch points.
     pub branches: Vec<PathBranchSummary>,
@@ -45,6 +45,9 @@ pub struct PathBranchSummary {
     pub work: Option<f64>,
     /// Energy of its last state; null where it has none.
     pub energy: Option<f64>,
+    /// Energy dissipated up to its last state; null where nothing yields.
+    #[serde(default)]
+    pub dissipated: Option<f64>,
     /// The sides to which its last state is folded; null where the path does not arrive at all rest angles.
     #[serde(default)]
     pub rest_sides: Option<RestSides>,

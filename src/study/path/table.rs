@@ -27,6 +27,7 @@ pub(crate) fn table(
         .chain(asked(marks.is_some(), &["self_intersecting"]))
         .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))
         .chain(asked(spec.response.is_some(), &RATIOS))
+        .chain(asked(yields(context), &["dissipated"]))
         .chain(displacements.iter().map(String::as_str))
         .chain(["state"]);
     let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
@@ -68,5 +69,11 @@ fn row(
     let shape = shape.into_iter().flatten().map(Value::Number);
     let asked = crossing.into_iter().chain(shape).chain(ratios.into_iter().flatten().map(Value::from));
     let moved = probes.iter().map(|(_, probe)| probe.displacement(assembly, coordinates).into());
-    own.chain(asked).chain(moved).chain([number]).chain(fold).collect()
+    let dissipated = yields(context).then_some(Value::Number(point.state.dissipated));
+    own.chain(asked).chain(dissipated).chain(moved).chain([number]).chain(fold).collect()
+}
+
+/// Whether elements yield.
+fn yields(context: &Context<'_>) -> bool {
+    context.assembly.terms().laws.first_with_memory().is_some()
 }

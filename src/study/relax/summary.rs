@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 pub struct RelaxSummary {
     /// Energy of the last state.
     pub energy: EnergySummary,
+    /// Energy that elements have dissipated which yield; null where nothing does.
+    #[serde(default)]
+    pub dissipated: Option<f64>,
     /// Accepted Newton steps.
     pub iterations: usize,
     /// Factorizations.

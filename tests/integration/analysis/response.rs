@@ -436,7 +436,7 @@ fn a_cylinder_has_two_modes() {
             positions,
             residual: 0.0,
         };
-        let start = Configuration { coordinates: coordinates(&state), angles: vec![], tension: None };
+        let start = Configuration::new(coordinates(&state), vec![], None);
         let found = response_at(&assembly, &start).unwrap();
         assert_eq!((found.modes.len(), found.table.rank, found.self_stresses), (2, 2, 0));
         assert!(found.poisson.is_none() && found.stresses.is_empty());

@@ -141,7 +141,7 @@ fn windings_come_back() {
     let mut given = vec![f64::NAN; case.edges()];
     given[hinge] = case.drawn_angles()[hinge] + TAU;
     let angles = restored::angles(&model, &given);
-    let x = model.enter(&Configuration { coordinates: case.drawn().coordinates.clone(), angles, tension: None }).x;
+    let x = model.enter(&Configuration::new(case.drawn().coordinates.clone(), angles, None)).x;
     let tension = vec![0.0; model.layout().stiff.len()];
     let state = State::new(&model, &x, &tension);
     for (edge, angle) in case.drawn_angles().iter().enumerate().filter(|(_, angle)| !angle.is_nan()) {

@@ -41,7 +41,7 @@ fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> Configurati
     let model = many.model(Gauge::Free);
     let tension = Some(model.stiff().map(|element| element.response(element.value(&coordinates))[1]).collect());
     let angles = model.angles();
-    Configuration { coordinates, angles, tension }
+    Configuration::new(coordinates, angles, tension)
 }
 
 /// Claim: the squared frequencies of waves in a relaxed, stressed state of a fixed torus of one cell are, at the

@@ -49,6 +49,7 @@ fn square(side: f64) -> Picture {
         energy: none.clone(),
         tension: none.clone(),
         torque: none,
+        memory: std::collections::BTreeMap::new(),
     }
 }
 

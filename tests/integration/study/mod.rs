@@ -12,6 +12,7 @@ mod laws;
 mod paths;
 mod periodic_paths;
 mod pinned_wells;
+mod plasticity;
 mod pressure;
 mod reasons;
 mod response_runs;

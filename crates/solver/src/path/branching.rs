@@ -51,8 +51,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let mut firsts = vec![];
         for direction in &nulls {
             for sign in [1.0, -1.0] {
-                let first = self.leave(point, direction, sign)?;
-                firsts.extend(first.map(|first| (first, self.problem.reference())));
+                if let Some(first) = self.leave(point, direction, sign)? {
+                    let reference = self.problem.reference(&first.x);
+                    firsts.push((first, reference));
+                }
             }
         }
         Ok(Leaving { firsts, expected: (multiplicity == 1).then_some(2) })
@@ -61,13 +63,14 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// The half branches that a scan of the ring between two null vectors found; `None` where no ring is large enough
     /// to tell.
     fn ring_of(&mut self, point: &PathState, nulls: &[Rates; 2]) -> Result<Option<Leaving>, PathError> {
-        let reference = self.problem.reference();
+        let reference = self.problem.reference(&point.x);
         let Some((zeros, states)) = self.half_branches(point, nulls)? else { return Ok(None) };
         let mut firsts = vec![];
         for mut first in states {
             self.problem.set_reference(&reference);
             self.problem.accept(&mut first.x);
-            firsts.push((first, self.problem.reference()));
+            let reference = self.problem.reference(&first.x);
+            firsts.push((first, reference));
         }
         self.problem.set_reference(&reference);
         Ok(Some(Leaving { firsts, expected: Some(zeros) }))

@@ -15,8 +15,10 @@ pub struct PathSettings {
     pub max_step: f64,
     /// Largest number of states of a branch.
     pub steps: usize,
-    /// Parameter at which the path ends.
+    /// Parameter to which the path goes first.
     pub target: f64,
+    /// Parameters to which it goes from there, one after the other; at the last one it ends.
+    pub then: Vec<f64>,
     /// Parameters of which the states are listed.
     pub listed: Vec<f64>,
     /// Arc length at which a branch ends.
@@ -34,6 +36,7 @@ impl Default for PathSettings {
             max_step: 0.1,
             steps: 10_000,
             target: f64::INFINITY,
+            then: vec![],
             listed: vec![],
             length: f64::INFINITY,
             switch: false,
@@ -55,6 +58,8 @@ pub enum PathMark {
     Watched(usize),
     /// The parameter is one of those that are listed.
     Listed,
+    /// The parameter goes another way from here.
+    Turned,
 }
 
 /// The reason for which a branch ends.

@@ -10,8 +10,9 @@ pub trait ParametrizedProblem: Problem {
     fn parameter(&self) -> f64;
     /// Sets the parameter.
     fn set_parameter(&mut self, value: f64);
-    /// Returns what accepted states have changed in the problem: values from which measures continue, for instance.
-    fn reference(&self) -> Vec<f64> {
+    /// Returns what the way up to the state with these unknowns, at the present parameter, has changed in the problem:
+    /// values from which measures continue, and what elements remember.
+    fn reference(&self, _x: &[f64]) -> Vec<f64> {
         vec![]
     }
     /// Restores what [`ParametrizedProblem::reference`] returned.
@@ -26,6 +27,11 @@ pub trait ParametrizedProblem: Problem {
     /// Chooses anew how states are written where the present choice would soon be singular. Returns then the unknowns
     /// of the state `x`, and these rates of them.
     fn choose_anew(&mut self, _x: &[f64], _rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        None
+    }
+    /// Where stiffness jumps along a path, as where elements yield, and no interpolation between states is good: the
+    /// integral of the conjugate over the parameter, up to a constant. `None` for smooth problems.
+    fn conjugate_integral(&self, _x: &[f64], _tension: &[f64]) -> Option<f64> {
         None
     }
     /// Natural size of a change of the parameter; positive.

@@ -1,5 +1,7 @@
 //! A path with all its branches, from where each begins to where it ends.
 
+use super::bordered::Plane;
+use super::corrector::Guess;
 use super::events::Watch;
 use super::exits::Exit;
 use super::follower::Follower;
@@ -89,6 +91,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         for marked in &entry.states {
             // states in between may have been visited since
             self.follower.problem.set_parameter(marked.state.parameter);
+            self.follower.problem.set_reference(&marked.reference);
             let go_on = self.observer.state(entry.branch, self.follower.problem, marked);
             self.branches[entry.branch].states.push(marked.clone());
             if !go_on {
@@ -128,7 +131,12 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             self.branches[entry.branch].end = end;
             return false;
         }
-        let ordinary = entry.states.into_iter().filter(|marked| entry.begins || marked.mark.is_none());
+        let turned = entry.states.iter().rposition(|marked| marked.mark == Some(PathMark::Turned));
+        if turned.is_some() {
+            way.known.clear();
+        }
+        let states = entry.states.into_iter().skip(turned.unwrap_or(0));
+        let ordinary = states.filter(|marked| entry.begins || matches!(marked.mark, None | Some(PathMark::Turned)));
         way.known.extend(ordinary.map(|marked| marked.state));
         way.known.drain(..way.known.len().saturating_sub(2));
         way.length = entry.next_step;
@@ -173,7 +181,46 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             from = state;
         }
         states.push(self.worked(number, &states, &from, to, None)?);
+        if end == Some(BranchEnd::Target)
+            && let Some(sign) = self.turn(number)
+        {
+            let (next_step, turned) = (self.follower.first_step(), self.turned(&mut states, sign)?);
+            let end = (!turned).then_some(BranchEnd::Failed);
+            return Ok((PathEntry { branch: number, begins: false, states, next_step, end }, values));
+        }
         Ok((PathEntry { branch: number, begins: false, states, next_step: longer, end }, values))
+    }
+
+    /// How often the parameter of a branch has begun to go another way.
+    fn turns(&self, number: usize) -> usize {
+        self.branches[number].states.iter().filter(|marked| marked.mark == Some(PathMark::Turned)).count()
+    }
+
+    /// The parameter to which a branch goes now.
+    fn target(&self, number: usize) -> f64 {
+        let PathSettings { target, then, .. } = &self.follower.settings;
+        self.turns(number).checked_sub(1).map_or(*target, |turn| then[turn])
+    }
+
+    /// The sign of the way that the parameter goes from the present target of a branch; `None` where it ends there.
+    fn turn(&self, number: usize) -> Option<f64> {
+        let next = self.follower.settings.then.get(self.turns(number))?;
+        Some((next - self.target(number)).signum())
+    }
+
+    /// Lets the path go on from the last of these states towards larger (`1.0`) or smaller parameters. Returns whether it
+    /// does.
+    fn turned(&mut self, states: &mut [MarkedState], sign: f64) -> Result<bool, PathError> {
+        let Some(last) = states.last_mut() else { return Ok(false) };
+        let PathState { x, tension, parameter, arc_length, .. } = last.state.clone();
+        self.follower.problem.set_parameter(parameter);
+        self.follower.problem.set_reference(&last.reference);
+        let plane = Plane::of_parameter(x.len(), sign);
+        let Some((state, _)) = self.follower.settle(Guess { x, tension, parameter }, &plane, arc_length)? else {
+            return Ok(false);
+        };
+        (last.state, last.mark) = (state, Some(PathMark::Turned));
+        Ok(true)
     }
 
     /// Whether a branch passed a state before, so that it goes on over its own states. Its last step is not asked.
@@ -182,7 +229,9 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             let [low, high] = [pair[0].parameter.min(pair[1].parameter), pair[0].parameter.max(pair[1].parameter)];
             (low..=high).contains(&state.parameter)
         };
-        let ordinary = self.branches[number].states.iter().filter(|marked| marked.mark.is_none());
+        let all = &self.branches[number].states;
+        let turned = all.iter().rposition(|marked| marked.mark == Some(PathMark::Turned)).unwrap_or(0);
+        let ordinary = all[turned..].iter().filter(|marked| matches!(marked.mark, None | Some(PathMark::Turned)));
         let states: Vec<&PathState> = ordinary.map(|marked| &marked.state).collect();
         let passed: Vec<[PathState; 2]> = states[..states.len().saturating_sub(1)]
             .windows(2)
@@ -205,7 +254,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         next: &PathState,
     ) -> Result<Option<(PathState, BranchEnd)>, PathError> {
         let passed = |value: f64| (last.parameter - value) * (next.parameter - value) <= 0.0 && last.parameter != value;
-        let (target, most) = (self.follower.settings.target, self.follower.settings.length);
+        let (target, most) = (self.target(number), self.follower.settings.length);
         for (value, end, applies) in [(target, BranchEnd::Target, true), (self.origin, BranchEnd::Returned, number > 0)]
         {
             if applies && passed(value) {
@@ -238,8 +287,10 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     }
 
     /// A state with what the problem knows at it.
-    pub fn marked(&self, state: PathState, mark: Option<PathMark>, work: f64) -> MarkedState {
-        MarkedState { state, mark, work, reference: self.follower.problem.reference() }
+    pub fn marked(&mut self, state: PathState, mark: Option<PathMark>, work: f64) -> MarkedState {
+        self.follower.problem.set_parameter(state.parameter);
+        let reference = self.follower.problem.reference(&state.x);
+        MarkedState { state, mark, work, reference }
     }
 
     /// Takes a state into account in the largest values of the path.

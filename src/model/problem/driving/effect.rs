@@ -62,7 +62,8 @@ impl Effect {
         let all = stiff.iter().chain(&soft).map(|(_, scale, spring)| spring.stiffness * scale);
         let from = all.clone().next().ok_or(DriveError::NoTerm(kind))?;
         let is_first = |k: f64| k == from || (k - from).abs() <= SAME_STIFFNESS * from;
-        if !stiff.is_empty() && model.soft().any(|element| element.kind() == kind && element.has_law()) {
+        let keeps = |element: &Element<'_>| element.remembers() || (element.has_law() && !stiff.is_empty());
+        if model.soft().any(|element| element.kind() == kind && keeps(&element)) {
             return Err(DriveError::HasLaw(kind));
         }
         if !all.clone().all(is_first) || !(stiff.is_empty() || soft.is_empty()) {
