@@ -22,6 +22,7 @@ FIGURES = {
     "bellows": "bellows/pressed",
     "bellows-reaction": "bellows/pressed-reaction",
     "bird-base": "bird-base/folded",
+    "column-buckling": "column-buckling/buckled-buckling",
     "coupled-tubes": "coupled-tubes/modes",
     "crane": "crane/folded",
     "degree-four": "degree-four/folded",

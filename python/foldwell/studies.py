@@ -56,6 +56,7 @@ def modes(
     *,
     start: Start = None,
     eigenvalues: int | None = None,
+    buckling: int | None = None,
     name: str | None = None, draw: Sequence[str] = ("vtk",), check: Sequence[str] = (),
     threads: int | None = None, progress: Progress = None, must_converge: bool = True,
 ) -> Result:
@@ -65,6 +66,7 @@ def modes(
         assembly: The sheet and its energy.
         start: The state whose modes are wanted, as in `relax`.
         eigenvalues: How many, and how many frequencies where the assembly has a mass; left out: none.
+        buckling: How many of the lowest critical factors of the loads; left out: none.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
 
     Example:

@@ -6,6 +6,7 @@
 //! sign of a factorization, and, where the topology allows it, the null space of the closure conditions in fold angles,
 //! which share no equation with the bars.
 
+mod buckling;
 mod error;
 mod rank;
 mod seam;
@@ -17,6 +18,7 @@ use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::{Assembly, Bars, Boundary, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
 use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::{Problem, Start};
+pub use buckling::{Buckling, buckling};
 pub use error::{ModesError, SPARSE_EIGENVALUES};
 use rank::{rank_of, rigid_part};
 pub use seam::SeamMotions;
@@ -60,7 +62,7 @@ pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>
     let model = assembly.model(Gauge::Free);
     let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
     let coordinates = assembly.drawn().coordinates.clone();
-    let drawn = Configuration { coordinates, angles: model.angles(), tension: Some(tension) };
+    let drawn = Configuration::new(coordinates, model.angles(), Some(tension));
     modes_at(&assembly, &drawn, eigenvalues, observe)
 }
 

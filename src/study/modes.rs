@@ -1,5 +1,6 @@
 //! `kind = "modes"`: zero modes and self-stresses of the bars, linear folding modes, the spectrum of the energy.
 
+mod buckling;
 mod summary;
 mod vibrations;
 
@@ -22,6 +23,7 @@ pub use summary::{ModesSummary, SeamMotionsSummary};
 /// study asks for.
 pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
     start::check(context, spec.start.as_ref())?;
+    buckling::check(context, spec)?;
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
     supported::drawn_lengths(context, "eigenvalues in the drawn state")?;
     if **count > 0 {
@@ -69,7 +71,11 @@ pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Result<Answer,
     match found {
         Ok(modes) => {
             add_files(&mut answer, context, &modes, &state.coordinates);
-            answer.conclude(StudyResult::Modes(summary(&modes)), modes.gap.map(f64::recip), None);
+            let summary = match buckling::factors(&mut answer, context, spec, &state) {
+                Ok(critical_factors) => ModesSummary { critical_factors, ..summary(&modes) },
+                Err(error) => return Ok(Answer::failed(context.study, error)),
+            };
+            answer.conclude(StudyResult::Modes(summary), modes.gap.map(f64::recip), None);
             Ok(answer)
         }
         Err(error) => Ok(Answer::failed(context.study, error)),
@@ -95,6 +101,7 @@ fn summary(modes: &Modes) -> ModesSummary {
             both: found.both,
             gap: Some(found.gap).filter(|gap| gap.is_finite()),
         }),
+        critical_factors: None,
     }
 }
 

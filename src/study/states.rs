@@ -162,12 +162,22 @@ fn add_timed_series(
 
 /// Adds one picture as SVG, with the description `state`, if the study asks for it.
 pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
+    add_figure_as(context.name(), answer, context, (picture, state));
+}
+
+/// Adds a picture under another name than that of the study, without its ending.
+pub(crate) fn add_figure_as(
+    name: &str,
+    answer: &mut Answer,
+    context: &Context<'_>,
+    (picture, state): (&Picture, &str),
+) {
     if context.draws(Draw::Svg) {
         let numbers = context.study.draw.contains(&Draw::Numbers);
         // arrows of a weight, on every vertex, would hide the sheet
         let weighs = context.file.scene.loads.iter().any(|load| load.weight.is_some());
         let loads = if weighs { vec![] } else { context.assembly.terms().loads.clone() };
         let added = Annotations { loads, numbers };
-        answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &added, &context.caption(state)));
+        answer.add(format!("{name}.svg"), sheet::svg(picture, &added, &context.caption(state)));
     }
 }

@@ -1,6 +1,7 @@
 //! The errors of an analysis of modes.
 
 use crate::kinematics::KinematicsError;
+use crate::model::DriveError;
 use crate::numerics::dense::DenseError;
 use crate::numerics::eigen::EigenError;
 use crate::numerics::factor::FactorError;
@@ -61,6 +62,30 @@ pub enum ModesError {
         /// Coordinates that nothing holds.
         unknowns: usize,
     },
+    /// There are no loads that could grow, or they can turn the sheet.
+    #[error(transparent)]
+    Loads(#[from] DriveError),
+    /// Loads grow from a state that is no stable equilibrium.
+    #[error(
+        "loads grow from a stable equilibrium, and the state is none: its unbalanced force is {unbalanced:.1e} of the largest one, \
+         its softest motion has the stiffness {softest:.1e}, and {} eigenvalues are negative", said(*negative)
+    )]
+    NotStable {
+        /// Scaled unbalanced force, or gap.
+        unbalanced: f64,
+        /// Stiffness of a soft motion on what rigid terms leave free.
+        softest: f64,
+        /// Negative eigenvalues; `None` where their number cannot be established.
+        negative: Option<usize>,
+    },
+    /// The number of critical factors is not that of the eigenvalues that become negative.
+    #[error("{count} critical factors were found, and beyond them {} eigenvalues are negative", said(*negative))]
+    FactorsUncertain {
+        /// Factors that were found.
+        count: usize,
+        /// Negative eigenvalues; `None` where their number cannot be established.
+        negative: Option<usize>,
+    },
     /// Two ways to the rank disagree.
     #[error("the rank of the rigidity matrix is {by_values} by singular values and {by_inertia} by counting signs")]
     RankDisagrees {
@@ -77,6 +102,11 @@ pub enum ModesError {
         /// Number of motions or self stresses that the closure conditions have.
         closure: usize,
     },
+}
+
+/// A number that may not be known.
+fn said(count: Option<usize>) -> String {
+    count.map_or("an unknown number of".to_owned(), |count| count.to_string())
 }
 
 impl From<EigenError> for ModesError {

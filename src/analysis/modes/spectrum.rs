@@ -83,7 +83,7 @@ pub(super) fn lowest(
 }
 
 /// Entries of the Hessian of the whole energy, bars of finite stiffness included.
-fn whole_hessian(at: &Linearization, compliance: &[f64]) -> Vec<f64> {
+pub(super) fn whole_hessian(at: &Linearization, compliance: &[f64]) -> Vec<f64> {
     let mut values = at.hessian.clone();
     for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
         at.add_outer(row, 1.0 / c, &mut values);

@@ -2,6 +2,7 @@
 
 mod axis;
 mod effect;
+mod loading;
 
 use super::{Model, POSE, Support};
 use crate::model::drive::{Drive, DriveError, Driven};

@@ -191,7 +191,21 @@ impl Model {
     }
 
     fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
-        let full = kind == HessianKind::Full;
+        let responds = |element: &Element<'_>, value: f64| {
+            let [energy, force, second] = element.response(value);
+            [energy, force, second, element.metric()]
+        };
+        self.add_soft_terms(all, kind == HessianKind::Full, responds, out);
+    }
+
+    /// Adds the soft elements with these energies, forces, stiffnesses, and stiffnesses in the metric, at their values.
+    fn add_soft_terms(
+        &self,
+        all: &[f64],
+        full: bool,
+        responds: impl Fn(&Element<'_>, f64) -> [f64; 4],
+        out: &mut Linearization,
+    ) {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
             let size = match term.kind() {
@@ -201,8 +215,7 @@ impl Model {
             };
             let add = |k: usize, local: &Local| {
                 let element = self.element(term, k, first + k);
-                let [energy, force, second] = element.response(local.value);
-                let stiffness = element.metric();
+                let [energy, force, second, stiffness] = responds(&element, local.value);
                 out.energy += energy;
                 let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * force.abs().max(stiffness * LEAST_ANGLE));
@@ -232,6 +245,16 @@ impl Model {
         if self.equations.soft.is_empty() && self.loads.is_empty() {
             out.largest_force = out.largest_force.max(self.least_force(out));
         }
+    }
+
+    /// Returns the Hessian that these forces of soft elements and tensions of stiff measures have by the curvature of their
+    /// measures: the geometric stiffness.
+    pub(super) fn geometric_stiffness(&self, x: &[f64], forces: &[f64], tension: &[f64]) -> Linearization {
+        let (all, mut out) = (self.generalised(x), Linearization::new(&self.layout));
+        out.clear(HessianKind::Full);
+        self.add_soft_terms(&all, true, |element, _| [0.0, forces[element.number], 0.0, 0.0], &mut out);
+        self.linearize_stiff(&all, tension, &mut out);
+        out
     }
 
     /// Largest gradient of a measure that counts where forces are given a size: those of angles grow without bound as a

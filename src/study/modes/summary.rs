@@ -29,6 +29,10 @@ pub struct ModesSummary {
     /// there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub growth_rates: Vec<f64>,
+    /// Lowest factors of the loads, ascending, at which the state buckles to first order: 1 are the loads as given. Left out
+    /// where they are not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub critical_factors: Option<Vec<f64>>,
     /// Motions of a tube that its closing conditions leave free; left out on other domains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seam: Option<SeamMotionsSummary>,
@@ -73,7 +77,17 @@ impl ModesSummary {
                 (None, None) => "folding self unknown".into(),
             },
         ) + &frequencies(self)
+            + &buckling(self)
     }
+}
+
+/// Says the lowest critical factor; empty where none was asked for.
+fn buckling(modes: &ModesSummary) -> String {
+    let lowest = |factors: &Vec<f64>| match factors.first() {
+        Some(lowest) => format!("; buckles at {lowest:.6e} times the loads"),
+        None => "; buckles under no such loads".to_owned(),
+    };
+    modes.critical_factors.as_ref().map_or(String::new(), lowest)
 }
 
 /// Describes the lowest frequency above zero and the number of motions that grow; empty without mass.

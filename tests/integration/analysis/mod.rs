@@ -1,6 +1,7 @@
 //! Questions about states, asked through the library: relaxations, modes, paths, wells, landscapes, trajectories.
 
 mod bloch;
+mod buckling;
 mod cell_drawings;
 mod certificates;
 mod drawings;

@@ -1,0 +1,195 @@
+//! Linear buckling: the factors of the loads at which a state ceases to be stable, to first order in the loads.
+//!
+//! While loads grow by `l`, the forces in all elements grow by `l` times those of the linear response, and the Hessian `K`
+//! by `l G`, where `G` is their geometric stiffness; the state itself is taken not to move. The sheet buckles where
+//! `(K + l G) u = 0` (K.-J. Bathe, "Finite element procedures", 2014, 6.8.2). The lowest `l` are found by subspace iteration
+//! with `K^-1 G` (the same, 11.6), by the solver's own factorization, which rigid and very stiff terms do not disturb; and they
+//! are believed only where the count of negative eigenvalues of `K + l G` beyond them agrees (Sylvester's law).
+
+use super::error::ModesError;
+use super::spectrum::{Observer, go_on, whole_hessian};
+use crate::analysis::restored::{self, Forces};
+use crate::model::{Assembly, Configuration, Drive, Driven, DrivenModel, Gauge};
+use crate::numerics::factor::FactorError;
+use crate::numerics::sparse::symmetric_product;
+use crate::numerics::vector::{dot, larger, normalize};
+use crate::numerics::{DenseMatrix, dense};
+use crate::solver::path::ParametrizedProblem;
+use crate::solver::{HessianKind, Linearization, Problem, Residuals, Tangent};
+
+/// Scaled unbalanced force of a state that counts as an equilibrium.
+const BALANCED: f64 = 1e-8;
+/// Vectors of the subspace, more than four times those wanted; models of up to so many unknowns have all.
+const MORE_VECTORS: usize = 32;
+const ALL_VECTORS: usize = 128;
+/// Most iterations, and the relative change of factors that have converged.
+const MOST_ITERATIONS: usize = 300;
+const CONVERGED: f64 = 1e-12;
+/// Relative residual of solutions, and the relative energy of a vector of the subspace that depends on the others.
+const EXACT: f64 = 1e-14;
+const DEPENDENT: f64 = 1e-12;
+/// Part of the largest `1 / l` that may be rounding error.
+const NOISE: f64 = 1e-10;
+
+/// The lowest critical factors of the loads, and how the sheet buckles there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Buckling {
+    /// Factors of all loads, ascending: 1 are the loads as they are given. Only those above the factor of the state.
+    pub factors: Vec<f64>,
+    /// Velocities of all coordinates, one list for each factor; those of the unknowns have norm 1.
+    pub vectors: Vec<Vec<f64>>,
+}
+
+/// Finds the lowest critical factors of the loads, at most as many as wanted, of the drawn state, in which the loads are
+/// zero, or of another one, which has them in full.
+///
+/// # Errors
+/// [`ModesError::Loads`] where there are no loads, or they can turn the sheet; [`ModesError::NotStable`] where the state is
+/// no equilibrium, or not a stable one; [`ModesError::FactorsUncertain`] where the count of negative eigenvalues disagrees;
+/// others where a factorization fails or `observe` returned false.
+pub fn buckling(
+    assembly: &Assembly,
+    state: Option<&Configuration>,
+    wanted: usize,
+    observe: &mut Observer<'_>,
+) -> Result<Buckling, ModesError> {
+    let mut model = assembly.model(Gauge::Held);
+    let drawn = model.values(&model.start());
+    let known = state.and_then(|state| model.enter(state).tension);
+    let loads = Drive { quantity: Driven::Loads, to: 2.0 };
+    let driven = DrivenModel::new(model, &loads, drawn, state.is_some())?;
+    let x = driven.model.start();
+    let tension = known.unwrap_or_else(|| restored::tensions(&driven.model, &x, &Forces::Unknown));
+    go_on(observe)?;
+    let mut tangent = Tangent::at_state(&driven, &x, &tension, HessianKind::Full)?;
+    check_stable(&driven, &mut tangent, &tension)?;
+    let growth = driven.geometric_rate(&mut tangent, &x, &tension).hessian;
+    let (values, vectors) = critical(&mut tangent, &growth, wanted, observe)?;
+    let above = positive(&values);
+    let count = above.min(wanted);
+    let last = count.checked_sub(1).map(|k| values[k].recip());
+    let next = values[..above].get(count).map(|value| value.recip());
+    agrees(&mut tangent, &growth, (count, last, next))?;
+    let velocity = |k: usize| {
+        let mut motion = vectors.column(k).as_slice().to_vec();
+        normalize(&mut motion);
+        driven.model.velocity(&motion)
+    };
+    Ok(Buckling {
+        factors: values[..count].iter().map(|value| driven.parameter() + value.recip()).collect(),
+        vectors: (0..count).map(velocity).collect(),
+    })
+}
+
+/// Factors the tangent of a state, and checks that the state is a stable equilibrium.
+fn check_stable(driven: &DrivenModel, tangent: &mut Tangent, tension: &[f64]) -> Result<(), ModesError> {
+    let Residuals { force, length } = Residuals::new(driven, &tangent.at, tension);
+    let unbalanced = larger(force, length);
+    let negative = tangent.negative_eigenvalues()?;
+    tangent.factor(0.0)?;
+    let unknowns = tangent.at.gradient.len();
+    let push: Vec<f64> = (0..unknowns).map(start).collect();
+    let moved = tangent.solve(&push, &vec![0.0; tension.len()], EXACT).dx;
+    let softest = dot(&push, &moved) / dot(&moved, &moved);
+    let pattern = tangent.at.pattern();
+    let soft = pattern.largest_diagonal(&tangent.at.hessian);
+    let diagonal =
+        if soft > 0.0 { soft } else { pattern.largest_diagonal(&whole_hessian(&tangent.at, driven.compliance())) };
+    match negative {
+        Some(0) if unbalanced <= BALANCED && softest > dense::eigenvalue_rounding(unknowns, diagonal) => Ok(()),
+        _ => Err(ModesError::NotStable { unbalanced, softest, negative }),
+    }
+}
+
+/// How many of these values, descending, are positive and no rounding errors.
+fn positive(values: &[f64]) -> usize {
+    let largest = values.iter().fold(0.0, |largest, value| larger(largest, value.abs()));
+    values.iter().take_while(|value| **value > NOISE * largest).count()
+}
+
+/// A component of a vector that has something of every motion.
+fn start(k: usize) -> f64 {
+    1.0 + (k as f64 * 0.618_033_988_75).fract()
+}
+
+/// The largest `1 / l`, descending, with their vectors, by subspace iteration: each step solves `K W = -G V`, and takes the
+/// best of the span of `W`. Of small models the span is that of all motions.
+fn critical(
+    tangent: &mut Tangent,
+    growth: &[f64],
+    wanted: usize,
+    observe: &mut Observer<'_>,
+) -> Result<(Vec<f64>, DenseMatrix), ModesError> {
+    let unknowns = tangent.at.gradient.len();
+    let size = if unknowns <= ALL_VECTORS { unknowns } else { (4 * wanted + MORE_VECTORS).min(unknowns) };
+    let mut vectors = DenseMatrix::from_fn(unknowns, size, |row, k| start(row * (k + 1) + 7 * k) - 1.5);
+    let mut known = vec![];
+    for _ in 0..MOST_ITERATIONS {
+        let mut moved = DenseMatrix::zeros(unknowns, vectors.ncols());
+        let pushed = -grown(&tangent.at, growth, &vectors);
+        for k in 0..vectors.ncols() {
+            go_on(observe)?;
+            let nothing = vec![0.0; tangent.at.gaps.len()];
+            let motion = tangent.solve(pushed.column(k).as_slice(), &nothing, EXACT).dx;
+            moved.column_mut(k).copy_from_slice(&motion);
+        }
+        let found = best(&moved, &pushed, &grown(&tangent.at, growth, &moved))?;
+        let values = found.0;
+        vectors = found.1;
+        let first = |values: &[f64]| values[..positive(values).min(wanted)].to_vec();
+        let [now, before]: [Vec<f64>; 2] = [first(&values), first(&known)];
+        let stands = now.len() == before.len() && now.iter().zip(&before).all(|(a, b)| (a - b).abs() <= CONVERGED * a);
+        if stands && !known.is_empty() {
+            return Ok((values, vectors));
+        }
+        known = values;
+    }
+    Err(FactorError::Eigenpairs { wanted, found: 0 }.into())
+}
+
+/// The products of the geometric stiffness with vectors.
+fn grown(at: &Linearization, growth: &[f64], vectors: &DenseMatrix) -> DenseMatrix {
+    let mut products = DenseMatrix::zeros(vectors.nrows(), vectors.ncols());
+    for (product, vector) in products.column_iter_mut().zip(vectors.column_iter()) {
+        let mut column = vec![0.0; vectors.nrows()];
+        symmetric_product(at.pattern(), growth, vector.as_slice(), &mut column);
+        { product }.copy_from_slice(&column);
+    }
+    products
+}
+
+/// The values `1 / l` on the span of `W`, descending, and their vectors, given `K W` and `G W`.
+fn best(
+    moved: &DenseMatrix,
+    elastic: &DenseMatrix,
+    geometric: &DenseMatrix,
+) -> Result<(Vec<f64>, DenseMatrix), ModesError> {
+    let energy = moved.tr_mul(elastic);
+    let root = dense::symmetric_eigen(&(0.5 * (&energy + energy.transpose())))?;
+    let least = DEPENDENT * root.values.last().copied().unwrap_or(0.0);
+    let kept: Vec<usize> = (0..root.values.len()).filter(|&k| root.values[k] > least).collect();
+    let scaled = DenseMatrix::from_fn(moved.ncols(), kept.len(), |row, k| {
+        root.vectors[(row, kept[k])] / root.values[kept[k]].sqrt()
+    });
+    let growth = scaled.transpose() * moved.tr_mul(geometric) * &scaled;
+    let found = dense::symmetric_eigen(&(0.5 * (&growth + growth.transpose())))?;
+    // ascending, of the geometric stiffness: the other way round of what is sought
+    Ok((found.values.iter().map(|value| -value).collect(), moved * scaled * found.vectors))
+}
+
+/// Checks that just so many eigenvalues are negative between the last factor that was found and the next: none far out where
+/// there is no factor.
+fn agrees(
+    tangent: &mut Tangent,
+    growth: &[f64],
+    (count, last, next): (usize, Option<f64>, Option<f64>),
+) -> Result<(), ModesError> {
+    let between = match (last, next) {
+        (Some(last), Some(next)) => 0.5 * (last + next),
+        (Some(last), None) => 1.5 * last,
+        (None, _) => return Ok(()),
+    };
+    tangent.at.hessian.iter_mut().zip(growth).for_each(|(value, growth)| *value += between * growth);
+    let negative = tangent.negative_eigenvalues()?;
+    if negative == Some(count) { Ok(()) } else { Err(ModesError::FactorsUncertain { count, negative }) }
+}

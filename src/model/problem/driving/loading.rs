@@ -1,0 +1,28 @@
+//! The first order of loading: how a state changes with its loads, and what that does to its stiffness.
+
+use super::DrivenModel;
+use super::effect::Effect;
+use crate::solver::path::ParametrizedProblem;
+use crate::solver::{Linearization, Tangent};
+
+/// Relative residual of the system of the rates.
+const EXACT: f64 = 1e-14;
+
+impl DrivenModel {
+    /// Returns the rate by the parameter, in the state of a factored tangent, of the Hessian that the rates of the forces in
+    /// elements make, while the state itself does not move: the geometric stiffness of linear buckling.
+    pub(crate) fn geometric_rate(&self, tangent: &mut Tangent, x: &[f64], tension: &[f64]) -> Linearization {
+        let [force, gap] =
+            self.parameter_rates(&tangent.at, x, tension).map(|rates| rates.iter().map(|r| -r).collect());
+        let (force, gap): (Vec<f64>, Vec<f64>) = (force, gap);
+        let rates = tangent.solve(&force, &gap, EXACT);
+        let mut changes = vec![0.0; tangent.at.soft_stiffness.len()];
+        tangent.at.soft_rows().product(&rates.dx, &mut changes);
+        let stiffness = self.model.soft_responses(x).into_iter().map(|[_, _, second]| second);
+        let mut forces: Vec<f64> = changes.iter().zip(stiffness).map(|(change, second)| second * change).collect();
+        if let Effect::Loads { pressures, .. } = &self.effect {
+            pressures.iter().for_each(|(face, unit)| forces[*face] -= unit);
+        }
+        self.model.geometric_stiffness(x, &forces, &rates.dt)
+    }
+}
