@@ -45,6 +45,7 @@ FIGURES = {
     "miura-bend": "miura-bend/bent",
     "miura-bend-reaction": "miura-bend/bent-reaction",
     "miura-lock": "miura-lock/folded",
+    "miura-panels": "miura-panels/twisted",
     "miura-pull": "miura-pull/pulled",
     "miura-pull-reaction": "miura-pull/pulled-reaction",
     "miura-response": "miura-response/elastic-ratios",

@@ -86,7 +86,8 @@ class Assembly:
             rest: Rest angles of the creases in radians: a number, "drawn", "flat", "assigned", "target", a dict by letters
                 (`{"M": -1.0, "V": 1.0}`), a mode (`{"mode": [k11, k22, k12], "amplitude": a}`), or an array. Left out: drawn.
             fraction: Factor on the rest angles "assigned", "target" and by letters, from 0 to 1.
-            facets: Stiffness of the diagonals of polygons. Left out: rigid.
+            facets: Stiffness of the diagonals of polygons, or a model with the stiffness of `material`: "N5B8" gives quadrilaterals a
+                vertex where their diagonals cross. Left out: rigid, or as `material` has it.
             facet_rest: Rest angles of the facets, as `rest`.
             locks: Creases that keep their angle: a dict from names `(i, j, n1, n2)` to angles in radians (None: the drawn one),
                 or names alone.
@@ -473,6 +474,8 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
         raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
     given = {name: value for name, value in given.items() if value is not None}
     energy: dict[str, dict[str, Any]] = {term: {"stiffness": given[term]} for term in ("bars", "creases", "facets") if term in given}
+    if isinstance(given.get("facets"), str) and given["facets"] != "mesh":
+        energy["facets"] = {"model": given["facets"]}
     own = {"bars": ("rest", "rest_lengths"), "creases": ("rest", "rest"), "facets": ("rest", "facet_rest")}
     keys = [(term, key, given.get(name), name) for term, (key, name) in own.items()]
     keys += [("creases", "fraction", given.get("fraction"), "fraction")]

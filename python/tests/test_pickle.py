@@ -54,6 +54,7 @@ def test_assemblies(again, miura):
         fw.Assembly.patch(miura, (2, 2), pins=held, **terms),
         fw.Assembly.torus(miura, (2, 1), laws=laws, bars=1e2, creases=1.3, facets=2.0),
         fw.Assembly.screw(star, bars=fw.RIGID, creases=1.0, rest=0.3),
+        fw.Assembly.patch(miura, (2, 2), facets="N5B8", material={"young": 1e3, "poisson": 0.3, "thickness": 0.1}),
         fw.Assembly.from_scene(ROOT / "meshes/two-bars-push.toml"),
     ]:
         x = assembly.start + 1e-2 * np.random.default_rng(1).standard_normal(len(assembly.start))

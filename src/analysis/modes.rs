@@ -146,13 +146,13 @@ fn rigid_bars(terms: &Terms) -> Option<Bars> {
     terms.bar_stiffness()?.rigid_part().map(Bars::from)
 }
 
-/// Rigid motions of the sheet; where a patch has several pieces with faces, of each of them.
+/// Rigid motions of the sheet, of a patch of each of its pieces with faces.
 fn rigid_motions(drawn: &Drawn, tiling: &Tiling, bars: &Model) -> usize {
     let of = |coordinates: &[f64], held: &[bool]| {
         gauge::choose(&gauge::rigid_motions(&drawn.domain, coordinates, true), held).len()
     };
     let (pieces, held) = (pieces_of(tiling), bars.held());
-    if pieces.len() < 2 || !matches!(drawn.domain, Domain::Patch) {
+    if pieces.is_empty() || !matches!(drawn.domain, Domain::Patch) {
         return of(&drawn.coordinates, &held);
     }
     let of_piece = |piece: &Vec<usize>| {

@@ -52,7 +52,7 @@ pub struct Drawn {
     /// Coordinates of all vertices, then the shared coordinates of the domain; see [`Domain`].
     pub coordinates: Vec<f64>,
     /// Indices of the coordinates that the boundary conditions hold: for a screw those of vertex 0 and y of the first
-    /// lattice vector, otherwise none.
+    /// lattice vector, for a patch those of vertices without edges, otherwise none.
     pub held: Vec<usize>,
     /// Rotation about `origin` from the file's frame to the domain's frame.
     pub frame: Matrix3<f64>,
@@ -78,7 +78,12 @@ impl Drawn {
             (Boundary::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
             _ => (Domain::Patch, flat(&positions)),
         };
-        Self { domain, coordinates, held: vec![], frame, origin, chords: None }
+        // what no edge leads to would drift: the centres of panels that a patch does not have
+        let mut joined = vec![false; tiling.positions.len()];
+        tiling.edges.iter().flat_map(|edge| edge.ends).for_each(|end| joined[end.vertex] = true);
+        let loose = (0..joined.len()).filter(|&vertex| !joined[vertex]);
+        let held = loose.flat_map(|vertex| 3 * vertex..3 * vertex + 3).collect();
+        Self { domain, coordinates, held, frame, origin, chords: None }
     }
 
     /// Makes the drawn state of a screw: vertex 0 at the origin, the first lattice vector along x, the face normals

@@ -13,6 +13,12 @@
 //!   D (L / t)^(1/3)` for each radian; for each length of the diagonal this is `0.55 D (L / t)^(1/3) / L`. Source: E.
 //!   T. Filipov, K. Liu, T. Tachi, M. Schenk and G. H. Paulino, Int. J. Solids Struct. 124, 26 (2017), model N4B5 with
 //!   right angles; the power of a third: A. Lobkovsky et al., Science 270, 1482 (1995).
+//! - **Panels with a vertex at their centre** ([`with_centres`](crate::sheet::with_centres), model N5B8 of the same
+//!   paper). Of sides `W` and `H`, means of opposite ones, a side of length `W` gets the cross section `A = t |H^2 - nu
+//!   W^2| / (2 H (1 - nu^2))`, and every half diagonal `A = t nu (W^2 + H^2)^(3/2) / (2 W H (1 - nu^2))`. A rectangle
+//!   that is stretched along its sides then stores what the sheet stores, for every `nu`, as long as `H^2 > nu W^2`;
+//!   sheared, `2 nu / (1 - nu)` of it, all of it at `nu = 1/3`. Half of a diagonal of length `L` has the moment `D (L /
+//!   t)^(1/3) / L` for each radian and length, without the factor 0.55.
 //! - **Creases.** `D / L*` for each length of crease, with the length scale `L*` of the crease: as a strip of the sheet
 //!   of this width bends. Source: F. Lechenault, B. Thiria and M. Adda-Bedia, Phys. Rev. Lett. 112, 244301 (2014), and
 //!   Filipov et al. (2017).
@@ -21,7 +27,7 @@ use super::assembly::Assembly;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;
 use crate::sheet::cell::TriangleSide;
-use crate::sheet::{EdgeKey, EdgeKind, TiledEdge, Triangle};
+use crate::sheet::{EdgeKey, EdgeKind, Sheet, TiledEdge};
 use std::collections::HashMap;
 
 /// The moment of a ridge for each radian, over `D (L / t)^(1/3)`.
@@ -63,18 +69,20 @@ impl Material {
     /// the rim of a patch whose triangles are all beyond it has that of the cell.
     pub fn bars(&self, assembly: &Assembly) -> Stiffness {
         let (sheet, tiling, drawn) = (assembly.sheet(), assembly.tiling(), assembly.drawn());
+        let panels = self.of_panels(sheet);
         let mut of_patch: HashMap<(EdgeKey, [usize; 2]), f64> = HashMap::new();
         for tiled in &tiling.triangles {
             let points = tiled.corners.map(|site| drawn.domain.point(&drawn.coordinates, site));
-            for (side, section) in self.sections(&sheet.triangles[tiled.triangle], points) {
+            for (side, section) in self.sections((sheet, &panels), tiled.triangle, points) {
                 let at = [0, 1].map(|a| tiled.cell[a] + side.base.shift[a]);
                 let cell = [0, 1].map(|a| at[a].rem_euclid(tiling.cells[a] as i32) as usize);
                 *of_patch.entry((side.key, cell)).or_default() += section;
             }
         }
         let mut of_cell: HashMap<EdgeKey, f64> = HashMap::new();
-        for triangle in &sheet.triangles {
-            for (side, section) in self.sections(triangle, triangle.corners.map(|corner| sheet.position(corner))) {
+        for (number, triangle) in sheet.triangles.iter().enumerate() {
+            let points = triangle.corners.map(|corner| sheet.position(corner));
+            for (side, section) in self.sections((sheet, &panels), number, points) {
                 *of_cell.entry(side.key).or_default() += section;
             }
         }
@@ -85,10 +93,38 @@ impl Material {
         tiling.edges.iter().map(|tiled| self.young * section(tiled)).collect::<Vec<f64>>().into()
     }
 
-    /// Returns the sides of a triangle with these corners, each with the cross section that it gives to that edge.
-    fn sections(&self, triangle: &Triangle, points: [Vec3; 3]) -> [(TriangleSide, f64); 3] {
-        let sides = triangle.sides();
-        std::array::from_fn(|k| (sides[k], self.section([points[k], points[(k + 1) % 3]], points[(k + 2) % 3])))
+    /// Returns the sides of a triangle with these corners, each with the cross section that it gives to that edge: as a
+    /// part of its panel, if it is one.
+    fn sections(
+        &self,
+        (sheet, panels): (&Sheet, &HashMap<usize, HashMap<EdgeKey, f64>>),
+        triangle: usize,
+        points: [Vec3; 3],
+    ) -> [(TriangleSide, f64); 3] {
+        let sides = sheet.triangles[triangle].sides();
+        let alone = |k: usize| self.section([points[k], points[(k + 1) % 3]], points[(k + 2) % 3]);
+        let section = |k: usize| panels.get(&triangle).map_or_else(|| alone(k), |panel| panel[&sides[k].key]);
+        std::array::from_fn(|k| (sides[k], section(k)))
+    }
+
+    /// Returns the cross sections that each triangle of a panel gives to its sides, by its number.
+    fn of_panels(&self, sheet: &Sheet) -> HashMap<usize, HashMap<EdgeKey, f64>> {
+        let (mut found, nu) = (HashMap::new(), self.poisson);
+        let plane = self.thickness / (2.0 * (1.0 - nu * nu));
+        for panel in &sheet.panels {
+            let edges = panel.edges(sheet);
+            let rim = edges.map(|[_, rim]| sheet.length(rim));
+            let mean = |k: usize| (rim[k % 4] + rim[(k + 2) % 4]) / 2.0;
+            for (k, triangle) in panel.triangles.into_iter().enumerate() {
+                let (w, h) = (mean(k), mean(k + 1));
+                // a half diagonal lies between two triangles of its panel
+                let spoke = plane * nu * (w * w + h * h).powf(1.5) / (w * h) / 2.0;
+                let side = plane * (h * h - nu * w * w).abs() / h;
+                let [[from, rim], [to, _]] = [edges[k], edges[(k + 1) % 4]];
+                found.insert(triangle, HashMap::from([(from, spoke), (to, spoke), (rim, side)]));
+            }
+        }
+        found
     }
 
     /// Returns the cross section that the triangle of an edge and this third corner gives to the edge.
@@ -97,13 +133,19 @@ impl Material {
         (b - a).cross(&(wing - a)).norm() * self.thickness / ((1.0 - self.poisson) * perimeter)
     }
 
-    /// Returns the stiffness of the diagonal of a polygon of every edge of the tiling, moment per radian and length;
-    /// NaN for other edges.
+    /// Returns the stiffness of the diagonal of a polygon, or of half of one, of every edge of the tiling, moment per
+    /// radian and length; NaN for other edges.
     pub fn facets(&self, assembly: &Assembly) -> Stiffness {
-        let mut each = Vec::with_capacity(assembly.edges());
+        let (mut each, sheet) = (Vec::with_capacity(assembly.edges()), assembly.sheet());
+        let mut diagonals = HashMap::new();
+        for spokes in sheet.panels.iter().map(|panel| panel.edges(sheet).map(|[spoke, _]| spoke)) {
+            let length = |k: usize| sheet.length(spokes[k % 4]);
+            diagonals.extend((0..4).map(|k| (spokes[k], length(k) + length(k + 2))));
+        }
         for tiled in &assembly.tiling().edges {
-            let length = assembly.drawn().distance(&tiled.ends);
-            let stiffness = RIDGE * self.bending_stiffness() * (length / self.thickness).cbrt() / length;
+            let of_panel = diagonals.get(&sheet.edges[tiled.edge].key).map(|&length| (length, 1.0));
+            let (length, factor) = of_panel.unwrap_or_else(|| (assembly.drawn().distance(&tiled.ends), RIDGE));
+            let stiffness = factor * self.bending_stiffness() * (length / self.thickness).cbrt() / length;
             each.push(if tiled.kind == EdgeKind::Facet { stiffness } else { f64::NAN });
         }
         each.into()

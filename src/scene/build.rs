@@ -33,6 +33,7 @@ pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
 /// # Errors
 /// [`SceneError`] if the scene refers to a part of the sheet that does not exist.
 pub fn assembly_of(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
+    let sheet = super::material::with_panels(file, sheet)?;
     let boundary = boundary(file, &sheet)?;
     super::memory::check(file, &sheet)?;
     let cells = file.scene.sheet.cells();
@@ -233,11 +234,8 @@ impl<'a> Reader<'a> {
             return Ok(Some(stiffness.into()));
         }
         let Some(material) = material(self.file) else { return Ok(None) };
-        if of == ElementKind::Bars {
-            self.check_bars_have_faces()?;
-        }
         Ok(match of {
-            ElementKind::Bars => Some(material.bars(self.assembly)),
+            ElementKind::Bars => Some(super::material::bars(self.file, self.assembly, &material)?),
             ElementKind::Creases => material.creases(),
             ElementKind::Facets => Some(material.facets(self.assembly)),
         })
@@ -330,15 +328,6 @@ impl<'a> Reader<'a> {
     /// Returns the rates of a table: every hinge of the first term has one, and hinges of the second may have one.
     fn rates(&self, name: &RatesFile, of: (ElementKind, ElementKind)) -> Result<Vec<f64>, SceneError> {
         self.values.named_values(&name.rates, Column::Rate, of)
-    }
-
-    /// Checks that a face is drawn along every bar, from which the material has its stiffness.
-    fn check_bars_have_faces(&self) -> Result<(), SceneError> {
-        let Some(bar) = self.sheet.bars_alone().next() else { return Ok(()) };
-        let message = format!("the material says nothing of the bar {}, which has no face", name(bar.key));
-        let help = "give the bars `stiffness`: a number, or \"mesh\" with `foldwell:bar_stiffness` in the mesh file";
-        let span = self.file.scene.material.as_ref().map(Located::span).unwrap_or_default();
-        Err(self.file.error_at(span, message, help))
     }
 
     fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {

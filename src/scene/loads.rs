@@ -100,13 +100,14 @@ fn of_array(file: &SceneFile, assembly: &Assembly, array: &[f64]) -> Result<Vec<
 
 /// Returns the pressure on the faces of an entry.
 fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>) -> Result<OwnTerm, SceneError> {
-    let count = assembly.sheet().polygons.len();
+    let face_of = assembly.sheet().faces();
+    let count = face_of.iter().max().map_or(0, |last| last + 1);
     let span = || spec.faces.as_ref().map_or(spec.span(), Located::span);
     if let Some(face) = spec.faces.as_ref().and_then(|faces| faces.iter().find(|face| **face >= count)) {
         let help = format!("the faces of the mesh are 0 to {}", count - 1);
         return Err(file.error_at(span(), format!("there is no face {face}"), help));
     }
-    let on = |polygon: usize| spec.faces.as_ref().is_none_or(|faces| faces.contains(&polygon));
+    let on = |polygon: usize| spec.faces.as_ref().is_none_or(|faces| faces.contains(&face_of[polygon]));
     OwnTerm::pressure(assembly, spec.value.0, on).map_err(|error| {
         let help = match error {
             AssemblyError::NoPatch => "give domain = \"patch\"",

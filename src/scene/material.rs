@@ -1,8 +1,10 @@
 //! The material of a scene, and the stiffnesses that follow from it.
 
-use super::spec::MaterialSpec;
+use super::elements::name;
+use super::spec::{FacetModel, MaterialSpec};
 use super::{Located, SceneError, SceneFile};
-use crate::model::Material;
+use crate::model::{Assembly, Material, Stiffness};
+use crate::sheet::{Sheet, with_centres};
 
 /// Checks that every term of the energy has a stiffness, or the material one for it.
 pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
@@ -25,4 +27,45 @@ pub(super) fn material(file: &SceneFile) -> Option<Material> {
     let MaterialSpec { young, poisson, thickness, crease_length } = **file.scene.material.as_ref()?;
     let (young, poisson, thickness) = (young.0, poisson.0, thickness.0);
     Some(Material { young, poisson, thickness, crease_length: crease_length.map(|length| length.0) })
+}
+
+/// Returns the sheet with a vertex at the centre of every quadrilateral, if the scene asks for it.
+///
+/// # Errors
+/// [`SceneError`] if no face is a quadrilateral, or a centre is where another vertex is.
+pub(super) fn with_panels(file: &SceneFile, sheet: Sheet) -> Result<Sheet, SceneError> {
+    let facets = file.scene.energy.facets.as_ref().filter(|facets| facets.model == Some(FacetModel::N5B8));
+    let Some(facets) = facets else { return Ok(sheet) };
+    let help =
+        "N5B8 gives quadrilaterals a vertex where their diagonals cross; draw faces as quadrilaterals, or leave it out";
+    match with_centres(&sheet) {
+        Ok(sheet) if sheet.panels.is_empty() => {
+            Err(file.error_at(facets.span(), "the sheet has no quadrilateral whose diagonals cross", help))
+        }
+        Ok(sheet) => Ok(sheet),
+        Err(defect) => Err(file.error_at(facets.span(), defect.to_string(), help)),
+    }
+}
+
+/// Returns the stiffness of the bars that follows from the material.
+///
+/// # Errors
+/// [`SceneError`] if a bar has no face, or the material has no stiffness for it.
+pub(super) fn bars(file: &SceneFile, assembly: &Assembly, material: &Material) -> Result<Stiffness, SceneError> {
+    let span = file.scene.material.as_ref().map(Located::span).unwrap_or_default();
+    let sheet = assembly.sheet();
+    if let Some(bar) = sheet.bars_alone().next() {
+        let message = format!("the material says nothing of the bar {}, which has no face", name(bar.key));
+        let help = "give the bars `stiffness`: a number, or \"mesh\" with `foldwell:bar_stiffness` in the mesh file";
+        return Err(file.error_at(span, message, help));
+    }
+    let bars = material.bars(assembly);
+    if let Some(bar) = (0..assembly.edges()).find(|&bar| !(bars.of(bar) > 0.0)) {
+        let bar = name(sheet.edges[assembly.tiling().edges[bar].edge].key);
+        let message = format!("with N5B8 the material leaves no stiffness for the bar {bar}");
+        let help = "give a Poisson's ratio nu above 0, panels that are not just 1/sqrt(nu) times as long as wide, or \
+                    `stiffness` to the bars";
+        return Err(file.error_at(span, message, help));
+    }
+    Ok(bars)
 }

@@ -5,6 +5,7 @@
 //! checks at the end of [`crate::scene::parse`].
 
 mod drive;
+mod facets;
 mod law;
 mod material;
 mod stop;
@@ -23,6 +24,7 @@ use serde::Deserialize;
 use std::path::PathBuf;
 
 pub use drive::*;
+pub use facets::*;
 pub use law::*;
 pub use material::*;
 pub use stop::*;
@@ -193,7 +195,7 @@ pub struct EnergySpec {
     /// Hinges at the creases.
     pub creases: Option<Located<CreasesSpec>>,
     /// Hinges at the diagonals of polygons; left out, polygons are rigid, unless there is a material.
-    pub facets: Option<Located<FacetsSpec>>,
+    pub facets: Option<Located<FacetsForm>>,
 }
 
 impl EnergySpec {
@@ -234,25 +236,6 @@ pub struct BarsSpec {
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
     /// Torque per radian and per length of crease; the spring constant is stiffness * L0. Left out: that of the
-    /// material.
-    pub stiffness: Option<Located<StiffnessSpec>>,
-    /// Rest angles; left out: as drawn.
-    pub rest: Option<Located<RestSpec>>,
-    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
-    /// letters.
-    pub fraction: Option<Located<Fraction>>,
-    /// How the torque grows with the angle; left out: linearly.
-    pub law: Option<Located<HingeLawSpec>>,
-    /// Where it yields; left out: nowhere.
-    #[serde(rename = "yield")]
-    pub yields: Option<Located<HingeYieldSpec>>,
-}
-
-/// `facets = { stiffness, rest, fraction, law, yield }`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct FacetsSpec {
-    /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0. Left out: that of the
     /// material.
     pub stiffness: Option<Located<StiffnessSpec>>,
     /// Rest angles; left out: as drawn.

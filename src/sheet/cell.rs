@@ -86,6 +86,23 @@ pub struct Triangle {
     pub polygon: usize,
 }
 
+/// A quadrilateral that is split into four triangles round its centre.
+///
+/// ```text
+/// d ----- c
+/// | \   / |
+/// |  0    |     triangles in order round the centre 0: (a, b, 0), (b, c, 0), (c, d, 0), (d, a, 0)
+/// | /   \ |
+/// a ----- b
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Panel {
+    /// Number of the vertex at its centre.
+    pub centre: usize,
+    /// Numbers of its triangles in the sheet, counter-clockwise.
+    pub triangles: [usize; 4],
+}
+
 /// A side of a [`Triangle`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriangleSide {
@@ -131,6 +148,8 @@ pub struct Sheet {
     pub triangles: Vec<Triangle>,
     /// The edges, diagonals of polygons included.
     pub edges: Vec<Edge>,
+    /// The panels that have a vertex at their centre, if [`with_centres`](super::with_centres) has looked for them.
+    pub panels: Vec<Panel>,
     /// Declared openings of a periodic sheet (`foldwell:holes`), each as the vertices around it.
     pub holes: Vec<Vec<Corner>>,
     /// Origins of the vertices made by cuts, which are the last ones of `vertices`: the vertex from which each was
@@ -302,6 +321,12 @@ impl Sheet {
         };
         let normal: Vec3 = self.triangles.iter().map(|triangle| area(triangle.corners)).sum();
         self.chords().is_none_or(|[l1, l2]| !(l1.cross(&l2).dot(&normal) < 0.0))
+    }
+
+    /// Returns the length of an edge in the drawn state.
+    pub(crate) fn length(&self, key: EdgeKey) -> f64 {
+        let [from, to] = key.ends().map(|end| self.position(end));
+        (to - from).norm()
     }
 
     /// Returns the position of a corner in the drawn state.

@@ -55,9 +55,9 @@ pub struct TiledTriangle {
 /// `n1 x n2` cells of a sheet.
 ///
 /// **Patch**: exactly `n1 n2 Nv` vertices and no copies. An edge exists if both its vertices do; a polygon exists,
-/// with its diagonals and triangles, if all its vertices do; a wing exists if its polygon does. **Torus**: everything
-/// exists, and vertices beyond the last cell are copies, translated by superlattice vectors. A finite sheet is a
-/// patch of one cell.
+/// with its diagonals and triangles, if all its vertices do; a wing exists if its polygon does. A panel is one polygon:
+/// where it does not exist its centre is a vertex without edges. **Torus**: everything exists, and vertices beyond the
+/// last cell are copies, translated by superlattice vectors. A finite sheet is a patch of one cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiling {
     /// Numbers of cells `[n1, n2]` along the two lattice vectors.
@@ -135,10 +135,12 @@ impl CellGrid {
     }
 
     fn elements(&self, sheet: &Sheet) -> (Vec<TiledEdge>, Vec<TiledTriangle>) {
-        let flanks = flanks(sheet);
+        let (flanks, outlines) = (&flanks(sheet), &sheet.outlines());
         let edges = self.all_cells().flat_map(|cell| {
-            let numbered = sheet.edges.iter().zip(&flanks).enumerate();
-            numbered.filter_map(move |(e, (edge, flank))| self.edge(sheet, e, (edge.key, edge.kind), flank, cell))
+            let numbered = sheet.edges.iter().zip(flanks).enumerate();
+            numbered.filter_map(move |(e, (edge, flank))| {
+                self.edge((sheet, outlines), e, (edge.key, edge.kind), flank, cell)
+            })
         });
         let edges = edges.collect();
         let triangles = self.all_cells().flat_map(|cell| {
@@ -146,7 +148,7 @@ impl CellGrid {
                 let first = sheet.polygons[t.polygon][0].shift;
                 (triangle, t, [cell[0] - first[0], cell[1] - first[1]])
             });
-            let there = moved.filter(|(_, t, frame)| self.exists(&sheet.polygons[t.polygon], *frame));
+            let there = moved.filter(|(_, t, frame)| self.exists(&outlines[t.polygon], *frame));
             there.filter_map(|(triangle, t, cell)| {
                 let [a, b, c] = t.corners.map(|corner| self.site(corner, cell));
                 Some(TiledTriangle { triangle, cell, corners: [a?, b?, c?] })
@@ -157,7 +159,7 @@ impl CellGrid {
 
     fn edge(
         &self,
-        sheet: &Sheet,
+        (sheet, outlines): (&Sheet, &[Vec<Corner>]),
         edge: usize,
         (key, kind): (EdgeKey, EdgeKind),
         flanks: &[Option<Flank>; 2],
@@ -167,7 +169,7 @@ impl CellGrid {
         let wings = [0, 1].map(|side| {
             let flank = flanks[side].as_ref()?;
             let frame = [cell[0] + flank.frame[0], cell[1] + flank.frame[1]];
-            let exists = self.exists(&sheet.polygons[flank.polygon], frame);
+            let exists = self.exists(&outlines[flank.polygon], frame);
             if exists { self.site(flank.opposite, cell) } else { None }
         });
         let kind = match (kind, wings) {

@@ -84,7 +84,10 @@ pub fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
     if let Some(of) = of {
         return Err(ModesError::NoMassMatrix { of });
     }
-    let without = assembly.masses().and_then(|masses| masses.iter().position(|mass| *mass <= 0.0));
+    let held = &assembly.drawn().held;
+    let moves = |vertex: usize| !held.contains(&(3 * vertex));
+    let without =
+        assembly.masses().and_then(|masses| (0..masses.len()).find(|&vertex| masses[vertex] <= 0.0 && moves(vertex)));
     without.map_or(Ok(()), |number| {
         let (count, [n1, _]) = (assembly.sheet().vertices.len(), assembly.tiling().cells);
         let cell = number / count;

@@ -9,6 +9,7 @@ mod gallery_paths;
 mod kept_states;
 mod landscape_runs;
 mod laws;
+mod panels;
 mod paths;
 mod periodic_paths;
 mod pinned_wells;
