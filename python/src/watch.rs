@@ -35,9 +35,10 @@ enum News<R> {
 }
 
 /// Does some work on a thread of its own while the calling thread, which lets other Python threads run, calls
-/// `progress(study, step, of, residual)` after every step, for which the work waits. If the callback returns `False`, the
-/// work stops after that step and its result is returned. At Ctrl-C, at an exception in the callback and when the interpreter ends, the
-/// exception is raised at once; the thread, which never touches Python, ends after its step by itself.
+/// `progress(study, step, of, residual)` after every step, for which the work waits. If the callback returns `False`,
+/// the work stops after that step and its result is returned. At Ctrl-C, at an exception in the callback and when the
+/// interpreter ends, the exception is raised at once; the thread, which never touches Python, ends after its step by
+/// itself.
 pub(crate) fn watched<R: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

@@ -1,5 +1,4 @@
-//! The builder of assemblies: sets stiffnesses, rest angles, locks, pins, loads and mass, and names edges and vertices
-//! as the sheet does.
+//! The builder of assemblies: sets their terms, and names edges and vertices as the sheet does.
 
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
@@ -223,8 +222,8 @@ impl Builder {
         self
     }
 
-    /// Gives the bars that are not rigid a law other than that of a spring, or a list with one for each edge of the tiling;
-    /// their stiffness is that at rest.
+    /// Gives the bars that are not rigid a law other than that of a spring, or a list of laws, one for each edge of the
+    /// tiling; their stiffness is that at rest.
     #[must_use]
     pub fn bar_law(mut self, law: impl Into<TermLaw>) -> Self {
         self.given.laws.bars = Some(law.into());

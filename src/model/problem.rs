@@ -17,6 +17,7 @@ pub(super) mod driving;
 mod energy;
 mod hinges;
 mod kept;
+mod memory;
 mod short_steps;
 mod softened;
 mod support;
@@ -359,31 +360,6 @@ impl Model {
     pub(super) fn set_angles(&mut self, angles: &[f64]) {
         let numbers: Vec<usize> = self.elements().filter(Element::is_angle).map(|element| element.number).collect();
         numbers.into_iter().zip(angles).for_each(|(number, angle)| self.last[number] = *angle);
-    }
-
-    /// Returns the memories after a state, given its unknowns, of all elements that have one, soft ones first.
-    pub(crate) fn memory_after(&self, x: &[f64]) -> Vec<Memory> {
-        if !self.remembers() {
-            return vec![];
-        }
-        let all = self.coordinates(x);
-        let elements = self.elements().filter(Element::remembers);
-        elements.map(|element| element.after(element.value(&all)).0).collect()
-    }
-
-    /// Sets the memories of all elements that have one, in the same order; zero where there are too few.
-    pub(super) fn set_memory(&mut self, memory: &[Memory]) {
-        if self.remembers() {
-            let numbers = self.elements().filter(Element::remembers).map(|element| element.number);
-            let numbers: Vec<usize> = numbers.collect();
-            let given = memory.iter().copied().chain(std::iter::repeat(Memory::default()));
-            numbers.into_iter().zip(given).for_each(|(number, memory)| self.memory[number] = memory);
-        }
-    }
-
-    /// Whether any element has a memory.
-    pub(crate) fn remembers(&self) -> bool {
-        self.equations.soft.iter().any(|term| term.stored().remembers())
     }
 
     /// Returns the angles of the hinges, in the order of [`Model::angles`], among those of all edges.

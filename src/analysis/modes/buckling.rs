@@ -28,6 +28,9 @@ const CONVERGED: f64 = 1e-12;
 /// Relative residual of solutions, and the relative energy of a vector of the subspace that depends on the others.
 const EXACT: f64 = 1e-14;
 const DEPENDENT: f64 = 1e-12;
+/// Factors that are looked for where there are fewer than wanted, relative to the last one, or to the least of loads the
+/// other way.
+const FAR: f64 = 1e3;
 /// Part of the largest `1 / l` that may be rounding error.
 const NOISE: f64 = 1e-10;
 
@@ -65,11 +68,10 @@ pub fn buckling(
     check_stable(&driven, &mut tangent, &tension)?;
     let growth = driven.geometric_rate(&mut tangent, &x, &tension).hessian;
     let (values, vectors) = critical(&mut tangent, &growth, wanted, observe)?;
-    let above = positive(&values);
-    let count = above.min(wanted);
-    let last = count.checked_sub(1).map(|k| values[k].recip());
-    let next = values[..above].get(count).map(|value| value.recip());
-    agrees(&mut tangent, &growth, (count, last, next))?;
+    let count = positive(&values).min(wanted);
+    if let Some(beyond) = beyond(&values, count, wanted) {
+        agrees(&mut tangent, &growth, (count, beyond))?;
+    }
     let velocity = |k: usize| {
         let mut motion = vectors.column(k).as_slice().to_vec();
         normalize(&mut motion);
@@ -177,19 +179,22 @@ fn best(
     Ok((found.values.iter().map(|value| -value).collect(), moved * scaled * found.vectors))
 }
 
-/// Checks that just so many eigenvalues are negative between the last factor that was found and the next: none far out where
-/// there is no factor.
-fn agrees(
-    tangent: &mut Tangent,
-    growth: &[f64],
-    (count, last, next): (usize, Option<f64>, Option<f64>),
-) -> Result<(), ModesError> {
-    let between = match (last, next) {
-        (Some(last), Some(next)) => 0.5 * (last + next),
-        (Some(last), None) => 1.5 * last,
-        (None, _) => return Ok(()),
-    };
-    tangent.at.hessian.iter_mut().zip(growth).for_each(|(value, growth)| *value += between * growth);
+/// Where to count: between the last of the factors that were found and the next, and far out where there are fewer than were
+/// wanted; `None` where the loads make no forces.
+fn beyond(values: &[f64], count: usize, wanted: usize) -> Option<f64> {
+    let largest = values.iter().fold(0.0, |largest, value| larger(largest, value.abs()));
+    let last = values[..count].last().map(|value| value.recip());
+    match (last, values[..positive(values)].get(count)) {
+        (Some(last), Some(next)) => Some(0.5 * (last + next.recip())),
+        (Some(last), None) if count == wanted => Some(1.5 * last),
+        (Some(last), None) => Some(FAR * last),
+        (None, _) => Some(FAR / largest).filter(|far| far.is_finite()),
+    }
+}
+
+/// Checks that just so many eigenvalues are negative where the loads have grown by this much.
+fn agrees(tangent: &mut Tangent, growth: &[f64], (count, beyond): (usize, f64)) -> Result<(), ModesError> {
+    tangent.at.hessian.iter_mut().zip(growth).for_each(|(value, growth)| *value += beyond * growth);
     let negative = tangent.negative_eigenvalues()?;
     if negative == Some(count) { Ok(()) } else { Err(ModesError::FactorsUncertain { count, negative }) }
 }

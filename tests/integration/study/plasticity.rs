@@ -117,6 +117,38 @@ fn bars_yield() {
     }
 }
 
+/// Claim: under a load the path of two bars goes on over the kink at which they yield, where the load is largest; every row
+/// has the load of the rate form of hardening, written as the bound that a tension on its way meets. Source: the same bars,
+/// of which the limit is the force at which the tension is the bound. Tolerance: 1e-9 of the bound.
+#[test]
+fn a_load_is_passed_where_bars_yield() {
+    let (bound, slope) = (0.02, 0.01);
+    let energy = format!("stiffness = 1.0, yield = {{ force = {bound}, hardening = {slope} }}");
+    let ran = Scene::of("two-bars-load").replaced("stiffness = 1.0", &energy).converged();
+    let table = ran.out.table("loaded.csv");
+    let length = |height: f64| 1f64.hypot(height);
+    let rest = length(0.3);
+    let (mut tension, mut centre, mut before) = (0.0f64, 0.0f64, rest);
+    for row in 0..table.len() {
+        let height = 0.3 - table.at(row, "reaction");
+        let now = length(height);
+        let strain = (now - before) / rest;
+        before = now;
+        // beyond the bounds, which move with the plastic strain, the tension has the slope of the hardening
+        let trial = tension + strain;
+        let over = trial - trial.clamp(centre - bound, centre + bound);
+        tension = trial - over * (1.0 - slope);
+        centre += over * slope;
+        let load = -2.0 * tension * height / now;
+        assert!((table.at(row, "drive") - load).abs() < 1e-9 * bound, "row {row}: {} {load}", table.at(row, "drive"));
+    }
+    let at_yield = rest * (1.0 - bound);
+    let largest = 2.0 * bound * (at_yield * at_yield - 1.0).sqrt() / at_yield;
+    let events = &ran.path("loaded").branches[0].events;
+    let limit = events.iter().find(|event| event.event == "limit-load").and_then(|event| event.drive).unwrap();
+    assert!((limit - largest).abs() < 1e-9, "{limit} {largest}");
+}
+
 /// Claim: a path in two parts, the second from the state or from the file of the first, ends where the whole one ends, with
 /// the same dissipation. Tolerance: 1e-11; files have all digits.
 #[test]

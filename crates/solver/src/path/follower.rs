@@ -14,6 +14,9 @@ const SHORTEST_STEP: f64 = 1e-9;
 const WANTED_ERROR: f64 = 0.02;
 /// Cosine of the largest angle between the tangents at both ends of a step.
 const LEAST_TANGENT_COSINE: f64 = 0.8;
+/// Length of a step relative to the longest one below which a path whose stiffness jumps is taken to have a kink: there
+/// no step, however short, looks smooth.
+const KINK_STEP: f64 = 1e-3;
 /// Largest change of the measure of a soft element in a step: a fold angle in radians.
 const LARGEST_MEASURE_CHANGE: f64 = 0.5;
 /// Bounds of the ratio of one step to the one before.
@@ -81,16 +84,21 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     ) -> Result<Option<(PathState, f64)>, PathError> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
+        let has_kinks = self.problem.conjugate_integral(&last.x, &last.tension).is_some();
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
+            // at a kink the parameter may turn back at once, while the unknowns go on
+            let at_kink = has_kinks && length < KINK_STEP * self.settings.max_step;
             let plane = Plane::across(&last.tangent, self.bordered.unit());
+            let plane = if at_kink { Plane { parameter: 0.0, ..plane } } else { plane };
             if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
                 let chord = Cubic::new(last, &state).chord();
                 let way = norm_blocked(&chord.x).hypot(chord.parameter / self.bordered.unit()) / unit_of_length;
                 let turn = self.cosine(&last.tangent, &state.tangent);
                 let folds = self.bordered.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);
-                if turn >= LEAST_TANGENT_COSINE && folds <= LARGEST_MEASURE_CHANGE && error <= 10.0 * WANTED_ERROR {
+                let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
+                if folds <= LARGEST_MEASURE_CHANGE && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
                     let factor = (WANTED_ERROR / error.max(1e-12)).powf(1.0 / 3.0);

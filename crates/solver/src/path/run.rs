@@ -208,8 +208,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Some((next - self.target(number)).signum())
     }
 
-    /// Lets the path go on from the last of these states towards larger (`1.0`) or smaller parameters. Returns whether it
-    /// does.
+    /// Lets the path go on from the last of these states towards larger (`1.0`) or smaller parameters. Returns whether
+    /// it does.
     fn turned(&mut self, states: &mut [MarkedState], sign: f64) -> Result<bool, PathError> {
         let Some(last) = states.last_mut() else { return Ok(false) };
         let PathState { x, tension, parameter, arc_length, .. } = last.state.clone();
