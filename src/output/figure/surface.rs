@@ -60,7 +60,7 @@ fn drawn(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -
     let layout = if sides.len() > 1 { &TWO } else { &ONE };
     let mut canvas = Canvas::new(layout.height, caption);
     for (side, &middle) in sides.iter().zip(layout.middles) {
-        let space = Panel { axes: &scene.axes, view: scene.view, near: scene.near, middle, scale: layout.scale };
+        let space = DrawnBox { axes: &scene.axes, view: scene.view, near: scene.near, middle, scale: layout.scale };
         panes(&mut canvas, &space);
         scene.paint(&mut canvas, &space, *side);
         axes(&mut canvas, &space);
@@ -184,7 +184,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Draws the triangles and segments of one sign of curvature from back to front, and the drawn state.
-    fn paint(&self, canvas: &mut Canvas, panel: &Panel<'_>, side: Side) {
+    fn paint(&self, canvas: &mut Canvas, panel: &DrawnBox<'_>, side: Side) {
         let alone = self.surface.triangles.is_empty();
         let lift = self.view.toward * if alone { 0.0 } else { LIFT };
         let place = |boxed: Vec3| Vec3::from(self.view.place(&boxed));
@@ -304,8 +304,8 @@ fn one_sided_mean(curvatures: &[f64]) -> f64 {
     mean(if up.len() >= down.len() { &up } else { &down })
 }
 
-/// A panel: the box in the figure.
-struct Panel<'a> {
+/// The box in the figure.
+struct DrawnBox<'a> {
     axes: &'a [Axis; 3],
     view: Projection,
     near: [f64; 2],
@@ -313,7 +313,7 @@ struct Panel<'a> {
     scale: f64,
 }
 
-impl Panel<'_> {
+impl DrawnBox<'_> {
     /// Returns the point of the figure for a point of the box.
     fn at(&self, boxed: Vec3) -> PaperPoint {
         self.on_paper(&Vec3::from(self.view.place(&boxed)))
@@ -326,7 +326,7 @@ impl Panel<'_> {
 }
 
 /// Draws the three far sides of the box with their grids.
-fn panes(canvas: &mut Canvas, panel: &Panel<'_>) {
+fn panes(canvas: &mut Canvas, panel: &DrawnBox<'_>) {
     let [near_x, near_y] = panel.near;
     for (flat, side) in [(0, -near_x), (1, -near_y), (2, -0.5)] {
         let (u, v) = ((flat + 1) % 3, (flat + 2) % 3);
@@ -347,7 +347,7 @@ fn panes(canvas: &mut Canvas, panel: &Panel<'_>) {
 }
 
 /// Draws labels and names at three edges of the box: the two nearest edges of its floor, and the left vertical one.
-fn axes(canvas: &mut Canvas, panel: &Panel<'_>) {
+fn axes(canvas: &mut Canvas, panel: &DrawnBox<'_>) {
     let [x, y] = panel.near;
     let right = |[x, y]: &[f64; 2]| panel.at(Vec3::new(*x, *y, 0.0))[0];
     let left = if right(&[x, -y]) < right(&[-x, y]) { [x, -y] } else { [-x, y] };

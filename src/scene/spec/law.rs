@@ -36,7 +36,7 @@ pub enum LawFault {
     Bound(f64),
     /// A part of one is none.
     #[error("the part is {0}, expected a number from 0 to 1")]
-    Part(f64),
+    Share(f64),
     /// A hardening does not lie between that without and that of an element that does not yield.
     #[error("the hardening is {0}, expected a number from 0 to below 1: the slope beyond the bound over the stiffness")]
     Slope(f64),
@@ -124,14 +124,14 @@ pub struct CurveSpec {
 #[serde(deny_unknown_fields)]
 pub struct BarYieldSpec {
     /// The force at which a bar first yields.
-    pub force: Bound,
+    pub force: YieldBound,
     /// Slope of the force beyond the bound over the stiffness, below 1; left out: 0.
     #[serde(default)]
     pub hardening: Slope,
     /// The part of the hardening that widens the bound on both sides (isotropic); the other part shifts it (kinematic).
     /// Left out: 0.
     #[serde(default)]
-    pub isotropic: Part,
+    pub isotropic: Share,
 }
 
 /// `yield = { moment, hardening, isotropic }`: creases or facets that yield.
@@ -140,23 +140,23 @@ pub struct BarYieldSpec {
 #[serde(deny_unknown_fields)]
 pub struct HingeYieldSpec {
     /// The torque per length at which a hinge first yields.
-    pub moment: Bound,
+    pub moment: YieldBound,
     /// Slope of the torque beyond the bound over the stiffness, below 1; left out: 0.
     #[serde(default)]
     pub hardening: Slope,
     /// The part of the hardening that widens the bound on both sides (isotropic); the other part shifts it (kinematic).
     /// Left out: 0.
     #[serde(default)]
-    pub isotropic: Part,
+    pub isotropic: Share,
 }
 
 /// A force, or a torque per length, at which an element yields.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
 #[schemars(extend("exclusiveMinimum" = 0))]
-pub struct Bound(pub(crate) f64);
+pub struct YieldBound(pub(crate) f64);
 
-impl TryFrom<f64> for Bound {
+impl TryFrom<f64> for YieldBound {
     type Error = LawFault;
 
     fn try_from(bound: f64) -> Result<Self, LawFault> {
@@ -182,13 +182,13 @@ impl TryFrom<f64> for Slope {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
 #[schemars(extend("minimum" = 0, "maximum" = 1))]
-pub struct Part(pub(crate) f64);
+pub struct Share(pub(crate) f64);
 
-impl TryFrom<f64> for Part {
+impl TryFrom<f64> for Share {
     type Error = LawFault;
 
     fn try_from(part: f64) -> Result<Self, LawFault> {
-        if (0.0..=1.0).contains(&part) { Ok(Self(part)) } else { Err(LawFault::Part(part)) }
+        if (0.0..=1.0).contains(&part) { Ok(Self(part)) } else { Err(LawFault::Share(part)) }
     }
 }
 

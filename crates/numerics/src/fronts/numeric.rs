@@ -34,7 +34,7 @@ struct Columns<'a> {
 }
 
 /// The memory of one front.
-struct Memory<'a> {
+struct FrontMemory<'a> {
     panel: &'a mut [f64],
     /// The children's update matrices, from the start on.
     children: &'a [f64],
@@ -92,7 +92,7 @@ impl Factorization<'_> {
             self.branches(&front.branches, Space { panels: below, even: &mut *odd, odd: &mut *even })?;
         }
         let (own, room) = even.split_at_mut(front.below().pow(2));
-        self.front(k, Memory { panel, children: odd, own, room }, &mut Kernels::new(), self.shared)
+        self.front(k, FrontMemory { panel, children: odd, own, room }, &mut Kernels::new(), self.shared)
     }
 
     /// Eliminates consecutive subtrees, one front after the other.
@@ -110,7 +110,7 @@ impl Factorization<'_> {
             let (own, others) = if mine == 0 { (&mut *even, &mut *odd) } else { (&mut *odd, &mut *even) };
             used[1 - mine] -= children;
             let (own, children) = (&mut own[used[mine]..], &others[used[1 - mine]..]);
-            self.front(k, Memory { panel, children, own, room: &mut *room }, &mut kernels, false)?;
+            self.front(k, FrontMemory { panel, children, own, room: &mut *room }, &mut kernels, false)?;
             used[mine] += front.below().pow(2);
         }
         Ok(())
@@ -120,9 +120,9 @@ impl Factorization<'_> {
     ///
     /// The children's update matrices are added to the panel before and to the update matrix after the elimination,
     /// which does not read that: so it need not be set to zero.
-    fn front(&self, k: usize, memory: Memory<'_>, kernels: &mut Kernels, shared: bool) -> Result<(), ZeroPivot> {
+    fn front(&self, k: usize, memory: FrontMemory<'_>, kernels: &mut Kernels, shared: bool) -> Result<(), ZeroPivot> {
         let front = &self.tree.fronts[k];
-        let Memory { panel, children, own, room } = memory;
+        let FrontMemory { panel, children, own, room } = memory;
         let (width, below, height) = (front.width(), front.below(), front.height());
         self.add_children(k, children, Columns { range: 0..width, above: 0, numbers: panel }, shared);
         for &[slot, place] in &self.tree.entries[front.entries.clone()] {
