@@ -43,6 +43,8 @@ def assemblies():
     curve = {"kind": "table", "points": [[-0.1, -0.2], [0.0, 0.0], [0.02, 0.02], [0.1, 0.12]]}
     laws = {"bars": curve, "creases": {"kind": "formula", "torque": "k*sinh(2*(m - m0))/2"}}
     yield "curves and formulas", fw.Assembly.patch(miura, (2, 2), laws=laws, **terms)
+    yields = {"creases": {"moment": 0.05, "hardening": 0.2}, "bars": {"force": 0.5, "hardening": 0.1, "isotropic": 0.5}}
+    yield "what yields", fw.Assembly.patch(miura, (2, 2), yields=yields, **terms)
     yield "rigid bars", fw.Assembly.patch(miura, (2, 2), bars=fw.RIGID, creases=1.0, rest="flat")
 
 

@@ -90,6 +90,22 @@ def test_results_of_other_kinds(scene, tmp_path):
             assert one.read_bytes() == other.read_bytes(), one
 
 
+def test_results_remember(again, miura):
+    """A path that goes on from a copied result, or from the state that it has written, is that from the result itself: what has
+    yielded is kept."""
+    crease = tuple(miura.edges[miura.kinds == "crease"][0])
+
+    def driven(to):
+        yields = {"creases": {"moment": 0.1, "hardening": 0.1, "isotropic": 0.3}}
+        terms = {"bars": fw.RIGID, "creases": 1.0, "facets": 5.0, "yields": yields, "locks": {crease: None}}
+        return fw.Assembly.patch(miura, (2, 2), **terms, drives=[{"name": "turn", "lock": crease, "to": to}])
+
+    there = fw.path(driven([0.2, 0.6]))
+    assert there.summary["branches"][0]["dissipated"] > 0.01 and np.nanmax(there.state.memory["plastic_angle_total"]) > 0.01
+    back, other = [fw.path(driven(0.4), start=start).summary["branches"][0] for start in (there, again(there))]
+    assert back == other and back["dissipated"] > there.summary["branches"][0]["dissipated"]
+
+
 def test_a_result_goes_to_another_process(soft, tmp_path):
     relaxed = fw.relax(soft)
     (tmp_path / "kept").write_bytes(pickle.dumps((soft, relaxed)))
