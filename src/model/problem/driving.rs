@@ -216,16 +216,17 @@ impl ParametrizedProblem for DrivenModel {
         self.model.set_memory(&memory.collect::<Vec<_>>());
     }
 
-    fn conjugate_integral(&self, x: &[f64], tension: &[f64]) -> Option<f64> {
-        if !self.model.remembers() {
-            return None;
-        }
+    fn has_kinks(&self) -> bool {
+        self.model.remembers()
+    }
+
+    fn conjugate_integral(&self, x: &[f64], tension: &[f64]) -> f64 {
         let of_stiff = self.model.compliance().iter().zip(tension).map(|(c, t)| 0.5 * c * t * t).sum::<f64>();
         let potential = self.model.energy(x) + of_stiff;
-        Some(match &self.effect {
+        match &self.effect {
             Effect::Loads { origin, .. } => -potential - origin * self.parameter,
             _ => potential,
-        })
+        }
     }
 
     fn choice(&self) -> Vec<f64> {

@@ -126,7 +126,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
         let (Some(mut before), Some(last)) = (level.of(from), level.of(to)) else { return Ok(found) };
-        if self.problem.conjugate_integral(&to.x, &to.tension).is_some() {
+        if self.problem.has_kinks() {
             return Ok(found); // where stiffness jumps, a change of the level is no zero of it
         }
         let (mut part, beside) = (0.0, SAME_STATE / (to.arc_length - from.arc_length));

@@ -84,13 +84,10 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     ) -> Result<Option<(PathState, f64)>, PathError> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
-        let has_kinks = self.problem.conjugate_integral(&last.x, &last.tension).is_some();
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
-            // at a kink the parameter may turn back at once, while the unknowns go on
-            let at_kink = has_kinks && length < KINK_STEP * self.settings.max_step;
-            let plane = Plane::across(&last.tangent, self.bordered.unit());
-            let plane = if at_kink { Plane { parameter: 0.0, ..plane } } else { plane };
+            let at_kink = self.problem.has_kinks() && length < KINK_STEP * self.settings.max_step;
+            let plane = self.plane(&last.tangent, at_kink);
             if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
                 let chord = Cubic::new(last, &state).chord();
                 let way = norm_blocked(&chord.x).hypot(chord.parameter / self.bordered.unit()) / unit_of_length;
@@ -108,6 +105,13 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
             length *= SHRINK;
         }
         Ok(None)
+    }
+
+    /// The plane across a direction; at a kink, where the parameter may turn back at once while the unknowns go on, across
+    /// the direction of the unknowns.
+    fn plane(&self, direction: &Rates, at_kink: bool) -> Plane {
+        let plane = Plane::across(direction, self.bordered.unit());
+        if at_kink { Plane { parameter: 0.0, ..plane } } else { plane }
     }
 
     /// First step of a path.
@@ -129,7 +133,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// The state of the path at a part of the way from one state to the next.
     pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Result<Option<PathState>, PathError> {
         let cubic = Cubic::new(from, to);
-        let plane = Plane::across(&cubic.chord(), self.bordered.unit());
+        let plane = self.plane(&cubic.chord(), self.problem.has_kinks());
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
         Ok(self.settle(cubic.at(part), &plane, arc_length)?.map(|(state, _)| state))
     }

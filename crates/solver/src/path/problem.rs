@@ -29,10 +29,13 @@ pub trait ParametrizedProblem: Problem {
     fn choose_anew(&mut self, _x: &[f64], _rates: &[f64]) -> Option<[Vec<f64>; 2]> {
         None
     }
-    /// Where stiffness jumps along a path, as where elements yield, and no interpolation between states is good: the
-    /// integral of the conjugate over the parameter, up to a constant. `None` for smooth problems.
-    fn conjugate_integral(&self, _x: &[f64], _tension: &[f64]) -> Option<f64> {
-        None
+    /// Whether stiffness jumps along paths, as where elements yield: no interpolation between states is good there.
+    fn has_kinks(&self) -> bool {
+        false
+    }
+    /// The integral of the conjugate over the parameter, up to a constant, of problems that have kinks.
+    fn conjugate_integral(&self, _x: &[f64], _tension: &[f64]) -> f64 {
+        f64::NAN
     }
     /// Natural size of a change of the parameter; positive.
     fn parameter_scale(&self) -> f64;
