@@ -320,7 +320,7 @@ def check_table(checks, path, kind, edges):
         checks.that(header[: len(PATH_COLUMNS)] == PATH_COLUMNS, f"{path}: the first columns")
         probes = [name for name in between if name.startswith("probe_")]
         checks.that(between[len(between) - 1 - len(probes) : -1] == probes, f"{path}: probes stand before `state`, {between}")
-        own = [name for name in between if name not in CYLINDER + RATIOS + probes]
+        own = [name for name in between if name not in CYLINDER + RATIOS + probes + ["dissipated"]]
         checks.that(own in (["state"], ["self_intersecting", "state"]), f"{path}: the columns between, {between}")
         checks.that(not set(between) & set(CYLINDER) or set(CYLINDER) <= set(between), f"{path}: a whole cylinder")
         return None
@@ -353,13 +353,22 @@ def listed(path):
     return [path.parent / entry.get("file") for entry in xml.parse(path).getroot().iter("DataSet")]
 
 
+def motions(checks, out, name):
+    """The pictures of motions, of which each kind has a collection of its own."""
+    found = set()
+    for collected, beginning in (("vibrations", "vibration"), ("buckling", "buckling")):
+        collection = out / f"{name}-{collected}.pvd"
+        moving = set((out / name).glob(f"{name}_{beginning}_*.vtu"))
+        if moving or collection.exists():
+            checks.that(set(listed(collection)) == moving, f"{collection}: lists every motion of {name}/")
+        found |= moving
+    return found
+
+
 def check_collection(checks, out, name):
-    """The collection lists the states there are, and another one the vibrations; gives the last state, of a sheet only."""
-    path, vibrations = out / f"{name}.pvd", out / f"{name}-vibrations.pvd"
+    """The collection lists the states there are but for motions; gives the last state, of a sheet only."""
+    path, moving = out / f"{name}.pvd", motions(checks, out, name)
     there = {file for ending in ["vtu", "vtp", "vti"] for file in (out / name).glob(f"*.{ending}")}
-    moving = {file for file in there if file.name.startswith(f"{name}_vibration_")}
-    if moving or vibrations.exists():
-        checks.that(set(listed(vibrations)) == moving, f"{vibrations}: lists every vibration of {name}/")
     files = listed(path)
     checks.that(files and all(file.exists() for file in files), f"{path}: its files are there")
     checks.that(sorted(files) == sorted(there - moving), f"{path}: lists every state of {name}/")
@@ -408,7 +417,7 @@ def check_study(checks, out, study, summary):
         root = xml.parse(out / f"{name}.svg").getroot()
         checks.that(root.tag.endswith("svg") and len(root) > 3, f"{name}.svg: a picture")
     if not (out / f"{name}.pvd").exists():
-        checks.that(not grids, f"{name}.pvd collects the states of {name}/")
+        checks.that(set(grids) == motions(checks, out, name), f"{name}.pvd collects the states of {name}/")
         return None
     last = check_collection(checks, out, name)
     if table is not None and grids.get(last) is not None:
