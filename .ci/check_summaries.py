@@ -14,7 +14,7 @@ import published
 # keys that are there only where there is something to say
 MAY_BE_ABSENT = {
     *("settings", "reason", "files", "map", "wave", "error_of_curvature", "error_of_strain", "error_of_theta", "closed_tubes"),
-    *("frequencies", "growth_rates", "seam"),
+    *("frequencies", "growth_rates", "critical_factors", "seam", "units", "length", "force"),
 }
 
 
