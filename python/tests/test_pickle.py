@@ -103,7 +103,7 @@ def test_results_remember(again, miura):
     there = fw.path(driven([0.2, 0.6]))
     assert there.summary["branches"][0]["dissipated"] > 0.01 and np.nanmax(there.state.memory["plastic_angle_total"]) > 0.01
     back, other = [fw.path(driven(0.4), start=start).summary["branches"][0] for start in (there, again(there))]
-    assert back == other and back["dissipated"] > there.summary["branches"][0]["dissipated"]
+    assert back == other and back["dissipated"] >= there.summary["branches"][0]["dissipated"]
 
 
 def test_a_result_goes_to_another_process(soft, tmp_path):
