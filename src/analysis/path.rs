@@ -75,7 +75,7 @@ pub struct PathPoint {
     pub tension: Vec<f64>,
     /// Angles of the elements, from which angles continue; see [`crate::model::Model::angles`].
     pub angles: Vec<f64>,
-    /// What elements remember that yield; see [`Configuration::memory`].
+    /// Memories of the elements that yield; see [`Configuration::memory`].
     pub memory: Vec<Memory>,
     /// Largest unbalanced force over the largest force of an element.
     pub residual_force: f64,

@@ -164,8 +164,8 @@ fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_la
     tensions
 }
 
-/// What the elements of a model remember, from what is known of it on every edge by name; nothing where that is not
-/// finite.
+/// The memories of the elements of a model. `on_edges` gives one number of them for every edge, by its name in
+/// [`REMEMBERED`]; a number that is not finite counts as zero.
 pub fn memory(model: &Model, on_edges: impl Fn(&str) -> Vec<f64>) -> Vec<Memory> {
     let known = REMEMBERED.map(|names| names.map(&on_edges));
     let number = |values: &[f64], edge: usize| Some(values[edge]).filter(|number| number.is_finite()).unwrap_or(0.0);

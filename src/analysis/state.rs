@@ -58,9 +58,10 @@ pub struct State {
     pub torque: Vec<f64>,
     /// Energy that elements have dissipated which yield, on all the way to this state.
     pub dissipated: f64,
-    /// What elements remember that yield, on every edge; NaN where there is none. Strains of bars by `plastic_strain` and
-    /// `plastic_strain_total`, angles of hinges in radians by `plastic_angle` and `plastic_angle_total`: what they keep
-    /// without force, and the sum of the sizes of all its changes. Empty where nothing yields.
+    /// Memories of the elements that yield, one list for each name, one number for each edge, NaN where nothing yields:
+    /// `plastic_strain` of bars and `plastic_angle` of hinges in radians, which they keep without force, and
+    /// `plastic_strain_total` and `plastic_angle_total`, the sums of the sizes of all changes of these. Empty for sheets
+    /// that are elastic.
     pub memory: BTreeMap<&'static str, Vec<f64>>,
 }
 

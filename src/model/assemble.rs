@@ -64,11 +64,16 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
     let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
     if let Some(given) = &terms.bars {
         let moves = |edge: usize| !in_part(&tiling.edges[edge].ends);
-        stiff.push(bars(drawn, tiling, given, moves, Stored::Spring));
-        for law in terms.laws.bars.iter().flat_map(TermLaw::different) {
-            let has_law = |edge| moves(edge) && law_of(&terms.laws.bars, edge) == Some(law);
-            soft.push(bars(drawn, tiling, given, has_law, Stored::BeyondSpring(law.clone())));
-        }
+        let law = |edge| law_of(&terms.laws.bars, edge);
+        stiff.push(bars(
+            drawn,
+            tiling,
+            given,
+            |edge| moves(edge) && !given.stiffness.of(edge).is_nan(),
+            |_| Stored::Spring,
+        ));
+        let beyond = |edge| moves(edge) && given.stiffness.of(edge).is_finite() && law(edge).is_some();
+        soft.push(bars(drawn, tiling, given, beyond, |edge| stored(law(edge), Stored::BeyondSpring)));
     }
     let softest = softest(terms);
     let kinds = [
@@ -82,16 +87,12 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
             stiffness > STIFF_RATIO * softest || stiffness.is_infinite()
         };
         let here = |edge: usize| tiling.edges[edge].kind == kind && moves(edge) && !hinges.stiffness.of(edge).is_nan();
-        let springs = |edge| here(edge) && !has_tension(edge) && law_of(laws, edge).is_none();
-        soft.push(hinge_term(term, drawn, tiling, springs, hinges, Stored::Spring));
-        stiff.push(hinge_term(term, drawn, tiling, |edge| here(edge) && has_tension(edge), hinges, Stored::Spring));
-        for law in laws.iter().flat_map(TermLaw::different) {
-            let has_law = |edge| here(edge) && law_of(laws, edge) == Some(law);
-            let alone = |edge| has_law(edge) && !has_tension(edge);
-            soft.push(hinge_term(term, drawn, tiling, alone, hinges, Stored::Law(law.clone())));
-            let beyond = |edge| has_law(edge) && has_tension(edge) && hinges.stiffness.of(edge).is_finite();
-            soft.push(hinge_term(term, drawn, tiling, beyond, hinges, Stored::BeyondSpring(law.clone())));
-        }
+        let law = |edge| law_of(laws, edge);
+        let (alone, tensed) = (|edge| here(edge) && !has_tension(edge), |edge| here(edge) && has_tension(edge));
+        soft.push(hinge_term(term, drawn, tiling, alone, hinges, |edge| stored(law(edge), Stored::Law)));
+        stiff.push(hinge_term(term, drawn, tiling, tensed, hinges, |_| Stored::Spring));
+        let beyond = |edge| tensed(edge) && hinges.stiffness.of(edge).is_finite() && law(edge).is_some();
+        soft.push(hinge_term(term, drawn, tiling, beyond, hinges, |edge| stored(law(edge), Stored::BeyondSpring)));
     }
     if !terms.locks.is_empty() {
         let mut rest = vec![f64::NAN; tiling.edges.len()];
@@ -104,7 +105,7 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
             tiling,
             |edge| locked[edge] && moves(edge),
             &rigid,
-            Stored::Spring,
+            |_| Stored::Spring,
         ));
     }
     for own in &terms.own {
@@ -118,6 +119,11 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
 /// Returns the law of the element at an edge; `None` if it is a linear spring.
 fn law_of(laws: &Option<TermLaw>, edge: usize) -> Option<&Arc<dyn Law>> {
     laws.as_ref().and_then(|laws| laws.of(edge))
+}
+
+/// Returns how an element of this law stores energy, which is a linear spring without one.
+fn stored(law: Option<&Arc<dyn Law>>, of_law: fn(Arc<dyn Law>) -> Stored) -> Stored {
+    law.cloned().map_or(Stored::Spring, of_law)
 }
 
 /// Returns the force on every coordinate, zero where a pin takes it up. The list is empty if all forces are zero, so
@@ -156,22 +162,26 @@ fn softest(terms: &Terms) -> f64 {
     given.map(Stiffness::softest).fold(f64::INFINITY, f64::min)
 }
 
+/// Returns the same for elements that may lie on no edge, which are springs.
+fn of_edge(stored: impl Fn(usize) -> Stored) -> impl Fn(Option<usize>) -> Stored {
+    move |edge| edge.map_or(Stored::Spring, &stored)
+}
+
 fn bars(
     drawn: &Drawn,
     tiling: &Tiling,
     bars: &Bars,
-    moves: impl Fn(usize) -> bool,
-    stored: Stored,
+    wanted: impl Fn(usize) -> bool,
+    stored: impl Fn(usize) -> Stored,
 ) -> (Term<Length, 2, 6>, Vec<Spring>) {
     let edges = tiling.edges.iter().enumerate();
-    let wanted = |stiffness: f64| if stored.is_law() { stiffness.is_finite() } else { !stiffness.is_nan() };
-    let there = edges.filter(|(edge, tiled)| tiled.bar && moves(*edge) && wanted(bars.stiffness.of(*edge)));
+    let there = edges.filter(|(edge, tiled)| tiled.bar && wanted(*edge));
     let bar = |(edge, tiled): (usize, &TiledEdge)| {
         let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
         ((tiled.ends, Some(edge)), Spring { stiffness: bars.stiffness.of(edge) / rest, rest })
     };
     let (elements, springs) = there.map(bar).unzip();
-    (Term::new((TermKind::Bars, TermKind::Bars.name()), Length, elements, stored), springs)
+    (Term::new((TermKind::Bars, TermKind::Bars.name()), Length, elements, of_edge(stored)), springs)
 }
 
 fn hinge_term(
@@ -180,7 +190,7 @@ fn hinge_term(
     tiling: &Tiling,
     wanted: impl Fn(usize) -> bool,
     hinges: &Hinges,
-    stored: Stored,
+    stored: impl Fn(usize) -> Stored,
 ) -> (Term<FoldAngle, 4, 12>, Vec<Spring>) {
     let hinge = |edge: usize| {
         let sites = tiling.edges[edge].hinge()?;
@@ -188,5 +198,5 @@ fn hinge_term(
         Some(((sites, Some(edge)), Spring { stiffness, rest: hinges.rest[edge] }))
     };
     let (elements, springs) = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(hinge).unzip();
-    (Term::new((kind, kind.name()), FoldAngle, elements, stored), springs)
+    (Term::new((kind, kind.name()), FoldAngle, elements, of_edge(stored)), springs)
 }

@@ -17,7 +17,7 @@ pub struct Configuration {
     /// Tensions of the stiff measures of the model; `None` where they are not known.
     #[serde(default)]
     pub tension: Option<Vec<f64>>,
-    /// What the elements remember that have a memory, as those that yield, in the order of the model; empty where none has.
+    /// Memories of the elements whose law has one, as those that yield, soft elements first; empty where no law has one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub memory: Vec<Memory>,
 }

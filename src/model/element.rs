@@ -51,7 +51,8 @@ pub(crate) struct Term<M, const N: usize, const D: usize> {
     measure: M,
     /// The points of each element, in the order of the measure's arguments, and the number of its edge in the tiling.
     elements: Vec<([Site; N], Option<usize>)>,
-    stored: Stored,
+    /// How each element stores energy.
+    stored: Vec<Stored>,
 }
 
 /// The measure of one element with its derivatives in the element's coordinates: those of its points, then the shared
@@ -104,8 +105,8 @@ pub(super) trait Elements: Send + Sync {
     fn sites(&self, k: usize) -> &[Site];
     /// Returns the number of the edge to which element `k` belongs; `None` if it lies on none.
     fn edge(&self, k: usize) -> Option<usize>;
-    /// Returns what the elements store.
-    fn stored(&self) -> &Stored;
+    /// Returns how element `k` stores energy.
+    fn stored(&self, k: usize) -> &Stored;
     /// Returns the value of element `k` at the coordinates `x`; angles are between -pi and pi.
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
     /// Puts value and gradient of element `k` at the coordinates `x` into `out`, and its Hessian if it is wanted.
@@ -116,13 +117,14 @@ pub(super) trait Elements: Send + Sync {
 }
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
-    /// Makes a term of elements, each given by its points and its edge.
+    /// Makes a term of elements, each given by its points and its edge, and by `stored` of its edge.
     pub(super) fn new(
         (kind, name): (TermKind, &str),
         measure: M,
         elements: Vec<([Site; N], Option<usize>)>,
-        stored: Stored,
+        stored: impl Fn(Option<usize>) -> Stored,
     ) -> Self {
+        let stored = elements.iter().map(|(_, edge)| stored(*edge)).collect();
         Self { kind, name: name.into(), measure, elements, stored }
     }
 }
@@ -156,8 +158,8 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D
         self.elements[k].1
     }
 
-    fn stored(&self) -> &Stored {
-        &self.stored
+    fn stored(&self, k: usize) -> &Stored {
+        &self.stored[k]
     }
 
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
@@ -200,7 +202,7 @@ pub struct Element<'a> {
     pub spring: Spring,
     /// Its angle in the last accepted state, in radians; not a number for a length.
     pub(super) last: f64,
-    /// What it remembers.
+    /// Plastic strain or angle, and the sum of its changes; zero where the law has no memory.
     pub(super) memory: Memory,
     pub(super) domain: &'a Domain,
     pub(super) term: &'a dyn Elements,
@@ -248,22 +250,22 @@ impl<'a> Element<'a> {
     /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value. The energy is what
     /// it stores and has dissipated.
     pub fn response(&self, value: f64) -> [f64; 3] {
-        self.term.stored().at(value, self.spring, self.memory)
+        self.term.stored(self.index).at(value, self.spring, self.memory)
     }
 
     /// Whether its law has a memory.
     pub(crate) fn remembers(&self) -> bool {
-        self.term.stored().remembers()
+        self.term.stored(self.index).remembers()
     }
 
     /// Returns its memory after a value, and what it has dissipated up to there.
     pub(crate) fn after(&self, value: f64) -> (Memory, f64) {
-        self.term.stored().after(value, self.spring, self.memory)
+        self.term.stored(self.index).after(value, self.spring, self.memory)
     }
 
     /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
     pub(crate) fn by_rest(&self, value: f64) -> [f64; 3] {
-        self.term.stored().by_rest(value, self.spring, self.memory)
+        self.term.stored(self.index).by_rest(value, self.spring, self.memory)
     }
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
@@ -273,7 +275,7 @@ impl<'a> Element<'a> {
 
     /// Whether it stores what a law has beyond a spring, which is another element.
     pub(crate) fn is_beyond_spring(&self) -> bool {
-        matches!(self.term.stored(), Stored::BeyondSpring(_))
+        matches!(self.term.stored(self.index), Stored::BeyondSpring(_))
     }
 
     /// Whether it is a load, whose potential is no energy of the sheet.
@@ -283,12 +285,12 @@ impl<'a> Element<'a> {
 
     /// Whether it has another law than a spring.
     pub(crate) fn has_law(&self) -> bool {
-        self.term.stored().is_law()
+        self.term.stored(self.index).is_law()
     }
 
     /// Whether it has no force at its rest value, and the stiffness of its spring there.
     pub(crate) fn is_spring_at_rest(&self) -> bool {
-        let [_, force, stiffness] = self.term.stored().at(self.spring.rest, self.spring, Memory::default());
+        let [_, force, stiffness] = self.term.stored(self.index).at(self.spring.rest, self.spring, Memory::default());
         let expected = if self.is_beyond_spring() { 0.0 } else { self.spring.stiffness };
         let known = 1e-9 * self.spring.stiffness;
         !self.has_law() || (force.abs() <= known * self.spring.rest.abs() && (stiffness - expected).abs() <= known)

@@ -77,9 +77,9 @@ pub trait Law: fmt::Debug + Send + Sync {
 /// changes of that value; angles in radians, or strains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
-    /// What it keeps.
+    /// The plastic strain or angle: the value off rest without force.
     pub kept: f64,
-    /// How far that has gone in all.
+    /// The sum of the sizes of all changes of the plastic strain or angle.
     pub gone: f64,
 }
 
@@ -120,19 +120,13 @@ impl TermLaw {
         }
     }
 
-    /// Returns all different laws.
-    pub(super) fn different(&self) -> Vec<&Arc<dyn Law>> {
-        let mut found: Vec<&Arc<dyn Law>> = vec![];
-        let each = match self {
-            Self::Uniform(law) => return vec![law],
-            Self::PerEdge(each) => each,
-        };
-        for law in each.iter().flatten() {
-            if !found.contains(&law) {
-                found.push(law);
-            }
+    /// Whether any of the laws has a memory.
+    fn remembers(&self) -> bool {
+        let remembers = |law: &Arc<dyn Law>| law.remembering(Memory::default()).is_some();
+        match self {
+            Self::Uniform(law) => remembers(law),
+            Self::PerEdge(each) => each.iter().flatten().any(remembers),
         }
-        found
     }
 }
 
@@ -171,12 +165,8 @@ impl Laws {
 
     /// Returns the name of the first term of which a law has a memory; `None` if there is none.
     pub fn first_with_memory(&self) -> Option<&'static str> {
-        let remembers = |law: &&Arc<dyn Law>| law.remembering(Memory::default()).is_some();
-        let found = self
-            .all()
-            .into_iter()
-            .find(|(_, law)| law.as_ref().is_some_and(|law| law.different().iter().any(remembers)));
-        found.map(|(name, _)| name)
+        let remembers = |law: &Option<TermLaw>| law.as_ref().is_some_and(TermLaw::remembers);
+        self.all().into_iter().find(|(_, law)| remembers(law)).map(|(name, _)| name)
     }
 }
 

@@ -64,7 +64,7 @@ impl OwnTerm {
         stored: Stored,
     ) -> Self {
         let (sites, springs) = elements.into_iter().map(|(sites, spring)| ((sites, None), spring)).unzip();
-        Self { elements: Arc::new(Term::new((TermKind::Own, name), measure, sites, stored)), springs }
+        Self { elements: Arc::new(Term::new((TermKind::Own, name), measure, sites, |_| stored.clone())), springs }
     }
 
     /// Returns its name.

@@ -113,7 +113,8 @@ impl OwnTerm {
         let site = |vertex: usize| Site { vertex, shift: [0, 0] };
         let elements = faces.into_iter().map(|corners| (corners.map(site), None)).collect();
         let kind = TermKind::Pressure;
-        let term = Term::new((kind, kind.name()), VolumeFrom(centre), elements, Stored::Law(Arc::new(Push)));
+        let push: Arc<dyn Law> = Arc::new(Push);
+        let term = Term::new((kind, kind.name()), VolumeFrom(centre), elements, |_| Stored::Law(push.clone()));
         Ok(Self { elements: Arc::new(term), springs })
     }
 }

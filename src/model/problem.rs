@@ -75,7 +75,7 @@ pub struct Model {
     springs: Vec<Spring>,
     /// Angles of all elements in the last accepted state, from which angles continue; not numbers for lengths.
     last: Vec<f64>,
-    /// What all elements remember.
+    /// Memories of all elements; empty where no law has one.
     memory: Vec<Memory>,
     /// Generalised coordinates of the reference state, which is the drawn state or the one that replaced it: those of
     /// all points, then the poses of rigid parts. Held coordinates keep these values.
@@ -115,7 +115,7 @@ impl Model {
         let mut model = Self {
             equations: Arc::new(equations),
             last: vec![f64::NAN; springs.len()],
-            memory: vec![Memory::default(); springs.len()],
+            memory: vec![],
             springs,
             base,
             supports,
@@ -131,6 +131,9 @@ impl Model {
         };
         let equations = model.equations.clone();
         model.accept_angles(&equations.drawn);
+        if model.soft().any(|element| element.remembers()) {
+            model.memory = vec![Memory::default(); model.springs.len()];
+        }
         model.units = model.units_at(&model.base);
         model.count_measures();
         model.choose_unknowns();
@@ -315,7 +318,8 @@ impl Model {
     }
 
     fn element<'a>(&'a self, term: &'a dyn Elements, index: usize, number: usize) -> Element<'a> {
-        let (spring, last, memory) = (self.springs[number], self.last[number], self.memory[number]);
+        let (spring, last) = (self.springs[number], self.last[number]);
+        let memory = self.memory.get(number).copied().unwrap_or_default();
         Element { number, spring, last, memory, domain: &self.equations.domain, term, index }
     }
 

@@ -142,16 +142,7 @@ fn of_term<L: Law + 'static>(
     if stiffness.is_rigid() {
         return refused("what is rigid does not yield", "give the term a finite stiffness");
     }
-    let mut known: Vec<(f64, Arc<dyn Law>)> = vec![];
-    let mut of = |stiffness: f64| {
-        let law = yields.of(stiffness)?;
-        if let Some((_, law)) = known.iter().find(|(other, _)| *other == stiffness) {
-            return Some(law.clone());
-        }
-        let law: Arc<dyn Law> = Arc::new(of_curve(law));
-        known.push((stiffness, law.clone()));
-        Some(law)
-    };
+    let of = |stiffness: f64| yields.of(stiffness).map(|law| Arc::new(of_curve(law)) as Arc<dyn Law>);
     Ok(match stiffness {
         Stiffness::Uniform(stiffness) => of(stiffness).map(TermLaw::Uniform),
         Stiffness::PerEdge(each) => Some(TermLaw::PerEdge(each.iter().map(|stiffness| of(*stiffness)).collect())),

@@ -152,10 +152,10 @@ fn critical(
 /// The products of the geometric stiffness with vectors.
 fn grown(at: &Linearization, growth: &[f64], vectors: &DenseMatrix) -> DenseMatrix {
     let mut products = DenseMatrix::zeros(vectors.nrows(), vectors.ncols());
-    for (product, vector) in products.column_iter_mut().zip(vectors.column_iter()) {
+    for (mut product, vector) in products.column_iter_mut().zip(vectors.column_iter()) {
         let mut column = vec![0.0; vectors.nrows()];
         symmetric_product(at.pattern(), growth, vector.as_slice(), &mut column);
-        { product }.copy_from_slice(&column);
+        product.copy_from_slice(&column);
     }
     products
 }

@@ -62,7 +62,7 @@ pub enum ModesError {
         /// Coordinates that nothing holds.
         unknowns: usize,
     },
-    /// There are no loads that could grow, or they can turn the sheet.
+    /// The loads cannot grow: there are none, or they would turn the sheet as a whole.
     #[error(transparent)]
     Loads(#[from] DriveError),
     /// Loads grow from a state that is no stable equilibrium.

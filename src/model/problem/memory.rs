@@ -27,6 +27,6 @@ impl Model {
 
     /// Whether any element has a memory.
     pub(crate) fn remembers(&self) -> bool {
-        self.equations.soft.iter().any(|term| term.stored().remembers())
+        !self.memory.is_empty()
     }
 }

@@ -16,7 +16,7 @@ fn hinge(angle: f64) -> Vec<f64> {
 
 fn model_of_one_hinge(drawn: Vec<f64>) -> Model {
     let sites = [0, 1, 2, 3].map(|vertex| Site { vertex, shift: [0, 0] });
-    let term = Term::new((TermKind::Creases, "creases"), FoldAngle, vec![(sites, None)], Stored::Spring);
+    let term = Term::new((TermKind::Creases, "creases"), FoldAngle, vec![(sites, None)], |_| Stored::Spring);
     let equations = Equations {
         domain: Domain::Patch,
         drawn,
