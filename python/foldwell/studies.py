@@ -66,7 +66,8 @@ def modes(
         assembly: The sheet and its energy.
         start: The state whose modes are wanted, as in `relax`.
         eigenvalues: How many, and how many frequencies where the assembly has a mass; left out: none.
-        buckling: How many of the lowest critical factors of the loads; left out: none.
+        buckling: How many of the lowest critical factors of the loads, the last one as often as it has independent motions;
+            left out: none.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
 
     Example:

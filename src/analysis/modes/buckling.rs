@@ -25,7 +25,7 @@ const ALL_VECTORS: usize = 128;
 /// Most iterations, and the relative change of factors that have converged.
 const MOST_ITERATIONS: usize = 300;
 const CONVERGED: f64 = 1e-12;
-/// Relative residual of solutions, and the relative energy of a vector of the subspace that depends on the others.
+/// Relative residual of solutions, and the least energy of a combination of vectors of energy 1 that depend on each other.
 const EXACT: f64 = 1e-14;
 const DEPENDENT: f64 = 1e-12;
 /// Factors that are looked for where there are fewer than wanted, relative to the last one, or to the least of loads the
@@ -33,6 +33,8 @@ const DEPENDENT: f64 = 1e-12;
 const FAR: f64 = 1e3;
 /// Part of the largest `1 / l` that may be rounding error.
 const NOISE: f64 = 1e-10;
+/// Relative difference of factors up to which they are one factor of several motions.
+const SAME_FACTOR: f64 = 1e-6;
 
 /// The lowest critical factors of the loads, and how the sheet buckles there.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,8 +45,8 @@ pub struct Buckling {
     pub vectors: Vec<Vec<f64>>,
 }
 
-/// Finds the lowest critical factors of the loads, at most as many as wanted, of the drawn state, in which the loads are
-/// zero, or of another one, which has them in full.
+/// Finds the lowest critical factors of the loads, as many as wanted if there are so many, of the drawn state, in which the
+/// loads are zero, or of another one, which has them in full. The last one is there as often as it has independent motions.
 ///
 /// # Errors
 /// [`ModesError::Loads`] where there are no loads, or they can turn the sheet; [`ModesError::NotStable`] where the state is
@@ -68,7 +70,7 @@ pub fn buckling(
     check_stable(&driven, &mut tangent, &tension)?;
     let growth = driven.geometric_rate(&mut tangent, &x, &tension).hessian;
     let (values, vectors) = critical(&mut tangent, &growth, wanted, observe)?;
-    let count = positive(&values).min(wanted);
+    let count = first(&values, wanted);
     if let Some(beyond) = beyond(&values, count, wanted) {
         agrees(&mut tangent, &growth, (count, beyond))?;
     }
@@ -109,6 +111,13 @@ fn positive(values: &[f64]) -> usize {
     values.iter().take_while(|value| **value > NOISE * largest).count()
 }
 
+/// How many of these values, descending, belong to the wanted factors: those equal to the last one too.
+fn first(values: &[f64], wanted: usize) -> usize {
+    let positive = &values[..positive(values)];
+    let Some(last) = positive.get(wanted.saturating_sub(1)) else { return positive.len() };
+    positive.iter().take_while(|value| **value >= (1.0 - SAME_FACTOR) * last).count()
+}
+
 /// A component of a vector that has something of every motion.
 fn start(k: usize) -> f64 {
     1.0 + (k as f64 * 0.618_033_988_75).fract()
@@ -138,10 +147,11 @@ fn critical(
         let found = best(&moved, &pushed, &grown(&tangent.at, growth, &moved))?;
         let values = found.0;
         vectors = found.1;
-        let first = |values: &[f64]| values[..positive(values).min(wanted)].to_vec();
-        let [now, before]: [Vec<f64>; 2] = [first(&values), first(&known)];
-        let stands = now.len() == before.len() && now.iter().zip(&before).all(|(a, b)| (a - b).abs() <= CONVERGED * a);
-        if stands && !known.is_empty() {
+        let [now, before] = [&values, &known].map(|values| &values[..first(values, wanted)]);
+        let largest = values.iter().fold(0.0, |largest, value| larger(largest, value.abs()));
+        let rounding = dense::eigenvalue_rounding(unknowns, largest);
+        let stays = |(now, before): (&f64, &f64)| (now - before).abs() <= CONVERGED * now + rounding;
+        if !known.is_empty() && now.len() == before.len() && now.iter().zip(before).all(stays) {
             return Ok((values, vectors));
         }
         known = values;
@@ -167,11 +177,15 @@ fn best(
     geometric: &DenseMatrix,
 ) -> Result<(Vec<f64>, DenseMatrix), ModesError> {
     let energy = moved.tr_mul(elastic);
-    let root = dense::symmetric_eigen(&(0.5 * (&energy + energy.transpose())))?;
-    let least = DEPENDENT * root.values.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..root.values.len()).filter(|&k| root.values[k] > least).collect();
+    // motions that the loads hardly press have small energies, which are exact all the same
+    let size = energy.diagonal().map(|energy| if energy > 0.0 { energy.sqrt().recip() } else { 0.0 });
+    let energy = DenseMatrix::from_fn(moved.ncols(), moved.ncols(), |j, k| {
+        0.5 * size[j] * (energy[(j, k)] + energy[(k, j)]) * size[k]
+    });
+    let root = dense::symmetric_eigen(&energy)?;
+    let kept: Vec<usize> = (0..root.values.len()).filter(|&k| root.values[k] > DEPENDENT).collect();
     let scaled = DenseMatrix::from_fn(moved.ncols(), kept.len(), |row, k| {
-        root.vectors[(row, kept[k])] / root.values[kept[k]].sqrt()
+        size[row] * root.vectors[(row, kept[k])] / root.values[kept[k]].sqrt()
     });
     let growth = scaled.transpose() * moved.tr_mul(geometric) * &scaled;
     let found = dense::symmetric_eigen(&(0.5 * (&growth + growth.transpose())))?;
@@ -186,7 +200,7 @@ fn beyond(values: &[f64], count: usize, wanted: usize) -> Option<f64> {
     let last = values[..count].last().map(|value| value.recip());
     match (last, values[..positive(values)].get(count)) {
         (Some(last), Some(next)) => Some(0.5 * (last + next.recip())),
-        (Some(last), None) if count == wanted => Some(1.5 * last),
+        (Some(last), None) if count >= wanted => Some(1.5 * last),
         (Some(last), None) => Some(FAR * last),
         (None, _) => Some(FAR / largest).filter(|far| far.is_finite()),
     }

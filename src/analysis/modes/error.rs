@@ -79,7 +79,7 @@ pub enum ModesError {
         negative: Option<usize>,
     },
     /// The number of critical factors is not that of the eigenvalues that become negative.
-    #[error("{count} critical factors were found, and beyond them {} eigenvalues are negative", said(*negative))]
+    #[error("critical factors found: {count}; negative eigenvalues beyond them: {}", said(*negative))]
     FactorsUncertain {
         /// Factors that were found.
         count: usize,

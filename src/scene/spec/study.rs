@@ -175,7 +175,8 @@ pub struct ModesSpec {
     /// How many of the lowest eigenvalues of the energy's Hessian, and, where the scene has a mass, of the lowest
     /// frequencies; left out: none.
     pub eigenvalues: Option<Located<usize>>,
-    /// How many of the lowest critical factors of the loads, at which the state buckles to first order; left out: none.
+    /// How many of the lowest critical factors of the loads, at which the state buckles to first order, the last one as
+    /// often as it has independent motions; left out: none.
     pub buckling: Option<Located<Count>>,
 }
 
