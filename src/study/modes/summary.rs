@@ -74,7 +74,7 @@ impl ModesSummary {
                     "{} of the closed tube, {turn} if the seam may slip, {rise} if it may open, {free} without conditions",
                     counted(*both, "folding mode")
                 ),
-                (None, None) => "folding self unknown".into(),
+                (None, None) => "folding modes unknown".into(),
             },
         ) + &frequencies(self)
             + &buckling(self)

@@ -146,7 +146,7 @@ impl WellsSummary {
                 _ => String::new(),
             };
             let energy =
-                barrier.energy.map_or("not self".to_owned(), |energy| format!("{energy:.6e} with {bars}{known}"));
+                barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}{known}"));
             format!("; pass {:?} {energy}", barrier.between)
         });
         let count = counted(self.wells.len(), "well");

@@ -2,6 +2,9 @@
 
 use crate::common::{Scene, mesh};
 use foldwell::sheet::{Pattern, fold, generate};
+use foldwell::study::modes::ModesSummary;
+use foldwell::study::wells::{BarrierSummary, WellsSummary};
+use foldwell::study::{StudyResult, StudySummary};
 use serde_json::Value;
 
 /// Returns the studies in the summary of a scene with the star cell on a screw.
@@ -153,4 +156,19 @@ fn motions_that_no_fold_rate_names() {
         creases = { stiffness = 1.0 }\n[[study]]\nname = \"l\"\nkind = \"landscape\"\nmodes = [{ wave = [1, 0] }]\n\
         amplitudes = [0.01]\n";
     Scene::new(text).with("cell.fold", islands).refused("turn no crease");
+}
+
+/// Claim: the console says what is not known or was not found.
+#[test]
+fn the_console_says_what_is_not_known() {
+    let said = |result: StudyResult| {
+        let (name, kind) = ("a".to_owned(), String::new());
+        let (converged, seconds, result) = (true, 0.0, Some(result));
+        StudySummary { name, kind, converged, seconds, error: None, reason: None, files: None, result }.sentence()
+    };
+    let modes = said(StudyResult::Modes(ModesSummary::default()));
+    assert!(modes.contains("; folding modes unknown,"), "{modes}");
+    let wells = WellsSummary { barriers: vec![BarrierSummary::default()], ..WellsSummary::default() };
+    let wells = said(StudyResult::Wells(wells));
+    assert!(wells.contains("; pass [0, 0] not found,"), "{wells}");
 }
