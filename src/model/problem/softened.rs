@@ -3,6 +3,9 @@
 use super::Model;
 use crate::model::element::TermKind;
 
+/// Largest magnitude of a fold angle, in radians, at which a hinge counts as flat.
+pub(crate) const FLAT_RAD: f64 = 1e-9;
+
 impl Model {
     /// Whether some of the bars are rigid.
     pub(crate) fn has_rigid_bars(&self) -> bool {
@@ -28,10 +31,11 @@ impl Model {
         rigid.map(|(measure, bar)| (measure, bar.spring.rest))
     }
 
-    /// Returns the number of soft hinges whose rest angle is not zero, and of those that are folded to the side of it.
+    /// Returns the number of soft hinges that are not flat at rest, and of those that are folded to the side of their rest
+    /// angle.
     pub(crate) fn hinges_on_rest_side(&self, x: &[f64]) -> [usize; 2] {
         let coordinates = self.coordinates(x);
-        let aimed = self.soft().filter(|element| element.is_angle() && element.spring.rest != 0.0);
+        let aimed = self.soft().filter(|element| element.is_angle() && element.spring.rest.abs() > FLAT_RAD);
         let aimed: Vec<bool> = aimed.map(|hinge| hinge.spring.rest * hinge.value(&coordinates) > 0.0).collect();
         [aimed.len(), aimed.iter().filter(|same| **same).count()]
     }

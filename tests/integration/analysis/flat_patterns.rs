@@ -119,7 +119,8 @@ fn other_patterns_fold_as_far_as_they_can() {
 }
 
 /// Claim: the summary and the printed line say how the flat start was left; the rows of the history that were made with
-/// bars that stretch are marked. A start that is not flat has no such choice.
+/// bars that stretch are marked. A start that is not flat has no such choice, nor one that stays flat: a torus whose creases
+/// all want to fold to one side, which cannot.
 #[test]
 fn the_branch_is_said() {
     let scene = "[sheet]\nmesh = \"a.fold\"\n[energy]\nbars = { stiffness = inf }\n\
@@ -138,6 +139,12 @@ fn the_branch_is_said() {
         said.out.contains("the start was left with 6 of 6 hinges on the side of their rest angles, by bars that"),
         "{said:?}"
     );
+    let rest = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = 0.5 }\n\
+                [[study]]\nname = \"a\"\nkind = \"relax\"\n[[study]]\nname = \"b\"\nkind = \"relax\"\nstart = \"a\"\n";
+    let torus = "generate = { pattern = \"miura\", fold = 0.9 }\ndomain = \"torus\"";
+    let flat = Scene::on(torus, rest).program("").well();
+    assert_eq!(flat.folder.studies()[1]["branch_choice"], serde_json::Value::Null);
+    assert!(!flat.out.contains("the start was left"), "{flat:?}");
 }
 
 /// Claim: a flat patch of Resch's pattern folds all the way to its target angles, with soft and with rigid bars; its

@@ -13,7 +13,7 @@
 
 use crate::analysis::relax::rigid_forces::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
-use crate::model::{Model, TermKind};
+use crate::model::{FLAT_RAD, Model, TermKind};
 use crate::numerics::vector::max_abs;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start};
 use std::ops::RangeInclusive;
@@ -37,9 +37,6 @@ const DOUBTFUL_FORCE: f64 = 1e3;
 /// Part of the energy of a flat start that a state must keep to be in doubt: most patterns lose more than a third of
 /// it.
 const DOUBTFUL_PART: f64 = 0.9;
-/// Largest magnitude of a fold angle, in radians, at which a hinge counts as flat.
-const FLAT_RAD: f64 = 1e-9;
-
 /// The branch on which a flat or singular start was left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BranchChoice {
@@ -53,10 +50,10 @@ pub struct BranchChoice {
 
 impl BranchChoice {
     /// Returns the branch of the state `x` of a model that was started with these angles; `None` if the start was
-    /// neither flat nor singular, or all rest angles are zero.
+    /// neither flat nor singular, is flat still, or all rest angles are zero.
     pub(crate) fn of(model: &Model, x: &[f64], start: &[f64], soft_bars: bool) -> Option<Self> {
-        let flat = is_flat(start);
-        let [hinges, on_rest_side] = if flat || soft_bars { model.hinges_on_rest_side(x) } else { [0, 0] };
+        let left = is_flat(start) && !is_flat(&model.configuration(x, None).angles);
+        let [hinges, on_rest_side] = if left || soft_bars { model.hinges_on_rest_side(x) } else { [0, 0] };
         (hinges > 0).then_some(Self { hinges, on_rest_side, soft_bars })
     }
 }
