@@ -4,8 +4,8 @@
 //! estimated from the number of steps if that is known.
 //!
 //! The work runs on a separate thread ([`Watch::over`]). After Ctrl-C it stops between two steps; if a step takes long,
-//! the program ends without waiting for it. Work that has stopped is waited for, however long it takes to draw and
-//! write what was computed: a second Ctrl-C ends the program at once.
+//! the program ends without waiting for it. Work that has stopped, or has taken all its steps, is waited for, however long
+//! it takes to draw and write what was computed: a second Ctrl-C ends the program at once.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -28,8 +28,8 @@ const STACK: usize = 8 << 20;
 /// Shows the progress of a run, and stops it after Ctrl-C.
 pub(crate) struct Watch {
     interrupted: Arc<AtomicBool>,
-    /// Whether the work has been told to stop.
-    told: AtomicBool,
+    /// Whether the work has been told to stop, or has taken all steps.
+    ending: AtomicBool,
     shown: Option<Mutex<Shown>>,
 }
 
@@ -51,7 +51,7 @@ impl Watch {
             }
         });
         let shown = (!quiet && console_is_terminal()).then(|| Mutex::new(Shown::new()));
-        Self { interrupted, told: AtomicBool::new(false), shown }
+        Self { interrupted, ending: AtomicBool::new(false), shown }
     }
 
     /// Whether Ctrl-C was pressed.
@@ -82,7 +82,7 @@ impl Watch {
                 },
                 Err(RecvTimeoutError::Timeout) if self.interrupted() => {
                     let is_late = stopped.get_or_insert_with(Instant::now).elapsed() > GRACE;
-                    if is_late && !self.told.load(Ordering::Relaxed) {
+                    if is_late && !self.ending.load(Ordering::Relaxed) {
                         return Ok(None);
                     }
                     if is_late && !announced {
@@ -97,14 +97,12 @@ impl Watch {
 
     /// Shows a step; returns `Break` after Ctrl-C.
     pub(crate) fn step(&self, progress: &Progress) -> ControlFlow<()> {
-        if let Some(shown) = &self.shown {
+        let (stops, all_taken) = (self.interrupted(), progress.of == Some(0));
+        self.ending.store(stops || all_taken, Ordering::Relaxed);
+        if let Some(shown) = self.shown.as_ref().filter(|_| !all_taken) {
             shown.lock().unwrap_or_else(PoisonError::into_inner).step(progress);
         }
-        if !self.interrupted() {
-            return ControlFlow::Continue(());
-        }
-        self.told.store(true, Ordering::Relaxed);
-        ControlFlow::Break(())
+        if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     /// Says in place of the progress bar why the program has not ended yet.
@@ -180,8 +178,11 @@ mod tests {
     /// Claim: without a terminal nothing is shown; steps go on until Ctrl-C is pressed and stop then.
     #[test]
     fn a_watch_stops_after_an_interrupt() {
-        let watch =
-            Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: Some(Mutex::new(Shown::new())) };
+        let watch = Watch {
+            interrupted: Arc::default(),
+            ending: AtomicBool::new(false),
+            shown: Some(Mutex::new(Shown::new())),
+        };
         let progress = Progress { study: "a".into(), step: 1, of: None, residual: 0.1, part: f64::NAN };
         assert_eq!(watch.step(&progress), ControlFlow::Continue(()));
         assert!(watch.shown.as_ref().unwrap().lock().unwrap().bar.is_hidden());
@@ -193,7 +194,7 @@ mod tests {
     /// left alone and is told to stop. If it were not left alone, the second work here would never end.
     #[test]
     fn work_is_waited_for_unless_interrupted() {
-        let watch = Arc::new(Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: None });
+        let watch = Arc::new(Watch { interrupted: Arc::default(), ending: AtomicBool::new(false), shown: None });
         assert_eq!(watch.over(|_| 7).unwrap(), Some(7));
         let lost = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| watch.over(|_| -> u8 { panic!("lost") })));
         assert_eq!(lost.unwrap_err().downcast_ref::<&str>(), Some(&"lost"));
@@ -207,20 +208,22 @@ mod tests {
         assert_eq!(watch.over(|watch| watch.interrupted()).unwrap(), Some(true), "it ends soon");
     }
 
-    /// Claim: work that was told to stop is waited for longer than a step that does not end: what it has computed is
-    /// not lost.
+    /// Claim: work that was told to stop, or has taken all steps when Ctrl-C is pressed, is waited for longer than a step
+    /// that does not end: what it has computed is not lost.
     #[test]
     fn work_that_has_stopped_may_write_for_long() {
-        let watch = Arc::new(Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: None });
-        let writes_for_long = |watch: &Watch| {
-            watch.interrupted.store(true, Ordering::Relaxed);
-            let stopped = watch
-                .step(&Progress { study: "a".into(), step: 1, of: None, residual: 0.1, part: f64::NAN })
-                .is_break();
-            thread::sleep(3 * GRACE);
-            stopped
-        };
-        assert_eq!(watch.over(writes_for_long).unwrap(), Some(true));
+        for of in [None, Some(0)] {
+            let watch = Arc::new(Watch { interrupted: Arc::default(), ending: AtomicBool::new(false), shown: None });
+            let writes_for_long = move |watch: &Watch| {
+                watch.interrupted.store(of.is_none(), Ordering::Relaxed);
+                let stopped =
+                    watch.step(&Progress { study: "a".into(), step: 1, of, residual: 0.1, part: f64::NAN }).is_break();
+                watch.interrupted.store(true, Ordering::Relaxed);
+                thread::sleep(3 * GRACE);
+                stopped
+            };
+            assert_eq!(watch.over(writes_for_long).unwrap(), Some(of.is_none()));
+        }
     }
 
     /// Claim: the residual and the part of the way are shown if they are known.

@@ -62,7 +62,8 @@ fn spawned<R: Send + 'static>(
     let (sender, receiver) = mpsc::channel();
     let worker = move || {
         let observer = |progress: &Progress| {
-            if listens {
+            // a callback hears of steps, not that all are taken
+            if listens && progress.of != Some(0) {
                 let (told, waiting) = mpsc::channel();
                 let _ = sender.send(News::Progress(progress.clone(), told)); // nobody hears it after Ctrl-C
                 let _ = waiting.recv();

@@ -141,7 +141,9 @@ impl<'a> Runner<'a> {
 
     fn compute(&mut self, study: &StudySpec) -> Result<Answer, RunError> {
         let clock = Instant::now();
-        let mut answer = study::compute(&self.context(study))?;
+        let context = self.context(study);
+        let mut answer = study::compute(&context)?;
+        context.end_steps();
         answer.summary.seconds = clock.elapsed().as_secs_f64();
         for (name, artifact) in &answer.files {
             artifact.write(&self.path(name))?;

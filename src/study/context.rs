@@ -20,7 +20,7 @@ pub struct Progress {
     pub study: String,
     /// Number of steps taken.
     pub step: usize,
-    /// Total number of steps, if it is known.
+    /// Total number of steps, if it is known; 0 where all are taken, and the results are drawn and written.
     pub of: Option<usize>,
     /// The residual to be reduced below its tolerance; NaN if there is none.
     pub residual: f64,
@@ -112,6 +112,12 @@ impl Context<'_> {
         let go_on = (self.observer)(&progress).is_continue();
         self.interrupted.fetch_or(!go_on, Ordering::Relaxed);
         go_on
+    }
+
+    /// Tells the observer that all steps are taken: what is left is to draw and to write, which is not stopped.
+    pub fn end_steps(&self) {
+        let (study, step, of) = (self.name().to_owned(), 0, Some(0));
+        let _ = (self.observer)(&Progress { study, step, of, residual: f64::NAN, part: f64::NAN });
     }
 
     /// Whether the observer has asked to stop.

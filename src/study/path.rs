@@ -97,6 +97,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     };
     let callbacks = PathCallbacks { observe: &mut observe, keep: &mut keep };
     let found = resume_path(context.assembly, &drive, start, &options, record, callbacks);
+    context.end_steps();
     match (found, fault) {
         (_, Some(fault)) => Err(fault.into()),
         (Ok(branches), None) => Ok(answer(context, (spec, probes(context, spec)?), &drive, &branches)),

@@ -94,6 +94,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
         Err(error) => return Ok(Answer::failed(context.study, error)),
     };
     let relaxations = relaxed(context, spec.engine, &traced);
+    context.end_steps();
     let pictures = if context.study.draw.contains(&Draw::Html) { STATES_ON_PAGE } else { PICTURES };
     let paths: Vec<Path<'_>> =
         traced.iter().enumerate().map(|(k, traced)| Path { traced, relaxed: relaxations.get(k), pictures }).collect();
