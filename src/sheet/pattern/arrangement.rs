@@ -29,6 +29,10 @@ const NEAR_END: f64 = std::f64::consts::SQRT_2;
 /// point are a few tolerances apart; a longer chain of near points is a curve drawn in small steps, which would vanish.
 const WIDEST: f64 = 4.0;
 
+/// Distance in tolerances up to which points are not told apart: without it every line of a bundle through one point would
+/// have a point of its own there, beside those of all others.
+const SAME_POINT: f64 = 1.0 / 16.0;
+
 /// Most points of an arrangement; ten thousand lines that all cross have a hundred times as many.
 const MOST_POINTS: usize = 500_000;
 
@@ -120,10 +124,11 @@ impl Places {
             for j in cell(x.y - self.tolerance)..=cell(x.y + self.tolerance) {
                 let mut next = self.cells.get(&[i, j]).copied();
                 while let Some(v) = next {
-                    if self.points[v] == x {
+                    let distance = (self.points[v] - x).norm();
+                    if distance <= SAME_POINT * self.tolerance {
                         return v;
                     }
-                    if (self.points[v] - x).norm() <= self.tolerance {
+                    if distance <= self.tolerance {
                         near.push(v);
                     }
                     next = self.before[v];

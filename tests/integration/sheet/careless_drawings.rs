@@ -263,8 +263,13 @@ fn ten_thousand_lines_take_seconds() {
             tessellation += &format!("{kind} {} {} {} {}\n", at(j), at(i), at(j + 1), at(i));
         }
     }
+    let mut bundle = rim.to_owned();
+    for k in 0..10_000 {
+        bundle += &format!("2 {} 0 {} 10000\n", 2 * k + 1, 19_999 - 2 * k);
+    }
     for (name, text, good) in [
         ("chords", chords, false),
+        ("bundle", bundle, false),
         ("diagonals", rim.to_owned() + &diagonals, false),
         ("tessellation", tessellation, true),
     ] {
