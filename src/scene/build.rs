@@ -16,7 +16,9 @@ use super::{Located, SceneError, SceneFile, drives, laws, loads};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Cleanup, Format};
+use crate::sheet::similar::did_you_mean;
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj, stl};
+use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
@@ -91,13 +93,27 @@ pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> 
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {
-        return mesh_of(file, &file.resolve(mesh));
+        let path = file.resolve(mesh);
+        return mesh_of(file, &path).map_err(|error| match error {
+            SceneError::Mesh(_) if !path.exists() => no_mesh(file, mesh.span(), &path),
+            error => error,
+        });
     }
     let Some(table) = &spec.generate else {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));
     };
     let found = generate::Pattern::of(table).and_then(|pattern| generate::generate(&pattern));
     found.map_err(|error| file.error_at(table.span(), error.to_string(), error.help()))
+}
+
+/// Returns the error of a mesh that is not there, with the name of a file beside it that may be meant.
+fn no_mesh(file: &SceneFile, span: Range<usize>, path: &Path) -> SceneError {
+    let beside = path.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+    let beside: Vec<String> = beside.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let question = did_you_mean(&name, beside.iter().map(String::as_str));
+    let help = format!("{question}paths are relative to the folder of the scene");
+    file.error_at(span, format!("there is no file {}", path.display()), help)
 }
 
 /// Returns another sheet that a study names, from its mesh.

@@ -29,9 +29,9 @@ pub(crate) fn there_are<'a>(name: &str, known: impl IntoIterator<Item = &'a str>
 }
 
 /// Does the same as [`did_you_mean`] with a message as serde writes it, "unknown field `word`, expected one of `a`,
-/// `b`".
+/// `b`", or "invalid value: string "word", expected "a" or "b"".
 pub(crate) fn did_you_mean_of(message: &str) -> String {
-    let mut quoted = message.split('`').skip(1).step_by(2);
+    let mut quoted = message.split(['`', '"']).skip(1).step_by(2);
     quoted.next().map_or_else(String::new, |word| did_you_mean(word, quoted))
 }
 
@@ -54,5 +54,7 @@ mod tests {
         }
         assert_eq!(did_you_mean_of("unknown field `rests`, expected `rest` or `law`"), "did you mean `rest`? ");
         assert_eq!(did_you_mean_of("missing field `pattern`"), "");
+        let word = "invalid value: string \"flt\", expected \"drawn\", \"flat\" or { file = \"angles.csv\" }";
+        assert_eq!(did_you_mean_of(word), "did you mean `flat`? ");
     }
 }

@@ -287,6 +287,7 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"finite.OBJ\"\nframe = 1", "3:9", "a mesh of faces has no frames", "frames are those of FOLD files; leave out `frame`"),
     misfit("[sheet]\nmesh = \"finite.OBJ\"\nmerge = 1.0", "3:9", "a mesh of faces has no lines to join", "points are merged in drawings of lines and in flat FOLD files; leave out `merge`"),
     misfit("[sheet]\nmesh = \"sheet.vtu\"", "2:8", "a mesh of a scene is no .vtu file", "convert it to a .fold file; a state to start from is `start`"),
+    misfit("[sheet]\nmesh = \"finte.fold\"", "2:8", "there is no file ", "did you mean `finite.fold`? paths are relative to the folder of the scene"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "angles are radians, or written as \"60 deg\""),
     misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", ""),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", hight = 1 }", "2:12", "`miura` has no parameter `hight`", "expected one of `a`, `b`, `sector`, `fold`"),
