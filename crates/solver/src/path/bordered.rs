@@ -29,6 +29,8 @@ pub(super) const REFUSED_RESIDUAL: f64 = 1e-3;
 const SELF_STRESS: f64 = 1e-6;
 /// Shift of the Hessian where a pivot of the factorization without shift vanishes.
 const SINGULAR_SHIFT: f64 = 1e-6;
+/// Pivots up to this, relative to the largest one, are rounding errors of zero, as of motions that cost nothing.
+const ZERO_PIVOT: f64 = 1e-15;
 /// Rounds of inverse iteration, and the relative residual to which their systems are solved.
 const SOFTEST_ROUNDS: usize = 5;
 const SOFTEST_RESIDUAL: f64 = 1e-8;
@@ -88,8 +90,8 @@ impl Bordered {
     pub fn factor(&mut self) -> Result<(), FactorError> {
         let found = self.system.factor(&self.at, &self.compliance, 0.0);
         self.inertia = match found {
-            Ok(inertia) => Some(inertia),
-            Err(FactorError::Singular { .. }) => {
+            Ok(inertia) if inertia.ratio > ZERO_PIVOT => Some(inertia),
+            Ok(_) | Err(FactorError::Singular { .. }) => {
                 self.system.factor(&self.at, &self.compliance, SINGULAR_SHIFT)?;
                 None
             }
