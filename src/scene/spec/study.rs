@@ -1,6 +1,7 @@
 //! `[[study]]` and the keys of each kind of study.
 
 use super::stop::{ProbeSpec, StopSpec};
+use crate::analysis::relax::Method;
 use crate::scene::Located;
 use crate::scene::forms::{BranchChoice, Mode, StartSpec};
 use crate::scene::values::{Cells, Count, Finite, Name, Pair, Positive, WellPair};
@@ -93,23 +94,10 @@ pub struct RelaxSpec {
     pub tolerance: Option<Located<Positive>>,
     /// The unknowns of the relaxation; left out: `auto`.
     #[serde(default)]
-    pub method: MethodSpec,
+    pub method: Method,
     /// Which states on the way are written: one in so many iterations, the first and the last one included. Left out:
     /// the start and the end.
     pub keep_every: Option<Located<Count>>,
-}
-
-/// The unknowns of a relaxation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum MethodSpec {
-    /// Fold angles for large free patches, positions otherwise.
-    #[default]
-    Auto,
-    /// Positions of the vertices.
-    Vertices,
-    /// Fold angles; positions if these fail.
-    Intrinsic,
 }
 
 /// `kind = "trace"`.
