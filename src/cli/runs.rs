@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use foldwell::output::json::to_json;
 use foldwell::run::{self, Ledger, RunOptions, RunReport, Shard, SweepReport};
-use foldwell::run::{Summary, SweepSummary};
 use foldwell::scene::SceneFile;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::ending::{FAILED, Failure, INTERRUPTED, say};
 use crate::describe::{describe_run, describe_sweep};
@@ -27,12 +26,14 @@ enum Found {
     Sweep(SweepReport),
 }
 
-/// The summary of a scene.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum AnySummary {
-    Run(Summary),
-    Sweep(SweepSummary),
+/// As its summary.
+impl Serialize for Found {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Run(report) => report.summary.serialize(serializer),
+            Self::Sweep(report) => report.summary.serialize(serializer),
+        }
+    }
 }
 
 /// Computes the studies of some scenes, or a shard of their points, one scene after the other; the status is that of
@@ -44,7 +45,7 @@ pub(super) fn run_scenes(
 ) -> Result<u8, Failure> {
     let watch = Arc::new(Watch::new(told.quiet));
     let (several, mut status) = (scenes.len() > 1, 0);
-    let mut summaries = Vec::new();
+    let mut all = Vec::new();
     for (scene, options) in scenes {
         let found = if shard.is_some() || scene.scene.sweep.is_some() {
             sweep_scene(scene, options, shard, &watch)?.map(Found::Sweep)
@@ -54,16 +55,16 @@ pub(super) fn run_scenes(
         let Some(found) = found else { return Ok(INTERRUPTED) };
         found.tell(told)?;
         let own = found.status();
-        summaries.push(found.summary());
+        all.push(found);
         status = if status == 0 || own == INTERRUPTED { own } else { status };
         if own == INTERRUPTED {
             break;
         }
     }
-    match &summaries[..] {
+    match &all[..] {
         _ if !told.json => Ok(0),
-        [summary] if !several => say(&to_json(summary)),
-        _ => say(&to_json(&summaries)),
+        [one] if !several => say(&to_json(one)),
+        _ => say(&to_json(&all)),
     }?;
     Ok(status)
 }
@@ -90,13 +91,6 @@ impl Found {
         match self {
             Self::Run(report) => status_of(report.interrupted, report.summary.converged()),
             Self::Sweep(report) => status_of(report.interrupted, report.converged),
-        }
-    }
-
-    fn summary(self) -> AnySummary {
-        match self {
-            Self::Run(report) => AnySummary::Run(report.summary),
-            Self::Sweep(report) => AnySummary::Sweep(report.summary),
         }
     }
 }

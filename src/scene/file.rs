@@ -229,7 +229,7 @@ fn nest_kind(study: &mut DeTable<'_>) -> Result<(), Range<usize>> {
 }
 
 fn not_a_kind(text: &Arc<NamedSource<String>>, span: Range<usize>) -> SceneError {
-    let help = format!("expected one of {}", kinds().map(|kind| format!("\"{kind}\"")).join(", "));
+    let help = format!("expected one of {}", kinds().map(|kind| format!("\"{kind}\"")).collect::<Vec<_>>().join(", "));
     error_at(text, span, "the kind of a study is a word".into(), Some(help))
 }
 

@@ -1,9 +1,9 @@
 //! The JSON schema of a scene, generated from the types that read it, so that both always agree.
 
-use schemars::{JsonSchema, SchemaGenerator, schema_for};
+use schemars::{Schema, SchemaGenerator, schema_for};
 use serde_json::Value;
 
-use super::spec::{self, Scene};
+use super::spec::{Scene, StudyKind};
 
 /// Returns the JSON schema of a scene file, pretty-printed, in the form that editors with a TOML language server use.
 pub fn schema() -> String {
@@ -16,33 +16,18 @@ pub(super) fn common_study_keys() -> [&'static str; 4] {
 }
 
 /// Returns the kinds of studies.
-pub(super) fn kinds() -> [&'static str; 11] {
-    keys_of_kinds().map(|(kind, _)| kind)
+pub(super) fn kinds() -> impl Iterator<Item = &'static str> {
+    StudyKind::ALL.iter().map(|(kind, _)| *kind)
 }
 
 /// Returns the kinds of studies that have a key.
 pub(super) fn kinds_with_key(key: &str) -> Vec<&'static str> {
-    keys_of_kinds().into_iter().filter(|(_, keys)| keys.iter().any(|k| k == key)).map(|(kind, _)| kind).collect()
+    let with_key = StudyKind::ALL.iter().filter(|(_, of_kind)| keys(*of_kind).iter().any(|k| k == key));
+    with_key.map(|(kind, _)| *kind).collect()
 }
 
-fn keys_of_kinds() -> [(&'static str, Vec<String>); 11] {
-    [
-        ("relax", keys::<spec::RelaxSpec>()),
-        ("trace", keys::<spec::TraceSpec>()),
-        ("surface", keys::<spec::SurfaceSpec>()),
-        ("modes", keys::<spec::ModesSpec>()),
-        ("branches", keys::<spec::BranchesSpec>()),
-        ("landscape", keys::<spec::LandscapeSpec>()),
-        ("bloch", keys::<spec::BlochSpec>()),
-        ("wells", keys::<spec::WellsSpec>()),
-        ("path", keys::<spec::PathSpec>()),
-        ("fold", keys::<spec::PathSpec>()),
-        ("response", keys::<spec::ResponseSpec>()),
-    ]
-}
-
-fn keys<T: JsonSchema>() -> Vec<String> {
-    let schema = T::json_schema(&mut SchemaGenerator::default());
+fn keys(schema: fn(&mut SchemaGenerator) -> Schema) -> Vec<String> {
+    let schema = schema(&mut SchemaGenerator::default());
     let properties = schema.get("properties").and_then(Value::as_object);
     properties.map(|p| p.keys().cloned().collect()).unwrap_or_default()
 }
@@ -50,6 +35,8 @@ fn keys<T: JsonSchema>() -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::spec::StudySpec;
+    use schemars::JsonSchema;
 
     fn properties(schema: &Value) -> Vec<&str> {
         schema["properties"].as_object().unwrap().keys().map(String::as_str).collect()
@@ -72,7 +59,7 @@ mod tests {
     /// Claim: the keys that are separated before a kind is read are those of the type of a study.
     #[test]
     fn common_keys_are_the_keys_of_a_study() {
-        let mut found = keys::<spec::StudySpec>();
+        let mut found = keys(StudySpec::json_schema);
         found.push("kind".into());
         found.sort();
         let mut expected = common_study_keys();

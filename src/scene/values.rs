@@ -34,6 +34,9 @@ pub enum ValueError {
     /// A fraction of rest angles is outside its range.
     #[error("the fraction is {0}, expected a number from -1 (folded to the other side) to 1 (folded)")]
     NoFraction(f64),
+    /// A Poisson's ratio is that of no elastic material.
+    #[error("Poisson's ratio is {0}, expected a number above -1, and at most 0.5")]
+    NoPoissonRatio(f64),
     /// A count is zero, negative or too large.
     #[error("the number is {0}, expected a whole number from 1 to {max}", max = u32::MAX)]
     NoCount(i64),
@@ -105,31 +108,45 @@ where
     }
 }
 
-/// Stiffness of a term: a positive number, infinity included.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("exclusiveMinimum" = 0))]
-pub struct Stiffness(pub f64);
+/// Defines kinds of numbers: what each is, whether a number is one, and the fault of those that are none.
+macro_rules! numbers {
+    ($fault:ident: $($(#[$about:meta])* $name:ident, $is_one:expr, $wrong:ident;)+) => {$(
+        #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+        $(#[$about])*
+        #[serde(try_from = "f64")]
+        pub struct $name(pub f64);
 
-impl TryFrom<f64> for Stiffness {
-    type Error = ValueError;
+        impl TryFrom<f64> for $name {
+            type Error = $fault;
 
-    fn try_from(value: f64) -> Result<Self, ValueError> {
-        if value > 0.0 { Ok(Self(value)) } else { Err(ValueError::Stiffness(value)) }
-    }
+            fn try_from(number: f64) -> Result<Self, $fault> {
+                let is_one: fn(&f64) -> bool = $is_one;
+                if is_one(&number) { Ok(Self(number)) } else { Err($fault::$wrong(number)) }
+            }
+        }
+    )+};
 }
+pub(super) use numbers;
 
-/// A finite number.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-pub struct Finite(pub f64);
+numbers! { ValueError:
+    /// Stiffness of a term: a positive number, infinity included.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    Stiffness, |number| *number > 0.0, Stiffness;
 
-impl TryFrom<f64> for Finite {
-    type Error = ValueError;
+    /// A finite number.
+    Finite, |number| number.is_finite(), NotFinite;
 
-    fn try_from(value: f64) -> Result<Self, ValueError> {
-        if value.is_finite() { Ok(Self(value)) } else { Err(ValueError::NotFinite(value)) }
-    }
+    /// A finite number above zero.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    Positive, |number| *number > 0.0 && number.is_finite(), NotPositive;
+
+    /// A part of the way from flat to folded: from -1 to 1, where negative numbers fold to the other side.
+    #[schemars(extend("minimum" = -1, "maximum" = 1))]
+    Fraction, |number| (-1.0..=1.0).contains(number), NoFraction;
+
+    /// Poisson's ratio of an isotropic elastic material.
+    #[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5))]
+    PoissonRatio, |number| *number > -1.0 && *number <= 0.5, NoPoissonRatio;
 }
 
 /// A whole number above zero.
@@ -143,34 +160,6 @@ impl TryFrom<i64> for Count {
 
     fn try_from(value: i64) -> Result<Self, ValueError> {
         u32::try_from(value).ok().filter(|count| *count > 0).map(Self).ok_or(ValueError::NoCount(value))
-    }
-}
-
-/// A finite number above zero.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("exclusiveMinimum" = 0))]
-pub struct Positive(pub f64);
-
-impl TryFrom<f64> for Positive {
-    type Error = ValueError;
-
-    fn try_from(value: f64) -> Result<Self, ValueError> {
-        if value > 0.0 && value.is_finite() { Ok(Self(value)) } else { Err(ValueError::NotPositive(value)) }
-    }
-}
-
-/// A part of the way from flat to folded: from -1 to 1, where negative numbers fold to the other side.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("minimum" = -1, "maximum" = 1))]
-pub struct Fraction(pub f64);
-
-impl TryFrom<f64> for Fraction {
-    type Error = ValueError;
-
-    fn try_from(value: f64) -> Result<Self, ValueError> {
-        if (-1.0..=1.0).contains(&value) { Ok(Self(value)) } else { Err(ValueError::NoFraction(value)) }
     }
 }
 

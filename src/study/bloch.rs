@@ -29,7 +29,7 @@ use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, Draw};
 use crate::scene::{Located, SceneFile};
 use std::f64::consts::TAU;
-pub use summary::{BlochSummary, DecaySummary, RegionSummary, StripSummary, ZeroLineSummary};
+pub use summary::{BlochSummary, DecaySummary, StripSummary};
 
 /// Numbers of wavenumbers along the two directions, unless the scene gives others.
 const GRID: [usize; 2] = [256, 256];
@@ -314,15 +314,9 @@ fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochS
         vanishes: decay.vanishes,
     };
     let traced = survey.lines();
-    let lines = traced.map_or(&[][..], |lines| &lines.lines);
     let to_zero = |(zone, q): (&Zone, [f64; 2])| {
         let (value, gradient) = zone.at(q);
         value.abs() / gradient[0].hypot(gradient[1])
-    };
-    let length = |points: &[[f64; 2]]| points.windows(2).map(|q| (q[1][0] - q[0][0]).hypot(q[1][1] - q[0][1])).sum();
-    let region = |region: &crate::analysis::bloch::zero_lines::Region| RegionSummary {
-        sign: if region.positive { 1 } else { -1 },
-        fraction: region.fraction,
     };
     BlochSummary {
         determinant: determinant.polynomial.terms().map(|(m, n, c)| [m, n, c]).collect(),
@@ -337,16 +331,8 @@ fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochS
         positive_fraction: real.as_ref().map(|(zone, _)| zone.positive_fraction(grid)),
         zero_lines: traced.map(|lines| lines.lines.len()),
         no_zero_lines: survey.no_lines().map(ToString::to_string),
-        lines: lines
-            .iter()
-            .map(|line| ZeroLineSummary {
-                winding: line.winding,
-                passes: line.passes,
-                length: length(&line.points),
-                residual: line.residual,
-            })
-            .collect(),
-        regions: traced.iter().flat_map(|lines| lines.regions.iter().map(region)).collect(),
+        lines: traced.map_or(vec![], |traced| traced.lines.clone()),
+        regions: traced.map_or(vec![], |traced| traced.regions.clone()),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
         directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
         theta_to_zero: real.as_ref().map(|(zone, _)| zone).zip(theta).map(to_zero),

@@ -21,7 +21,6 @@ pub mod branches;
 pub mod context;
 pub mod energies;
 mod error;
-mod keys;
 pub mod landscape;
 pub mod modes;
 mod page;

@@ -17,7 +17,7 @@ use crate::output::figure::rounded;
 use crate::output::picture::Picture;
 use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
-pub use summary::{ModesSummary, SeamMotionsSummary};
+pub use summary::ModesSummary;
 
 /// Checks that a start file fits the sheet, and that the model is not too large for the number of eigenvalues that the
 /// study asks for.
@@ -93,14 +93,7 @@ fn summary(modes: &Modes) -> ModesSummary {
         eigenvalues: modes.eigenvalues.clone(),
         frequencies: modes.vibrations.as_ref().map(Vibrations::frequencies),
         growth_rates: modes.vibrations.iter().flat_map(Vibrations::growth_rates).flatten().collect(),
-        seam: modes.seam.map(|found| SeamMotionsSummary {
-            seam: found.seam,
-            free: found.free,
-            turn: found.turn,
-            rise: found.rise,
-            both: found.both,
-            gap: Some(found.gap).filter(|gap| gap.is_finite()),
-        }),
+        seam: modes.seam,
         critical_factors: None,
     }
 }

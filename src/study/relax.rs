@@ -13,17 +13,17 @@ use super::{branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::recorder::KeptState;
-use crate::analysis::relax::{Method, RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
+use crate::analysis::relax::{RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
 use crate::analysis::restored;
 use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
-use crate::scene::spec::{MethodSpec, RelaxSpec};
+use crate::scene::spec::RelaxSpec;
 use crate::solver::{Failure, Step};
 use std::num::NonZeroUsize;
 use std::ops::Range;
-pub use summary::{BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, RouteSummary};
+pub use summary::{IterationSummary, MethodName, RelaxSummary, RouteSummary};
 
 /// Reason for the failure of a relaxation that has left a singular start with extensible bars.
 const NO_BRANCH: &str = "the start is singular, and the state that bars that stretch reach from it has no rigid one nearby: \
@@ -51,7 +51,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer,
         return Ok(start::unavailable(context));
     };
     let first = restored::state_at(&model, &start);
-    let mut options = RelaxOptions { method: method(spec.method), ..RelaxOptions::default() };
+    let mut options = RelaxOptions { method: spec.method, ..RelaxOptions::default() };
     options.keep_every = spec.keep_every.as_ref().and_then(|count| NonZeroUsize::new(count.0 as usize));
     if let Some(tolerance) = &spec.tolerance {
         options.newton.tolerance = tolerance.0;
@@ -164,11 +164,7 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
         self_stresses: relaxed.self_stresses,
         routes: relaxed.routes.iter().map(route).collect(),
         intrinsic_failure: relaxed.intrinsic_failure.map(|failure| failure.to_string()),
-        branch_choice: relaxed.branch_choice.map(|choice| BranchChoiceSummary {
-            hinges: choice.hinges,
-            on_rest_side: choice.on_rest_side,
-            soft_bars: choice.soft_bars,
-        }),
+        branch_choice: relaxed.branch_choice,
         history: history(&relaxed.history, &relaxed.soft_steps),
         ..RelaxSummary::default()
     }
@@ -195,14 +191,6 @@ fn route(tried: &RouteTried) -> RouteSummary {
     let RouteTried { name, iterations, failure, negative_eigenvalues } = *tried;
     let failure = failure.map(|failure| failure.to_string());
     RouteSummary { name: name.to_owned(), iterations, failure, negative_eigenvalues }
-}
-
-fn method(spec: MethodSpec) -> Method {
-    match spec {
-        MethodSpec::Auto => Method::Auto,
-        MethodSpec::Vertices => Method::Vertices,
-        MethodSpec::Intrinsic => Method::Intrinsic,
-    }
 }
 
 /// Returns the rows of the history, of which those of `soft` were made with bars that stretch.

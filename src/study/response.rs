@@ -8,7 +8,7 @@ use super::error::StudyError;
 use super::summary::StudyResult;
 use super::{start, states};
 use crate::analysis::response::{
-    Field, LinearMode, Moduli, NoRatio, Principal, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
+    Field, LinearMode, Moduli, NoRatio, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
 };
 use crate::math::Vec3;
 use crate::model::{Domain, Gauge};
@@ -18,10 +18,7 @@ use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, ResponseSpec};
 use std::f64::consts::PI;
-pub use summary::{
-    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
-    RigidLimitSummary, StressSummary, SymmetrySummary, TableSummary,
-};
+pub use summary::{LinearModeSummary, ModuliSummary, PoissonSummary, ResponseSummary, SymmetrySummary};
 
 /// Directions over half a turn, if the scene does not say.
 const DIRECTIONS: u32 = 72;
@@ -199,7 +196,6 @@ fn summary(response: &Response) -> ResponseSummary {
         curvature: mode.curvature,
         lattice_rotations: mode.lattice_rotations.map(Into::into),
     };
-    let stress = |stress: &SelfStress| StressSummary { force: stress.force, moment: stress.moment };
     let [in_plane, bending] = ratios_at(response, 0.0);
     let poisson = match &response.poisson {
         Some(found) => PoissonSummary {
@@ -217,26 +213,14 @@ fn summary(response: &Response) -> ResponseSummary {
             ..PoissonSummary::default()
         },
     };
-    let lattice = response.lattice;
     ResponseSummary {
         linear_modes: response.modes.iter().map(mode).collect(),
         table_rank: response.table.rank,
-        table: TableSummary {
-            strains: response.table.strains,
-            curvatures: response.table.curvatures,
-            singular_values: response.table.singular_values.clone(),
-            strain_values: response.table.strain_values.clone(),
-            curvature_values: response.table.curvature_values.clone(),
-        },
+        table: response.table.clone(),
         self_stresses: response.self_stresses,
-        stresses: response.stresses.iter().map(stress).collect(),
+        stresses: response.stresses.clone(),
         symmetries: response.symmetries.iter().map(symmetry).collect(),
-        lattice: LatticeSummary {
-            chords: lattice.chords.map(Into::into),
-            theta: lattice.theta,
-            axis: lattice.axis.map(Into::into),
-            curvature: lattice.curvature,
-        },
+        lattice: response.lattice,
         poisson,
         moduli: None,
         no_moduli: None,
@@ -255,27 +239,12 @@ fn symmetry(types: &SymmetryTypes) -> SymmetrySummary {
 }
 
 fn moduli_summary(moduli: &Moduli) -> ModuliSummary {
-    let principal = |(number, principal): (usize, &Principal)| PrincipalSummary {
-        strain: principal.strain,
-        curvature: principal.curvature,
-        stiffness: principal.stiffness,
-        ratio: moduli
-            .rigid_modes
-            .get(number)
-            .map(|rigid| principal.stiffness / rigid.stiffness)
-            .filter(|r| r.is_finite()),
-    };
-    let all = |principals: &[Principal]| principals.iter().enumerate().map(principal).collect();
     ModuliSummary {
         stretching: moduli.matrices.map(|found| found.stretching),
         coupling: moduli.matrices.map(|found| found.coupling),
         bending: moduli.matrices.map(|found| found.bending),
-        rigid_limit: moduli.rigid_limit.map(|limit| RigidLimitSummary {
-            stretching: limit.stretching,
-            coupling: limit.coupling,
-            bending: limit.bending,
-        }),
-        rigid_modes: all(&moduli.rigid_modes),
-        softest: all(&moduli.softest),
+        rigid_limit: moduli.rigid_limit,
+        rigid_modes: moduli.rigid_modes.clone(),
+        softest: moduli.softest.clone(),
     }
 }

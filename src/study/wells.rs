@@ -28,9 +28,7 @@ use crate::scene::spec::{Draw, WellsSpec};
 use crate::solver::Options;
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
-pub use summary::{
-    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, WellSummary, WellsSummary,
-};
+pub use summary::{BarrierSummary, FailedStartsSummary, HeightSummary, RigidSummary, WellSummary, WellsSummary};
 
 /// Number of starts, and of states over a whole turn, unless the scene gives others.
 const STARTS: u32 = 64;
@@ -285,17 +283,12 @@ impl FoundWells {
 }
 
 fn rigid(found: &RigidLandscape) -> RigidSummary {
-    let pass = |pass: &crate::analysis::wells::rigid::RigidPass| RigidPassSummary {
-        joins: pass.joins,
-        energy: pass.energy,
-        singular: pass.singular,
-    };
     RigidSummary {
         dimension: found.dimension,
         states: found.states,
         wells: found.wells.iter().map(|well| well.energy).collect(),
         contacts: found.contacts.clone(),
-        passes: found.passes.iter().map(pass).collect(),
+        passes: found.passes.clone(),
         lost: found.lost,
         open: found.open,
     }

@@ -22,7 +22,7 @@ use super::{BlochError, Rigidity};
 use crate::numerics::larger;
 use arc::{Arc, joined, line};
 pub use line::ZeroLine;
-use line::{GRID, next};
+use line::{GRID, length, next};
 pub use region::Region;
 use region::regions;
 use std::f64::consts::{PI, TAU};
@@ -97,6 +97,7 @@ impl ZeroLines {
                 (line.points[k], line.residual) = (there, larger(line.residual, error));
             }
             line.points[last] = [0, 1].map(|a| line.points[0][a] + TAU * f64::from(line.winding[a]));
+            line.length = length(&line.points);
         }
         self
     }

@@ -9,26 +9,28 @@ use super::spectrum::Observer;
 use crate::model::{Assembly, Boundary, Gauge};
 use crate::sheet::SeamKept;
 use crate::solver::Problem;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Rigid motions of a tube: along its axis and about it.
 const RIGID_MOTIONS: usize = 2;
 
-/// Numbers of motions of the bars of a tube, rigid motions left out, that sets of closing conditions leave free.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Motions of the bars of a tube, one cell repeated about an axis, without rigid motions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "SeamMotionsSummary")]
 pub struct SeamMotions {
-    /// The seam.
+    /// The seam `[n1, n2]`.
     pub seam: [i32; 2],
-    /// Number of motions without closing conditions.
+    /// Motions without closing conditions.
     pub free: usize,
-    /// Number of motions that keep the seam's angle of `2 pi`.
+    /// Motions with n1 theta1 + n2 theta2 = 2 pi: the seam slips along itself.
     pub turn: usize,
-    /// Number of motions that keep the seam's rise of 0.
+    /// Motions with n1 h1 + n2 h2 = 0: the tube opens or overlaps.
     pub rise: usize,
-    /// Number of motions that keep angle and rise of the seam.
+    /// Motions with both: of the closed tube; 0, it is rigid.
     pub both: usize,
-    /// Smallest of the four ratios of the smallest kept to the largest dropped singular value; infinite where none is
-    /// dropped.
-    pub gap: f64,
+    /// Smallest of the four gaps of singular values, as `gap`; null: nothing was dropped.
+    pub gap: Option<f64>,
 }
 
 /// Counts the motions of a tube in the state with these coordinates; `None` for other boundary conditions.
@@ -38,14 +40,14 @@ pub(super) fn seam_motions(
     observe: &mut Observer<'_>,
 ) -> Result<Option<SeamMotions>, ModesError> {
     let Boundary::Tube { seam, .. } = assembly.boundary() else { return Ok(None) };
-    let (mut counts, mut least) = ([0; 4], f64::INFINITY);
+    let (mut counts, mut least) = ([0; 4], None::<f64>);
     for (count, (turn, rise)) in counts.iter_mut().zip([(false, false), (true, false), (false, true), (true, true)]) {
         let Some((other, place)) = assembly.tube_keeping(SeamKept { turn, rise }, coordinates) else { return Ok(None) };
         let mut bars = other.with_terms(rigid_part(assembly.terms())).model(Gauge::Free);
         bars.start_from(place);
         let (rank, gap) = rank_of(&bars, observe)?;
         *count = bars.layout().unknowns.saturating_sub(rank + RIGID_MOTIONS);
-        least = gap.map_or(least, |gap| least.min(gap));
+        least = [least, gap].into_iter().flatten().reduce(f64::min);
     }
     let [free, turn, rise, both] = counts;
     Ok(Some(SeamMotions { seam: seam.lattice_vector(), free, turn, rise, both, gap: least }))

@@ -4,11 +4,15 @@ use crate::model::intrinsic::Unsupported;
 use crate::solver::constrained::ConstrainedFailure;
 use crate::solver::inertia::in_words;
 use crate::solver::{Failure, Options};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::num::NonZeroUsize;
 use thiserror::Error;
 
 /// The unknowns of a relaxation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "MethodSpec")]
 pub enum Method {
     /// Positions; but fold angles for a patch with many vertices that starts without known tensions and of whose first
     /// step in positions no more than a quarter can be taken, and for any patch where positions do not converge.
@@ -16,7 +20,7 @@ pub enum Method {
     Auto,
     /// Positions of the vertices.
     Vertices,
-    /// Fold angles, wherever the model has such a form.
+    /// Fold angles; positions if these fail.
     Intrinsic,
 }
 

@@ -284,6 +284,7 @@ impl Condensed {
                 strain: [0, 1, 2].map(part),
                 curvature: [3, 4, 5].map(part),
                 stiffness: stiffness(value) / self.area,
+                ratio: None,
             }
         };
         Ok(found.values.iter().enumerate().map(one).collect())

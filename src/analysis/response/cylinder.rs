@@ -161,8 +161,13 @@ impl<'a> Rolled<'a> {
         let larger = usize::from(theta2.abs() > theta1.abs());
         let turned = (self.turns.theta[larger] / TAU).round() * TAU;
         let side = if self.turns.theta[larger] - turned < 0.0 { -1.0 } else { 1.0 };
-        let axis = Some(back * self.turns.axis() * side);
-        LatticeMotions { chords: self.chords.map(|chord| back * chord), theta: [theta1, theta2], axis, curvature }
+        let axis = Some((back * self.turns.axis() * side).into());
+        LatticeMotions {
+            chords: self.chords.map(|chord| (back * chord).into()),
+            theta: [theta1, theta2],
+            axis,
+            curvature,
+        }
     }
 }
 

@@ -6,6 +6,8 @@ use crate::kinematics::Displacement;
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 use crate::sheet::Corner;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Smallest determinant, relative to the largest one, of the two curvature components that name modes.
 const NAMES: f64 = 0.1;
@@ -45,21 +47,23 @@ impl Field {
     }
 }
 
-/// The ranks of the table of strains and curvatures of the modes: six numbers for each mode.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The table of strains and curvatures of the modes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "TableSummary")]
 pub struct ModeTable {
-    /// Rank of the whole table: the number of independent isometric strains and bendings.
+    /// Rank of the whole table: the number of independent isometric strains and bendings. In summaries it stands beside
+    /// the table.
+    #[serde(skip)]
     pub rank: usize,
     /// Rank of the strains alone.
     pub strains: usize,
     /// Rank of the curvatures alone.
     pub curvatures: usize,
-    /// Singular values of the whole table, descending, for modes of norm 1; lengths in units of the square root of the
-    /// cell's area.
+    /// Singular values for modes of norm 1, lengths in units of the square root of the cell's area; descending.
     pub singular_values: Vec<f64>,
     /// Singular values of the strains alone.
     pub strain_values: Vec<f64>,
-    /// Singular values of the curvatures alone.
+    /// Singular values of the curvatures alone: a small one means that a mode hardly bends the sheet.
     pub curvature_values: Vec<f64>,
 }
 

@@ -95,12 +95,15 @@ pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<Mo
     let springs = Springs::new(&cell, &elements);
     let own = Condensed::new(&springs)?;
     let limit = Condensed::new(&springs.of_bars())?;
-    Ok(ModuliOf::Sheet(Box::new(Moduli {
-        matrices: own.matrices(),
-        rigid_limit: limit.matrices(),
-        rigid_modes: own.rigid_modes()?,
-        softest: own.softest()?,
-    })))
+    let (mut rigid_modes, mut softest) = (own.rigid_modes()?, own.softest()?);
+    let rigid: Vec<f64> = rigid_modes.iter().map(|mode| mode.stiffness).collect();
+    for principals in [&mut rigid_modes, &mut softest] {
+        for (principal, rigid) in principals.iter_mut().zip(&rigid) {
+            principal.ratio = Some(principal.stiffness / rigid).filter(|ratio| ratio.is_finite());
+        }
+    }
+    let (matrices, rigid_limit) = (own.matrices(), limit.matrices());
+    Ok(ModuliOf::Sheet(Box::new(Moduli { matrices, rigid_limit, rigid_modes, softest })))
 }
 
 /// Returns how far an element of finite stiffness is off its rest value: an angle in radians, or a length relative to

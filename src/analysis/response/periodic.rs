@@ -20,7 +20,7 @@ use nalgebra::DVector;
 /// [`ResponseError`] as [`super::response_at`].
 pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
     let CellModes { modes, table, poisson, error } = modes_of(cell)?;
-    let lattice = LatticeMotions { chords: cell.lattice, theta: [0.0; 2], axis: None, curvature: 0.0 };
+    let lattice = LatticeMotions { chords: cell.lattice.map(Into::into), theta: [0.0; 2], axis: None, curvature: 0.0 };
     let stresses = stresses::of_cell(assembly, cell)?;
     let symmetries = symmetry_types::of_cell(cell, &modes, &stresses);
     Ok(Response { modes, table, lattice, self_stresses: 0, stresses, symmetries, poisson: Some(poisson), error })

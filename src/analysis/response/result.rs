@@ -4,7 +4,8 @@ use super::mode::{LinearMode, ModeTable};
 use super::poisson::Poisson;
 use super::stresses::SelfStress;
 use super::symmetry_types::SymmetryTypes;
-use crate::math::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// The linear response of a state.
 #[derive(Clone, Debug)]
@@ -28,16 +29,17 @@ pub struct Response {
     pub error: f64,
 }
 
-/// The two motions from a cell to the next, relative to vertex 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The motions from a cell to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "LatticeSummary")]
 pub struct LatticeMotions {
-    /// Chords from vertex 0 to its two copies, in the frame of the mesh file.
-    pub chords: [Vec3; 2],
-    /// Rotation angles about the common axis, in radians, the axis directed so that the larger one in absolute value is
+    /// Chords from vertex 0 to its copies, in the frame of the mesh file.
+    pub chords: [[f64; 3]; 2],
+    /// Rotation angles about the common axis, in radians; 0 where nothing rotates. The larger one in absolute value is
     /// positive.
     pub theta: [f64; 2],
-    /// Unit vector along the common axis, in the frame of the mesh file; `None` where nothing rotates.
-    pub axis: Option<Vec3>,
-    /// Signed curvature of the cylinder of vertex 0; zero where nothing rotates.
+    /// Unit vector along the axis, in the frame of the mesh file; null where nothing rotates.
+    pub axis: Option<[f64; 3]>,
+    /// Signed curvature of the cylinder of vertex 0; 0 where nothing rotates.
     pub curvature: f64,
 }

@@ -10,17 +10,23 @@ use super::error::ResponseError;
 use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{DenseError, full_svd, null_space_of_sums};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A self stress of one cell whose lattice is held, of norm 1 with torques over the root of the cell's area.
-#[derive(Clone, Debug, PartialEq)]
+/// Summaries have what it does to the lattice alone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "StressSummary")]
 pub struct SelfStress {
     /// Tension of the bar along every edge of the cell.
+    #[serde(skip)]
     pub tension: Vec<f64>,
     /// Torque of every hinge that keeps its angle; zero for the others.
+    #[serde(skip)]
     pub torque: Vec<f64>,
-    /// Work per area of the cell for each component `[e11, e22, e12]` of the strain.
+    /// Work on strains `[e11, e22, e12]`, per area of the cell.
     pub force: [f64; 3],
-    /// Work per area of the cell for each component `[k11, k22, k12]` of the curvature tensor.
+    /// Work on curvatures `[k11, k22, k12]`, per area of the cell.
     pub moment: [f64; 3],
 }
 

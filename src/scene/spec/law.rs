@@ -10,7 +10,7 @@ use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error as _, SeqAccess};
 use thiserror::Error;
 
-use crate::scene::values::Exactly;
+use crate::scene::values::{Exactly, numbers};
 use crate::scene::written::{Written, read_as_written};
 use crate::sheet::angle::Angle;
 
@@ -150,74 +150,28 @@ pub struct HingeYieldSpec {
     pub isotropic: Share,
 }
 
-/// A force, or a torque per length, at which an element yields.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("exclusiveMinimum" = 0))]
-pub struct YieldBound(pub(crate) f64);
+numbers! { LawFault:
+    /// A force, or a torque per length, at which an element yields.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    YieldBound, |bound| *bound > 0.0 && bound.is_finite(), Bound;
 
-impl TryFrom<f64> for YieldBound {
-    type Error = LawFault;
+    /// The slope of a force beyond the bound over the stiffness.
+    #[derive(Default)]
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
+    Slope, |slope| (0.0..1.0).contains(slope), Slope;
 
-    fn try_from(bound: f64) -> Result<Self, LawFault> {
-        if bound > 0.0 && bound.is_finite() { Ok(Self(bound)) } else { Err(LawFault::Bound(bound)) }
-    }
-}
+    /// A part of one, from 0 to 1.
+    #[derive(Default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    Share, |part| (0.0..=1.0).contains(part), Share;
 
-/// The slope of a force beyond the bound over the stiffness.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
-pub struct Slope(pub(crate) f64);
+    /// A ratio of stiffnesses.
+    #[schemars(extend("minimum" = 0))]
+    Ratio, |ratio| *ratio >= 0.0 && ratio.is_finite(), Ratio;
 
-impl TryFrom<f64> for Slope {
-    type Error = LawFault;
-
-    fn try_from(slope: f64) -> Result<Self, LawFault> {
-        if (0.0..1.0).contains(&slope) { Ok(Self(slope)) } else { Err(LawFault::Slope(slope)) }
-    }
-}
-
-/// A part of one, from 0 to 1.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("minimum" = 0, "maximum" = 1))]
-pub struct Share(pub(crate) f64);
-
-impl TryFrom<f64> for Share {
-    type Error = LawFault;
-
-    fn try_from(part: f64) -> Result<Self, LawFault> {
-        if (0.0..=1.0).contains(&part) { Ok(Self(part)) } else { Err(LawFault::Share(part)) }
-    }
-}
-
-/// A ratio of stiffnesses.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("minimum" = 0))]
-pub struct Ratio(pub(crate) f64);
-
-impl TryFrom<f64> for Ratio {
-    type Error = LawFault;
-
-    fn try_from(ratio: f64) -> Result<Self, LawFault> {
-        if ratio >= 0.0 && ratio.is_finite() { Ok(Self(ratio)) } else { Err(LawFault::Ratio(ratio)) }
-    }
-}
-
-/// The exponent of a torque.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("minimum" = 1))]
-pub struct Exponent(pub(crate) f64);
-
-impl TryFrom<f64> for Exponent {
-    type Error = LawFault;
-
-    fn try_from(exponent: f64) -> Result<Self, LawFault> {
-        if (1.0..=100.0).contains(&exponent) { Ok(Self(exponent)) } else { Err(LawFault::Exponent(exponent)) }
-    }
+    /// The exponent of a torque.
+    #[schemars(extend("minimum" = 1))]
+    Exponent, |exponent| (1.0..=100.0).contains(exponent), Exponent;
 }
 
 /// The values off rest at which the stiffness of a bilinear law changes.

@@ -2,9 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use crate::scene::values::Positive;
+use crate::scene::values::{PoissonRatio, Positive};
 
 /// `[units]`: names of units for axes, tables and summaries.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -51,23 +50,4 @@ pub struct MaterialSpec {
     /// Length scale of the creases: the width of the strip of sheet that bends as one of them. Left out: `energy` gives
     /// the stiffness of creases, or there are none.
     pub crease_length: Option<Positive>,
-}
-
-/// Poisson's ratio of an isotropic elastic material.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "f64")]
-#[schemars(extend("exclusiveMinimum" = -1, "maximum" = 0.5))]
-pub struct PoissonRatio(pub f64);
-
-/// A Poisson's ratio that no elastic material has.
-#[derive(Debug, Error)]
-#[error("Poisson's ratio is {0}, expected a number above -1, and at most 0.5")]
-pub struct NoPoissonRatio(f64);
-
-impl TryFrom<f64> for PoissonRatio {
-    type Error = NoPoissonRatio;
-
-    fn try_from(value: f64) -> Result<Self, NoPoissonRatio> {
-        if value > -1.0 && value <= 0.5 { Ok(Self(value)) } else { Err(NoPoissonRatio(value)) }
-    }
 }

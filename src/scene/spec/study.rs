@@ -1,10 +1,11 @@
 //! `[[study]]` and the keys of each kind of study.
 
 use super::stop::{ProbeSpec, StopSpec};
+use crate::analysis::relax::Method;
 use crate::scene::Located;
 use crate::scene::forms::{BranchChoice, Mode, StartSpec};
 use crate::scene::values::{Cells, Count, Finite, Name, Pair, Positive, WellPair};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -54,33 +55,54 @@ pub enum Draw {
     Html,
 }
 
-/// The kinds of studies.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[schemars(tag = "kind")]
-pub enum StudyKind {
+/// Defines the kinds of studies by their words in the scene and the types of their keys.
+macro_rules! kinds {
+    ($($(#[$about:meta])* $word:literal: $kind:ident($keys:ident),)+) => {
+        /// The kinds of studies.
+        #[derive(Clone, Debug, Deserialize, JsonSchema)]
+        #[serde(rename_all = "lowercase")]
+        #[schemars(tag = "kind")]
+        pub enum StudyKind {
+            $($(#[$about])* $kind($keys)),+
+        }
+
+        impl StudyKind {
+            /// The words of all kinds, each with the function that returns the schema of its keys.
+            pub(crate) const ALL: &[(&str, fn(&mut SchemaGenerator) -> Schema)] = &[$(($word, $keys::json_schema)),+];
+
+            /// The word in the scene.
+            pub(crate) fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(_) => $word),+
+                }
+            }
+        }
+    };
+}
+
+kinds! {
     /// An equilibrium of the energy.
-    Relax(RelaxSpec),
+    "relax": Relax(RelaxSpec),
     /// The trajectories along which the sheet folds.
-    Trace(TraceSpec),
+    "trace": Trace(TraceSpec),
     /// The surface of folded states.
-    Surface(SurfaceSpec),
+    "surface": Surface(SurfaceSpec),
     /// Zero modes, self stresses and the lowest eigenvalues.
-    Modes(ModesSpec),
+    "modes": Modes(ModesSpec),
     /// The directions in which folding leaves a state.
-    Branches(BranchesSpec),
+    "branches": Branches(BranchesSpec),
     /// Energy along modes.
-    Landscape(LandscapeSpec),
+    "landscape": Landscape(LandscapeSpec),
     /// Modes of nonzero wavenumber.
-    Bloch(BlochSpec),
+    "bloch": Bloch(BlochSpec),
     /// Stable states and the barriers between them.
-    Wells(WellsSpec),
+    "wells": Wells(WellsSpec),
     /// Equilibria along a driven quantity.
-    Path(PathSpec),
+    "path": Path(PathSpec),
     /// A path along the rest angles, from those drawn to those of `[energy]`.
-    Fold(PathSpec),
+    "fold": Fold(PathSpec),
     /// The sheet as a material: its linear modes, Poisson's ratios and moduli.
-    Response(ResponseSpec),
+    "response": Response(ResponseSpec),
 }
 
 /// `kind = "relax"`.
@@ -93,23 +115,10 @@ pub struct RelaxSpec {
     pub tolerance: Option<Located<Positive>>,
     /// The unknowns of the relaxation; left out: `auto`.
     #[serde(default)]
-    pub method: MethodSpec,
+    pub method: Method,
     /// Which states on the way are written: one in so many iterations, the first and the last one included. Left out:
     /// the start and the end.
     pub keep_every: Option<Located<Count>>,
-}
-
-/// The unknowns of a relaxation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum MethodSpec {
-    /// Fold angles for large free patches, positions otherwise.
-    #[default]
-    Auto,
-    /// Positions of the vertices.
-    Vertices,
-    /// Fold angles; positions if these fail.
-    Intrinsic,
 }
 
 /// `kind = "trace"`.
@@ -345,23 +354,6 @@ impl StudyKind {
             Self::Modes(spec) => spec.eigenvalues.as_ref().is_some_and(|count| **count > 0),
             Self::Bloch(spec) => spec.path.is_some() || spec.density.is_some(),
             _ => false,
-        }
-    }
-
-    /// The word in the scene.
-    pub(crate) fn name(&self) -> &'static str {
-        match self {
-            Self::Relax(_) => "relax",
-            Self::Trace(_) => "trace",
-            Self::Surface(_) => "surface",
-            Self::Modes(_) => "modes",
-            Self::Branches(_) => "branches",
-            Self::Landscape(_) => "landscape",
-            Self::Bloch(_) => "bloch",
-            Self::Wells(_) => "wells",
-            Self::Path(_) => "path",
-            Self::Fold(_) => "fold",
-            Self::Response(_) => "response",
         }
     }
 }

@@ -51,59 +51,64 @@ pub use tubes::AlignedTubes;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
-/// The names of the patterns, and a page about each.
-const HELP: [(&str, &str); 15] = [
-    ("miura", include_str!("help/miura.txt")),
-    ("miura-patch", include_str!("help/miura-patch.txt")),
-    ("eggbox", include_str!("help/eggbox.txt")),
-    ("four-parallelogram", include_str!("help/four-parallelogram.txt")),
-    ("waterbomb", include_str!("help/waterbomb.txt")),
-    ("yoshimura", include_str!("help/yoshimura.txt")),
-    ("kresling", include_str!("help/kresling.txt")),
-    ("square-twist", include_str!("help/square-twist.txt")),
-    ("resch", include_str!("help/resch.txt")),
-    ("hypar", include_str!("help/hypar.txt")),
-    ("truss", include_str!("help/truss.txt")),
-    ("aligned-tubes", include_str!("help/aligned-tubes.txt")),
-    ("random", include_str!("help/random.txt")),
-    ("symmetric", include_str!("help/symmetric.txt")),
-    ("random-developable", include_str!("help/random-developable.txt")),
-];
+/// Defines the patterns by their names and the types of their parameters.
+macro_rules! patterns {
+    ($($(#[$about:meta])* $name:literal: $pattern:ident,)+) => {
+        /// The names of the patterns, and a page about each.
+        const HELP: &[(&str, &str)] = &[$(($name, include_str!(concat!("help/", $name, ".txt")))),+];
 
-/// A pattern with its parameters. In a file, the key `pattern = "miura"` and so on stands next to the parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "pattern", rename_all = "kebab-case")]
-pub enum Pattern {
+        /// A pattern with its parameters. In a file, the key `pattern = "miura"` and so on stands next to the
+        /// parameters.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(tag = "pattern", rename_all = "kebab-case")]
+        pub enum Pattern {
+            $($(#[$about])* $pattern($pattern)),+
+        }
+
+        /// Makes the sheet of a pattern.
+        ///
+        /// # Errors
+        /// [`GenerateError`] with the parameter and its range if a parameter is outside it, or with the defect of the
+        /// mesh if the parameters together give none.
+        pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
+            match pattern {
+                $(Pattern::$pattern(parameters) => parameters.sheet()),+
+            }
+        }
+    };
+}
+
+patterns! {
     /// One cell of Miura-ori.
-    Miura(Miura),
+    "miura": Miura,
     /// A finite Miura-ori.
-    MiuraPatch(MiuraPatch),
+    "miura-patch": MiuraPatch,
     /// One cell of the eggbox.
-    Eggbox(Eggbox),
+    "eggbox": Eggbox,
     /// One cell of four parallelograms of any lengths and angles.
-    FourParallelogram(FourParallelogram),
+    "four-parallelogram": FourParallelogram,
     /// One cell of the waterbomb tessellation.
-    Waterbomb(Waterbomb),
+    "waterbomb": Waterbomb,
     /// One cell of the Yoshimura pattern.
-    Yoshimura(Yoshimura),
+    "yoshimura": Yoshimura,
     /// A ring of Kresling's pattern, open or closed to a drum.
-    Kresling(Kresling),
+    "kresling": Kresling,
     /// One cell of square twists.
-    SquareTwist(SquareTwist),
+    "square-twist": SquareTwist,
     /// One flat cell of Ron Resch's triangular tessellation.
-    Resch(Resch),
+    "resch": Resch,
     /// The flat crease pattern of the pleated hyperbolic paraboloid.
-    Hypar(Hypar),
+    "hypar": Hypar,
     /// The two-bar truss of von Mises.
-    Truss(Truss),
+    "truss": Truss,
     /// Two aligned Miura tubes that share a wall.
-    AlignedTubes(AlignedTubes),
+    "aligned-tubes": AlignedTubes,
     /// A random cell that cannot be flattened.
-    Random(Random),
+    "random": Random,
     /// A random cell with one symmetry.
-    Symmetric(Symmetric),
+    "symmetric": Symmetric,
     /// A random flat cell.
-    RandomDevelopable(RandomDevelopable),
+    "random-developable": RandomDevelopable,
 }
 
 impl Pattern {
@@ -152,29 +157,4 @@ impl Pattern {
 /// Returns the error about a pattern that is none of those that there are.
 fn unknown(message: String, name: &str) -> GenerateError {
     GenerateError::Unknown { message, help: there_are(name, Pattern::names()) }
-}
-
-/// Makes the sheet of a pattern.
-///
-/// # Errors
-/// [`GenerateError`] with the parameter and its range if a parameter is outside it, or with the defect of the mesh if
-/// the parameters together give none.
-pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
-    match pattern {
-        Pattern::Miura(p) => p.sheet(),
-        Pattern::MiuraPatch(p) => p.sheet(),
-        Pattern::Eggbox(p) => p.sheet(),
-        Pattern::FourParallelogram(p) => p.sheet(),
-        Pattern::Waterbomb(p) => p.sheet(),
-        Pattern::Yoshimura(p) => p.sheet(),
-        Pattern::Kresling(p) => p.sheet(),
-        Pattern::SquareTwist(p) => p.sheet(),
-        Pattern::Resch(p) => p.sheet(),
-        Pattern::Hypar(p) => p.sheet(),
-        Pattern::Truss(p) => p.sheet(),
-        Pattern::AlignedTubes(p) => p.sheet(),
-        Pattern::Random(p) => p.sheet(),
-        Pattern::Symmetric(p) => p.sheet(),
-        Pattern::RandomDevelopable(p) => p.sheet(),
-    }
 }

@@ -1,7 +1,7 @@
 //! The results of a study of kind `bloch` in the summary.
 
+use crate::analysis::bloch::zero_lines::{Region, ZeroLine};
 use crate::output::counted;
-use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,9 +41,9 @@ pub struct BlochSummary {
     #[serde(default)]
     pub no_zero_lines: Option<String>,
     /// The lines.
-    pub lines: Vec<ZeroLineSummary>,
+    pub lines: Vec<ZeroLine>,
     /// Parts of the zone of one sign, the largest first.
-    pub regions: Vec<RegionSummary>,
+    pub regions: Vec<Region>,
     /// Order to which the determinant vanishes at `q = 0`; null where it is not real.
     pub order_at_origin: Option<usize>,
     /// Angles in the plane of `(q1, q2)` at which zero lines pass `q = 0`.
@@ -101,29 +101,6 @@ pub struct DecaySummary {
     /// Whether the determinant vanishes at this wavenumber for every `z2`, so that there are no roots.
     #[serde(default)]
     pub vanishes: bool,
-}
-
-/// A line of zeros of the determinant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ZeroLineSummary {
-    /// How often it goes round the zone along both wavenumbers.
-    pub winding: [i32; 2],
-    /// How often it passes `q = 0`.
-    pub passes: usize,
-    /// Length in the plane of `(q1, q2)`.
-    pub length: f64,
-    /// Largest error of a point.
-    pub residual: f64,
-}
-
-/// A part of the zone in which the determinant has one sign.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RegionSummary {
-    /// The sign, +1 or -1.
-    #[schemars(schema_with = "keys::sign")]
-    pub sign: i8,
-    /// Its part of the zone.
-    pub fraction: f64,
 }
 
 impl BlochSummary {

@@ -1,7 +1,6 @@
 //! The results of a study of kind `branches` in the summary.
 
 use crate::output::counted;
-use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,7 +44,7 @@ pub struct RaySummary {
     /// Number of the branch, the same for a ray and its opposite.
     pub branch: usize,
     /// 1 for the ray whose first rate beyond 1e-6 is positive, -1 for its opposite.
-    #[schemars(schema_with = "keys::sign")]
+    #[schemars(with = "serde_json::Value", extend("enum" = [1, -1]))]
     pub sign: i8,
     /// Multiplicity of the solution.
     pub multiplicity: usize,

@@ -1,5 +1,6 @@
 //! The results of a study of kind `modes` in the summary.
 
+use crate::analysis::modes::SeamMotions;
 use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,24 +36,7 @@ pub struct ModesSummary {
     pub critical_factors: Option<Vec<f64>>,
     /// Motions of a tube that its closing conditions leave free; left out on other domains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub seam: Option<SeamMotionsSummary>,
-}
-
-/// Motions of the bars of a tube, one cell repeated about an axis, without rigid motions.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SeamMotionsSummary {
-    /// The seam `[n1, n2]`.
-    pub seam: [i32; 2],
-    /// Motions without closing conditions.
-    pub free: usize,
-    /// Motions with n1 theta1 + n2 theta2 = 2 pi: the seam slips along itself.
-    pub turn: usize,
-    /// Motions with n1 h1 + n2 h2 = 0: the tube opens or overlaps.
-    pub rise: usize,
-    /// Motions with both: of the closed tube; 0, it is rigid.
-    pub both: usize,
-    /// Smallest of the four gaps of singular values, as `gap`; null: nothing was dropped.
-    pub gap: Option<f64>,
+    pub seam: Option<SeamMotions>,
 }
 
 impl ModesSummary {
@@ -70,7 +54,7 @@ impl ModesSummary {
             },
             match (self.folding_modes, &self.seam) {
                 (Some(count), _) => counted(count, "folding mode"),
-                (None, Some(SeamMotionsSummary { free, turn, rise, both, .. })) => format!(
+                (None, Some(SeamMotions { free, turn, rise, both, .. })) => format!(
                     "{} of the closed tube, {turn} if the seam may slip, {rise} if it may open, {free} without conditions",
                     counted(*both, "folding mode")
                 ),

@@ -1,5 +1,6 @@
 //! The results of a study of kind `relax` in the summary.
 
+use crate::analysis::relax::BranchChoice;
 use crate::output::counted;
 use crate::study::energies::EnergySummary;
 use crate::study::sides::RestSides;
@@ -46,7 +47,7 @@ pub struct RelaxSummary {
     pub directions_at_start: Option<String>,
     /// The branch on which a flat sheet, or another singular start of rigid bars, was left; null for other starts.
     #[serde(default)]
-    pub branch_choice: Option<BranchChoiceSummary>,
+    pub branch_choice: Option<BranchChoice>,
     /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after
     /// it.
     #[serde(default)]
@@ -56,17 +57,6 @@ pub struct RelaxSummary {
     pub intrinsic_failure: Option<String>,
     /// A row per iteration.
     pub history: Vec<IterationSummary>,
-}
-
-/// A branch of rigid folding, by the creases and soft facets that have a rest angle other than 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct BranchChoiceSummary {
-    /// Their number.
-    pub hinges: usize,
-    /// Number of those that are folded to the side of their rest angle.
-    pub on_rest_side: usize,
-    /// Whether rigid bars stretched on the way, since no motion relieves the torques at the start.
-    pub soft_bars: bool,
 }
 
 /// A way that a relaxation took.
@@ -153,11 +143,10 @@ impl RelaxSummary {
             (None, Some("not-established")) => ", it is not known whether the start is a branch point".into(),
             (None, _) => String::new(),
         };
-        let left =
-            self.branch_choice.map_or(String::new(), |BranchChoiceSummary { hinges, on_rest_side, soft_bars }| {
-                let by = if soft_bars { ", by bars that stretch at first" } else { "" };
-                format!(", the start was left with {}{by}", RestSides { hinges, on_rest_side }.said())
-            });
+        let left = self.branch_choice.map_or(String::new(), |BranchChoice { hinges, on_rest_side, soft_bars }| {
+            let by = if soft_bars { ", by bars that stretch at first" } else { "" };
+            format!(", the start was left with {}{by}", RestSides { hinges, on_rest_side }.said())
+        });
         format!(
             "energy {:.9e}, {iterations}, {residuals}{by_way_of}{unstable}{crossing}{branching}{left}",
             self.energy.total

@@ -1,5 +1,6 @@
 //! The results of a study of kind `response` in the summary.
 
+use crate::analysis::response::{LatticeMotions, ModeTable, ModuliMatrices, Principal, SelfStress};
 use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,16 +14,16 @@ pub struct ResponseSummary {
     /// Rank of the table of strains and curvatures: how many of six are isometries.
     pub table_rank: usize,
     /// Ranks of its halves, and its singular values.
-    pub table: TableSummary,
+    pub table: ModeTable,
     /// Self stresses of the bars in the boundary conditions of the scene.
     pub self_stresses: usize,
     /// A basis of the self stresses of one cell with held lattice; empty on a cylinder.
-    pub stresses: Vec<StressSummary>,
+    pub stresses: Vec<SelfStress>,
     /// Modes and self stresses by their type under the symmetries of the cell.
     #[serde(default)]
     pub symmetries: Vec<SymmetrySummary>,
     /// The lattice of the state.
-    pub lattice: LatticeSummary,
+    pub lattice: LatticeMotions,
     /// Poisson's ratios of the rigid modes.
     pub poisson: PoissonSummary,
     /// Effective moduli of the energy; null where there are none.
@@ -49,36 +50,11 @@ pub struct ModuliSummary {
     pub bending: Option<Matrix>,
     /// The limit of the moduli over `EA` for stiff bars: those of the bars alone, the stiffest with `EA = 1`. Null
     /// where rigid polygons or locks make some infinite.
-    pub rigid_limit: Option<RigidLimitSummary>,
+    pub rigid_limit: Option<ModuliMatrices>,
     /// Principal strains and bendings of the rigid modes in the limit of rigid bars, by rising stiffness.
-    pub rigid_modes: Vec<PrincipalSummary>,
+    pub rigid_modes: Vec<Principal>,
     /// The softest principal strains and bendings of all, as many as there are rigid modes, by rising stiffness.
-    pub softest: Vec<PrincipalSummary>,
-}
-
-/// Moduli of bars alone.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RigidLimitSummary {
-    /// Second derivatives of the energy per area by two components of the strain.
-    pub stretching: Matrix,
-    /// Second derivatives by a component of the strain (row) and one of the curvature (column).
-    pub coupling: Matrix,
-    /// Second derivatives by two components of the curvature.
-    pub bending: Matrix,
-}
-
-/// A principal strain and bending, of norm 1 in `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)`, `A` the area
-/// of the cell.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PrincipalSummary {
-    /// Strain `[e11, e22, e12]`.
-    pub strain: [f64; 3],
-    /// Curvature tensor `[k11, k22, k12]`.
-    pub curvature: [f64; 3],
-    /// Its stiffness, twice its energy per area.
-    pub stiffness: f64,
-    /// Its stiffness over that of the rigid mode of the same number; null where that is 0.
-    pub ratio: Option<f64>,
+    pub softest: Vec<Principal>,
 }
 
 /// A linear folding mode.
@@ -90,30 +66,6 @@ pub struct LinearModeSummary {
     pub curvature: [f64; 3],
     /// Angular velocities from a cell to the next along the two lattice vectors, in the frame of the mesh file.
     pub lattice_rotations: [[f64; 3]; 2],
-}
-
-/// The table of strains and curvatures of the modes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TableSummary {
-    /// Rank of the strains alone.
-    pub strains: usize,
-    /// Rank of the curvatures alone.
-    pub curvatures: usize,
-    /// Singular values for modes of norm 1, lengths in units of the square root of the cell's area; descending.
-    pub singular_values: Vec<f64>,
-    /// Singular values of the strains alone.
-    pub strain_values: Vec<f64>,
-    /// Singular values of the curvatures alone: a small one means that a mode hardly bends the sheet.
-    pub curvature_values: Vec<f64>,
-}
-
-/// What a self stress of norm 1 does to the lattice.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StressSummary {
-    /// Work on strains `[e11, e22, e12]`, per area of the cell.
-    pub force: [f64; 3],
-    /// Work on curvatures `[k11, k22, k12]`, per area of the cell.
-    pub moment: [f64; 3],
 }
 
 /// Modes and self stresses that a symmetry of order two carries into themselves (even) or into their negative (odd).
@@ -132,19 +84,6 @@ pub struct SymmetrySummary {
     pub even_stresses: usize,
     /// Odd self stresses of one cell with held lattice.
     pub odd_stresses: usize,
-}
-
-/// The motions from a cell to the next.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LatticeSummary {
-    /// Chords from vertex 0 to its copies, in the frame of the mesh file.
-    pub chords: [[f64; 3]; 2],
-    /// Rotation angles about the common axis, in radians; 0 where nothing rotates.
-    pub theta: [f64; 2],
-    /// Unit vector along the axis, in the frame of the mesh file; null where nothing rotates.
-    pub axis: Option<[f64; 3]>,
-    /// Curvature of the cylinder of vertex 0; 0 where nothing rotates.
-    pub curvature: f64,
 }
 
 /// Poisson's ratios, along the first lattice vector.

@@ -1,6 +1,5 @@
 //! The results of a study of kind `surface` in the summary.
 
-use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +50,7 @@ pub struct PieceSummary {
     /// Number of the branch: the same for nappes opposite each other, and for those on one piece of the surface.
     pub branch: usize,
     /// Sign of the curvature with which it leaves the drawn state.
-    #[schemars(schema_with = "keys::sign")]
+    #[schemars(with = "serde_json::Value", extend("enum" = [1, -1]))]
     pub sign: i8,
     /// States.
     pub points: usize,

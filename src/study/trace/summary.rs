@@ -1,6 +1,5 @@
 //! The results of a study of kind `trace` in the summary.
 
-use crate::study::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +21,7 @@ pub struct TrajectorySummary {
     /// Number of the branch; null where no ray is real.
     pub branch: Option<usize>,
     /// Which way along it, +1 or -1; null where no ray is real.
-    #[schemars(schema_with = "keys::sign_or_null")]
+    #[schemars(with = "serde_json::Value", extend("enum" = [1, -1, null]))]
     pub sign: Option<i8>,
     /// Whether the fold angles come back to the start modulo 2 pi.
     pub closed: bool,
@@ -73,7 +72,7 @@ pub struct RayName {
     /// Number of the branch.
     pub branch: usize,
     /// +1 or -1.
-    #[schemars(schema_with = "keys::sign")]
+    #[schemars(with = "serde_json::Value", extend("enum" = [1, -1]))]
     pub sign: i8,
 }
 

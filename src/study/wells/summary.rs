@@ -1,5 +1,6 @@
 //! The results of a study of kind `wells` in the summary.
 
+use crate::analysis::wells::rigid::RigidPass;
 use crate::output::counted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -115,23 +116,12 @@ pub struct RigidSummary {
     /// Energies of states that only the contact of two panels holds, a crease being shut.
     pub contacts: Vec<f64>,
     /// The passes at which lakes around wells meet as the water rises.
-    pub passes: Vec<RigidPassSummary>,
+    pub passes: Vec<RigidPass>,
     /// Wells and passes of the samples that could not be made exact: the study did not converge where there are any.
     pub lost: usize,
     /// Places beyond which the folded states go on, or may, and were not sampled: likewise.
     #[serde(default)]
     pub open: usize,
-}
-
-/// A pass of a rigid sheet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RigidPassSummary {
-    /// The lowest wells on its sides.
-    pub joins: [usize; 2],
-    /// Energy.
-    pub energy: f64,
-    /// Whether branches cross there.
-    pub singular: bool,
 }
 
 impl WellsSummary {

@@ -212,7 +212,7 @@ fn responds(sheet: Sheet) -> Response {
 
 /// Returns the ratios in the plane and of bending along a direction of the cell as it is.
 fn ratios(found: &Response, change: &Change, direction: f64) -> [Result<f64, NoRatio>; 2] {
-    let [l1, l2] = found.lattice.chords;
+    let [l1, l2] = found.lattice.chords.map(Vec3::from);
     let along = rotation::exp(&change.turn) * Vec3::new(direction.cos(), direction.sin(), 0.0);
     let across = l1.cross(&l2).normalize().cross(&l1.normalize());
     let angle = along.dot(&across).atan2(along.dot(&l1.normalize()));

@@ -442,9 +442,10 @@ fn a_cylinder_has_two_modes() {
         assert!(found.poisson.is_none() && found.stresses.is_empty());
         assert!((found.lattice.curvature.abs() - shape.curvature.abs()).abs() <= 1e-9);
         assert!((0..2).all(|a| (found.lattice.theta[a] - shape.theta[a]).abs() <= 1e-9));
-        assert!((0..2).all(|a| (found.lattice.chords[a].norm() - shape.screw.chords[a].norm()).abs() <= 1e-9));
-        let axis = found.lattice.axis.unwrap();
-        let rises = [0, 1].map(|a| axis.dot(&found.lattice.chords[a]));
+        let chords = found.lattice.chords.map(Vec3::from);
+        assert!((0..2).all(|a| (chords[a].norm() - shape.screw.chords[a].norm()).abs() <= 1e-9));
+        let axis = Vec3::from(found.lattice.axis.unwrap());
+        let rises = chords.map(|chord| axis.dot(&chord));
         assert!((0..2).all(|a| (rises[a] - shape.screw.rise()[a]).abs() <= 1e-9), "{rises:?}");
         for mode in &found.modes {
             let rates = DVector::from_column_slice(&mode.rates);

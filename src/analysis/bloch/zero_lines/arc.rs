@@ -1,6 +1,6 @@
 //! Pieces of lines of zero modes, joined at `q = 0`.
 
-use super::line::ZeroLine;
+use super::line::{ZeroLine, length};
 use std::f64::consts::TAU;
 
 /// A piece of a line: all of one that closes, or from a ray at `q = 0` to another.
@@ -15,7 +15,7 @@ pub(crate) struct Arc {
 pub(crate) fn line(points: Vec<[f64; 2]>, passes: usize, residual: f64) -> ZeroLine {
     let (first, last) = (points[0], points[points.len() - 1]);
     let winding = [0, 1].map(|a| ((last[a] - first[a]) / TAU).round() as i32);
-    ZeroLine { points, winding, passes, residual }
+    ZeroLine { length: length(&points), points, winding, passes, residual }
 }
 
 /// Pieces joined at `q = 0`: a line that arrives along one ray leaves along the opposite one.

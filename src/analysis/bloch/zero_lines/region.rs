@@ -1,12 +1,16 @@
 //! Parts of the zone in which the determinant has one sign.
 
 use super::line::{GRID, next};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A part of the zone in which the determinant has one sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "RegionSummary")]
 pub struct Region {
-    /// The sign.
-    pub positive: bool,
+    /// The sign, +1 or -1.
+    #[schemars(with = "serde_json::Value", extend("enum" = [1, -1]))]
+    pub sign: i8,
     /// Its part of the zone.
     pub fraction: f64,
 }
@@ -28,7 +32,8 @@ pub(crate) fn regions(positive: &[bool]) -> Vec<Region> {
             stack.extend(neighbours.into_iter().filter(|&other| !seen[other] && positive[other] == positive[k]));
         }
         if count > 0 {
-            regions.push(Region { positive: positive[first], fraction: count as f64 / positive.len() as f64 });
+            let sign = if positive[first] { 1 } else { -1 };
+            regions.push(Region { sign, fraction: count as f64 / positive.len() as f64 });
         }
     }
     regions.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));

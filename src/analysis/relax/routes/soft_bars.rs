@@ -16,6 +16,8 @@ use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
 use crate::model::{FLAT_RAD, Model, TermKind};
 use crate::numerics::vector::max_abs;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// Stiffnesses of the bars, one after the other, over that of the softest hinge. From 1e2 on or with three of them,
@@ -37,14 +39,15 @@ const DOUBTFUL_FORCE: f64 = 1e3;
 /// Part of the energy of a flat start that a state must keep to be in doubt: most patterns lose more than a third of
 /// it.
 const DOUBTFUL_PART: f64 = 0.9;
-/// The branch on which a flat or singular start was left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A branch of rigid folding, by the creases and soft facets that have a rest angle other than 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "BranchChoiceSummary")]
 pub struct BranchChoice {
-    /// Number of soft hinges whose rest angle is not zero.
+    /// Their number.
     pub hinges: usize,
-    /// Number of those that fold to the side of their rest angle.
+    /// Number of those that are folded to the side of their rest angle.
     pub on_rest_side: usize,
-    /// Whether rigid bars stretched on the way, because the start was singular.
+    /// Whether rigid bars stretched on the way, since no motion relieves the torques at the start.
     pub soft_bars: bool,
 }
 

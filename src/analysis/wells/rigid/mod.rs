@@ -23,6 +23,8 @@ use crate::model::{Assembly, Boundary, Gauge};
 use crate::numerics::vector::distance;
 use extent::{Extent, SAME_STATE_ANGLE_RAD};
 use flood::Merge;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// How far, in fold angles, a sampled state may be from the stationary one next to it, in distances of neighbours.
@@ -56,16 +58,18 @@ pub(super) struct Net {
     pub open: usize,
 }
 
-/// A pass.
-#[derive(Clone, Debug)]
+/// A pass of a rigid sheet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "RigidPassSummary")]
 pub struct RigidPass {
-    /// The lowest wells on its two sides, by number.
+    /// The lowest wells on its sides.
     pub joins: [usize; 2],
     /// Energy.
     pub energy: f64,
-    /// Fold angles of all edges.
+    /// Fold angles of all edges; summaries are without them.
+    #[serde(skip)]
     pub angles: Vec<f64>,
-    /// Whether it is the state at which branches cross; otherwise its Hessian has one negative eigenvalue.
+    /// Whether branches cross there; otherwise its Hessian has one negative eigenvalue.
     pub singular: bool,
 }
 
