@@ -1,5 +1,5 @@
-//! Drums with laws against their closed form. A drum that keeps its symmetry has three unknowns, the height, the twist and
-//! the radius of its upper ring, so that its force is found on paper.
+//! Drums with laws against their closed form. A drum that keeps its symmetry has three unknowns, the height, the twist
+//! and the radius of its upper ring, so that its force is found on paper.
 
 use foldwell::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, follow_path};
 use foldwell::math::Vec3;
@@ -11,8 +11,8 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 /// Height, twist and radius of the upper ring.
 type Shape = Vec3;
 
-/// A drum of triangles on a ring of radius 1. From each vertex below a bar leads to the one that is drawn above it, turned
-/// by the twist, and another one to the vertex after that.
+/// A drum of triangles on a ring of radius 1. From each vertex below a bar leads to the one that is drawn above it,
+/// turned by the twist, and another one to the vertex after that.
 #[derive(Clone, Copy)]
 struct Drum {
     sides: usize,
@@ -58,8 +58,8 @@ impl Drum {
         fold::parse(&text, "drum.fold").unwrap()
     }
 
-    /// The squares of the lengths of the three bars of a side, both between the rings and that along the upper one, with
-    /// their derivatives by the shape.
+    /// The squares of the lengths of the three bars of a side, both between the rings and that along the upper one,
+    /// with their derivatives by the shape.
     fn squares(self, shape: Shape) -> [(f64, Shape); 3] {
         let [height, twist, radius] = shape.into();
         let slanted = |turn: f64| {
@@ -83,7 +83,8 @@ impl Drum {
         [crease([a, d, c, b]), crease([b, d, a, e])]
     }
 
-    /// The derivatives of the energy of a side: exact for bars; those of fold angles are extrapolated central differences.
+    /// The derivatives of the energy of a side: exact for bars; those of fold angles are extrapolated central
+    /// differences.
     fn gradient(self, shape: Shape, made: &Made) -> Shape {
         let (drawn, (by_stretch, by_angle)) = (Shape::from(self.drawn), made.laws);
         let mut gradient = Shape::zeros();
@@ -104,8 +105,8 @@ impl Drum {
         gradient
     }
 
-    /// The force on the upper ring, of all sides, where it has this height and is else without force. Newton's method from
-    /// a state nearby in the unknowns that are free.
+    /// The force on the upper ring, of all sides, where it has this height and is else without force. Newton's method
+    /// from a state nearby in the unknowns that are free.
     fn force(self, near: Shape, made: &Made) -> f64 {
         let mut shape = near;
         for _ in 0..20 {
@@ -152,8 +153,8 @@ fn limit_loads(branch: &PathBranch) -> Vec<f64> {
 }
 
 /// Claim: a conical drum of seven sides between rigid plates has the force of its fourteen bars at every height, beyond
-/// its limit points, whatever the law of the bars. Source: the derivative by the height where that by the twist vanishes.
-/// Tolerance: 1e-9 of the largest force; heights are kept to 1e-12.
+/// its limit points, whatever the law of the bars. Source: the derivative by the height where that by the twist
+/// vanishes. Tolerance: 1e-9 of the largest force; heights are kept to 1e-12.
 #[test]
 fn a_conical_drum_is_pressed_as_its_bars_say() {
     let drum = Drum { sides: 7, drawn: [1.2, 0.9, 0.7] };
@@ -180,10 +181,11 @@ fn a_conical_drum_is_pressed_as_its_bars_say() {
     }
 }
 
-/// Claim: the drum of MERLIN's example `Kresling_Folding`, eight sides under eight loads, has the loads of its closed form
-/// with linear laws and with the example's own, Ogden bars and creases that stiffen beyond 135 degrees; the first limit
-/// load with linear laws is MERLIN's. Source: the energy of a side; MERLIN with linear laws run under GNU Octave, the
-/// largest load of whose 180 states is 0.43080, so that the limit is a little above. Tolerance: 1e-9 of the largest load.
+/// Claim: the drum of MERLIN's example `Kresling_Folding`, eight sides under eight loads, has the loads of its closed
+/// form with linear laws and with the example's own, Ogden bars and creases that stiffen beyond 135 degrees; the first
+/// limit load with linear laws is MERLIN's. Source: the energy of a side; MERLIN with linear laws run under GNU Octave,
+/// the largest load of whose 180 states is 0.43080, so that the limit is a little above. Tolerance: 1e-9 of the largest
+/// load.
 #[test]
 fn a_drum_of_merlin_is_folded_as_its_closed_form() {
     let drum = Drum { sides: 8, drawn: [1.0, FRAC_PI_4, 1.0] };

@@ -13,7 +13,8 @@ const SPRING: &str = "{ kind = \"table\", points = [[-1, -1], [0, 0], [1, 1]] }"
 /// A patch of Miura-ori with these keys of its creases.
 fn scene(creases: &str) -> Scene {
     Scene::new(format!(
-        "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ncells = [2, 2]\n[energy]\nbars = {{ stiffness = 1e3 }}\n\
+        "[sheet]\ngenerate = {{ pattern = \"miura\", fold = 0.4 }}\ncells = [2, 2]\n\
+         [energy]\nbars = {{ stiffness = 1e3 }}\n\
          creases = {{ rest = \"assigned\", fraction = 0.6, {creases} }}\nfacets = {{ stiffness = 10.0 }}\n\
          [[study]]\nname = \"relaxed\"\nkind = \"relax\"\n"
     ))
@@ -23,9 +24,9 @@ fn energy(creases: &str) -> f64 {
     scene(creases).converged().relaxed("relaxed").energy.total
 }
 
-/// Claim: mountains and valleys have their own laws, and creases of letters without law are springs, also those that are
-/// rigid. Source: the laws of single creases of the library; the same law for both letters is that of all; a curve that is
-/// a straight line is a spring. Tolerance: that of relaxations.
+/// Claim: mountains and valleys have their own laws, and creases of letters without law are springs, also those that
+/// are rigid. Source: the laws of single creases of the library; the same law for both letters is that of all; a curve
+/// that is a straight line is a spring. Tolerance: that of relaxations.
 #[test]
 fn mountains_and_valleys_have_their_own_laws() {
     let near = |found: f64, expected: f64| assert!((found - expected).abs() <= 1e-9 * expected, "{found} {expected}");
