@@ -101,7 +101,7 @@ class Assembly:
             laws: Laws other than that of a spring, by term: `{"bars": {"kind": "ogden", "exponents": [5.0, 1.0]},
                 "creases": {"kind": "stiffening", "limits": [-2.5, 2.5]}}`; a formula, `{"kind": "formula", "torque":
                 "k*sinh(m - m0)"}`; a measured curve, `{"kind": "table", "points": np.column_stack([angle, torque])}`, angles in
-                radians off rest.
+                radians off rest. By letters of FOLD: `{"creases": {"M": {"kind": "stiffening", ..}, "V": ..}}`; others are springs.
             yields: Where elements yield, by term: `{"creases": {"moment": 0.2, "hardening": 0.05}, "bars": {"force": 3.0}}`.
             mass: Mass, from which frequencies and weight follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
             material: The elastic sheet from which stiffnesses follow that are not given: `{"young": 1400.0, "poisson": 0.4,

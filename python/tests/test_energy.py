@@ -185,6 +185,9 @@ def test_formulas_and_curves_have_their_energies():
     creases = bent.kinds == "crease"
     off, lengths = bent.fold_angles(x)[creases] - 0.3, bent.lengths(bent.start)[creases]
     assert abs(bent.energy(x) - 0.7 * lengths @ (1.0 - np.cos(off))) < 1e-13 * bent.energy(x)
+    letters = {"creases": dict.fromkeys("MV", formula["creases"])}
+    by_letter = fw.Assembly.patch(sheet, (2, 2), creases=0.7, rest=0.3, laws=letters)
+    assert abs(by_letter.energy(x) - bent.energy(x)) < 1e-13 * bent.energy(x)
     measured = fw.Assembly.patch(sheet, (2, 2), rest=0.3, laws=curve)
     assert abs(measured.energy(x) - 0.35 * lengths @ off**2) < 1e-13 * measured.energy(x)
     with pytest.raises(fw.SceneError, match="(?s)laws.creases.*`x` at character 7"):

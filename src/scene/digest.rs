@@ -77,7 +77,7 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     found.extend(bars.iter().flat_map(|spec| [stiffness_table(&spec.stiffness), length_table(spec)]).flatten());
     found.extend(creases.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
     found.extend(facets.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
-    found.extend(scene.energy.curves().into_iter().flatten().filter_map(|curve| curve.file.clone()));
+    found.extend(scene.energy.curves().into_iter().filter_map(|curve| curve.file.clone()));
     for study in &scene.studies {
         if let Some(StartSpec::File(path)) = study.kind.start().map(|start| &**start) {
             found.push(path.clone());

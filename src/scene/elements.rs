@@ -95,7 +95,7 @@ impl<'a> ElementValues<'a> {
             StiffnessSpec::Number(stiffness) => Ok((*stiffness).into()),
             StiffnessSpec::File(name) => Ok(self.file_values(name, Column::Stiffness, of)?.into()),
             StiffnessSpec::Letters(letters) => {
-                Ok(self.each_by_letter((letters, "stiffness"), of, spec.span(), |_| None)?.into())
+                Ok(self.each_by_letter((letters, "stiffness"), of, spec.span(), (f64::NAN, |_| None))?.into())
             }
             StiffnessSpec::Mesh => self.given_by_mesh(of, spec.span()),
         }
@@ -240,29 +240,29 @@ impl<'a> ElementValues<'a> {
     ) -> Result<Vec<f64>, SceneError> {
         let letters = letters.iter().map(|(letter, angle)| (*letter, angle.radians)).collect();
         let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
-        self.each_by_letter((&letters, "angle"), of, span, |letter| (!folds(letter)).then_some(0.0))
+        self.each_by_letter((&letters, "angle"), of, span, (f64::NAN, |letter| (!folds(letter)).then_some(0.0)))
     }
 
-    /// Returns the value of each element by the letter of its edge, or by the substitute of that letter; `default`
-    /// returns the value of a letter that the table does not have.
-    fn each_by_letter(
+    /// Returns the value of each element by the letter of its edge, or by the substitute of that letter, and `absent`
+    /// for edges without element; `default` returns the value of a letter that the table does not have.
+    pub(super) fn each_by_letter<T: Clone>(
         &self,
-        (letters, value): (&BTreeMap<Assignment, f64>, &str),
+        (letters, value): (&BTreeMap<Assignment, T>, &str),
         of: ElementKind,
         span: Range<usize>,
-        default: impl Fn(Assignment) -> Option<f64>,
-    ) -> Result<Vec<f64>, SceneError> {
+        (absent, default): (T, impl Fn(Assignment) -> Option<T>),
+    ) -> Result<Vec<T>, SceneError> {
         let word = of.word();
         if let Some(letter) = letters.keys().find(|letter| !of.may_have(**letter)) {
             let help = "creases have the letters M, V, F and U; facets J (or F); bars all of these, B and C";
             return Err(self.file.error_at(span, format!("no {word} has the letter {letter}"), help));
         }
-        let mut each = vec![f64::NAN; self.tiling.edges.len()];
+        let mut each = vec![absent; self.tiling.edges.len()];
         let mut missing: BTreeMap<Assignment, usize> = BTreeMap::new();
         for k in self.edges(of) {
             let letter = self.letter(k);
             let given = letters.get(&letter).or_else(|| letters.get(&ElementKind::substitute(letter)));
-            match given.copied().or_else(|| default(letter)) {
+            match given.cloned().or_else(|| default(letter)) {
                 Some(value) => each[k] = value,
                 None => *missing.entry(letter).or_default() += 1,
             }

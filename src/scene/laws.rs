@@ -1,45 +1,68 @@
 //! The laws of a scene: curves are read from their files, formulas checked.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
 use super::rows::numbered_lines;
-use super::spec::{BarLawSpec, BarYieldSpec, CurveSpec, EnergySpec, HingeLawSpec, HingeYieldSpec};
+use super::spec::{BarLawSpec, BarYieldSpec, CurveSpec, EnergySpec, HingeLawSpec, HingeYieldSpec, LawForm};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{
     Bilinear, CurveError, ElasticPlastic, Formula, FormulaError, GreenLagrange, Law, Laws, Measured, Memory, OfAngle,
     OfStrain, Ogden, Power, Stiffening, Stiffness, TermLaw,
 };
+use crate::sheet::Assignment;
 use crate::sheet::text::read_text;
 
-/// A law of a scene.
+/// The laws that a scene gives a term.
 pub(super) struct GivenLaw {
-    /// The law.
-    pub law: Arc<dyn Law>,
-    /// The stiffness at rest, if the law says it.
+    /// The laws of its elements.
+    law: TermLaw,
+    /// The stiffness at rest, if the law of all says it.
     pub stiffness: Option<f64>,
 }
 
-impl<L: Law + 'static> From<L> for GivenLaw {
-    fn from(law: L) -> Self {
-        Self { law: Arc::new(law), stiffness: None }
-    }
-}
+/// A law and the stiffness at rest, if the law says it.
+type ReadLaw = (Arc<dyn Law>, Option<f64>);
 
 /// Returns the laws that bars, creases and facets are given.
 ///
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
-pub(super) fn given(file: &SceneFile, energy: &EnergySpec) -> Result<[Option<GivenLaw>; 3], SceneError> {
-    let EnergySpec { bars, creases, facets } = energy;
-    let of_hinges = |law: Option<&Located<HingeLawSpec>>| law.map(|law| of_hinges(file, law)).transpose();
+pub(super) fn given(file: &SceneFile, values: &ElementValues) -> Result<[Option<GivenLaw>; 3], SceneError> {
+    let EnergySpec { bars, creases, facets } = &file.scene.energy;
+    let [in_creases, in_facets] =
+        [creases.as_ref().and_then(|spec| spec.law.as_ref()), facets.as_ref().and_then(|spec| spec.law.as_ref())];
+    let in_bars = bars.as_ref().and_then(|spec| spec.law.as_ref());
     Ok([
-        bars.as_ref().and_then(|spec| spec.law.as_ref()).map(|law| of_bars(file, law)).transpose()?,
-        of_hinges(creases.as_ref().and_then(|spec| spec.law.as_ref()))?,
-        of_hinges(facets.as_ref().and_then(|spec| spec.law.as_ref()))?,
+        in_bars.map(|law| of_elements(file, (values, ElementKind::Bars), law, of_bars)).transpose()?,
+        in_creases.map(|law| of_elements(file, (values, ElementKind::Creases), law, of_hinges)).transpose()?,
+        in_facets.map(|law| of_elements(file, (values, ElementKind::Facets), law, of_hinges)).transpose()?,
     ])
+}
+
+/// Returns the laws of the elements of a term: one for all, or those of their letters.
+fn of_elements<T>(
+    file: &SceneFile,
+    (values, of): (&ElementValues, ElementKind),
+    spec: &Located<LawForm<T>>,
+    read: fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneError>,
+) -> Result<GivenLaw, SceneError> {
+    match &**spec {
+        LawForm::All(law) => {
+            let (law, stiffness) = read(file, (law, spec.span()))?;
+            Ok(GivenLaw { law: TermLaw::Uniform(law), stiffness })
+        }
+        LawForm::Letters(letters) => {
+            let read = |(letter, law): (&Assignment, &T)| Ok((*letter, Some(read(file, (law, spec.span()))?.0)));
+            let letters = letters.iter().map(read).collect::<Result<BTreeMap<_, _>, SceneError>>()?;
+            let each = values.each_by_letter((&letters, "law"), of, spec.span(), (None, |_| Some(None)))?;
+            Ok(GivenLaw { law: TermLaw::PerEdge(each), stiffness: None })
+        }
+    }
 }
 
 /// Returns the laws of the elements of bars, creases and facets, from those that are given and from where they yield.
@@ -66,13 +89,13 @@ pub(super) fn of_terms(
 ///
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
-fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<GivenLaw, SceneError> {
-    match &**spec {
-        BarLawSpec::Ogden { exponents } => Ok(Ogden { exponents: exponents.0 }.into()),
-        BarLawSpec::GreenLagrange {} => Ok(GreenLagrange.into()),
-        BarLawSpec::Bilinear { ratio, at } => Ok(OfStrain(Bilinear { ratio: ratio.0, at: at.0 }).into()),
-        BarLawSpec::Table(curve) => table(file, (curve, spec.span()), ["strain", "force"], OfStrain),
-        BarLawSpec::Formula { force } => formula(file, spec.span(), Formula::of_length(force), "length"),
+fn of_bars(file: &SceneFile, (spec, span): (&BarLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
+    match spec {
+        BarLawSpec::Ogden { exponents } => Ok(alone(Ogden { exponents: exponents.0 })),
+        BarLawSpec::GreenLagrange {} => Ok(alone(GreenLagrange)),
+        BarLawSpec::Bilinear { ratio, at } => Ok(alone(OfStrain(Bilinear { ratio: ratio.0, at: at.0 }))),
+        BarLawSpec::Table(curve) => table(file, (curve, span), ["strain", "force"], OfStrain),
+        BarLawSpec::Formula { force } => formula(file, span, Formula::of_length(force), "length"),
     }
 }
 
@@ -80,14 +103,19 @@ fn of_bars(file: &SceneFile, spec: &Located<BarLawSpec>) -> Result<GivenLaw, Sce
 ///
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
-fn of_hinges(file: &SceneFile, spec: &Located<HingeLawSpec>) -> Result<GivenLaw, SceneError> {
-    match &**spec {
-        HingeLawSpec::Stiffening { limits } => Ok(Stiffening { limits: limits.0 }.into()),
-        HingeLawSpec::Power { exponent } => Ok(OfAngle(Power { exponent: exponent.0 }).into()),
-        HingeLawSpec::Bilinear { ratio, at } => Ok(OfAngle(Bilinear { ratio: ratio.0, at: at.0 }).into()),
-        HingeLawSpec::Table(curve) => table(file, (curve, spec.span()), ["angle", "torque"], OfAngle),
-        HingeLawSpec::Formula { torque } => formula(file, spec.span(), Formula::of_angle(torque), "angle"),
+fn of_hinges(file: &SceneFile, (spec, span): (&HingeLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
+    match spec {
+        HingeLawSpec::Stiffening { limits } => Ok(alone(Stiffening { limits: limits.0 })),
+        HingeLawSpec::Power { exponent } => Ok(alone(OfAngle(Power { exponent: exponent.0 }))),
+        HingeLawSpec::Bilinear { ratio, at } => Ok(alone(OfAngle(Bilinear { ratio: ratio.0, at: at.0 }))),
+        HingeLawSpec::Table(curve) => table(file, (curve, span), ["angle", "torque"], OfAngle),
+        HingeLawSpec::Formula { torque } => formula(file, span, Formula::of_angle(torque), "angle"),
     }
+}
+
+/// A law that does not say the stiffness at rest.
+fn alone(law: impl Law + 'static) -> ReadLaw {
+    (Arc::new(law), None)
 }
 
 /// A bound at which the elements of a term yield, and its hardening: slope and isotropic part.
@@ -133,7 +161,7 @@ fn of_term<L: Law + 'static>(
     of_curve: fn(ElasticPlastic) -> L,
 ) -> Result<Option<TermLaw>, SceneError> {
     let (Some(yields), Some(stiffness)) = (yields, stiffness) else {
-        return Ok(law.map(|law| TermLaw::Uniform(law.law)));
+        return Ok(law.map(|law| law.law));
     };
     let refused = |message: &str, help: &str| Err(file.error_at(yields.span.clone(), message, help));
     if law.is_some() {
@@ -155,9 +183,10 @@ fn table<L: Law + 'static>(
     spec: (&CurveSpec, Range<usize>),
     columns: [&'static str; 2],
     law: fn(Measured) -> L,
-) -> Result<GivenLaw, SceneError> {
+) -> Result<ReadLaw, SceneError> {
     let curve = measured(file, spec, columns)?;
-    Ok(GivenLaw { stiffness: Some(curve.slope()), ..law(curve).into() })
+    let slope = curve.slope();
+    Ok((Arc::new(law(curve)), Some(slope)))
 }
 
 /// Returns the law of a formula.
@@ -166,10 +195,10 @@ fn formula(
     span: Range<usize>,
     read: Result<Formula, FormulaError>,
     measure: &str,
-) -> Result<GivenLaw, SceneError> {
+) -> Result<ReadLaw, SceneError> {
     let help =
         format!("m is the {measure}, m0 the {measure} at rest, k the spring constant; near rest it is k*(m - m0)");
-    read.map(GivenLaw::from).map_err(|fault| file.error_at(span, fault.to_string(), help))
+    read.map(alone).map_err(|fault| file.error_at(span, fault.to_string(), help))
 }
 
 /// The line of a row, and its two numbers.

@@ -14,8 +14,8 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let facets = energy.facets.as_ref().filter(|facets| facets.stiffness.is_none()).map(Located::span);
     let creases_follow = material.is_some_and(|material| material.crease_length.is_some());
     let terms = [(bars, material.is_some()), (creases, creases_follow), (facets, material.is_some())];
-    for ((without, follows), curve) in terms.into_iter().zip(energy.curves()) {
-        let Some(span) = without.filter(|_| !follows && curve.is_none()) else { continue };
+    for ((without, follows), of_curve) in terms.into_iter().zip(energy.stiffness_of_curve()) {
+        let Some(span) = without.filter(|_| !follows && !of_curve) else { continue };
         let help = "`stiffness` has to be given here, or follow from [material], for creases with `crease_length`";
         return Err(file.error_at(span, "missing key `stiffness`", help));
     }

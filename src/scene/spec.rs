@@ -7,6 +7,7 @@
 mod drive;
 mod facets;
 mod law;
+mod law_form;
 mod material;
 mod stop;
 mod study;
@@ -26,6 +27,7 @@ use std::path::PathBuf;
 pub use drive::*;
 pub use facets::*;
 pub use law::*;
+pub use law_form::LawForm;
 pub use material::*;
 pub use stop::*;
 pub use study::*;
@@ -199,19 +201,27 @@ pub struct EnergySpec {
 }
 
 impl EnergySpec {
-    /// The measured curves of bars, creases and facets.
-    pub(crate) fn curves(&self) -> [Option<&CurveSpec>; 3] {
-        let bars = match self.bars.as_ref().and_then(|bars| bars.law.as_deref()) {
-            Some(BarLawSpec::Table(curve)) => Some(curve),
-            _ => None,
+    /// The measured curves of all terms.
+    pub(crate) fn curves(&self) -> Vec<&CurveSpec> {
+        let (bars, hinges) = self.laws();
+        let of_bars = bars.into_iter().flat_map(LawForm::each).filter_map(BarLawSpec::curve);
+        of_bars.chain(hinges.into_iter().flatten().flat_map(LawForm::each).filter_map(HingeLawSpec::curve)).collect()
+    }
+
+    /// Whether the stiffness of bars, creases and facets follows from a measured curve.
+    pub(crate) fn stiffness_of_curve(&self) -> [bool; 3] {
+        let (bars, [creases, facets]) = self.laws();
+        let of_bars = bars.and_then(LawForm::of_all).is_some_and(|law| law.curve().is_some());
+        let of_hinges = |law: Option<&LawForm<HingeLawSpec>>| {
+            law.and_then(LawForm::of_all).is_some_and(|law| law.curve().is_some())
         };
+        [of_bars, of_hinges(creases), of_hinges(facets)]
+    }
+
+    fn laws(&self) -> (Option<&LawForm<BarLawSpec>>, [Option<&LawForm<HingeLawSpec>>; 2]) {
         let creases = self.creases.as_ref().and_then(|creases| creases.law.as_deref());
         let facets = self.facets.as_ref().and_then(|facets| facets.law.as_deref());
-        let [creases, facets] = [creases, facets].map(|law| match law {
-            Some(HingeLawSpec::Table(curve)) => Some(curve),
-            _ => None,
-        });
-        [bars, creases, facets]
+        (self.bars.as_ref().and_then(|bars| bars.law.as_deref()), [creases, facets])
     }
 }
 
@@ -225,7 +235,7 @@ pub struct BarsSpec {
     /// Rest lengths; left out: as drawn.
     pub rest: Option<Located<RestLengthSpec>>,
     /// How the force grows with the stretch; left out: linearly.
-    pub law: Option<Located<BarLawSpec>>,
+    pub law: Option<Located<LawForm<BarLawSpec>>>,
     /// Where it yields; left out: nowhere.
     #[serde(rename = "yield")]
     pub yields: Option<Located<BarYieldSpec>>,
@@ -244,7 +254,7 @@ pub struct CreasesSpec {
     /// letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
-    pub law: Option<Located<HingeLawSpec>>,
+    pub law: Option<Located<LawForm<HingeLawSpec>>>,
     /// Where it yields; left out: nowhere.
     #[serde(rename = "yield")]
     pub yields: Option<Located<HingeYieldSpec>>,

@@ -9,6 +9,7 @@ use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{Error, IntoDeserializer, MapAccess};
 
 use super::law::{HingeLawSpec, HingeYieldSpec};
+use super::law_form::LawForm;
 use crate::scene::Located;
 use crate::scene::rest::RestSpec;
 use crate::scene::stiffness::StiffnessSpec;
@@ -40,7 +41,7 @@ pub struct FacetsSpec {
     /// letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
-    pub law: Option<Located<HingeLawSpec>>,
+    pub law: Option<Located<LawForm<HingeLawSpec>>>,
     /// Where it yields; left out: nowhere.
     #[serde(rename = "yield")]
     pub yields: Option<Located<HingeYieldSpec>>,

@@ -106,6 +106,20 @@ pub enum HingeLawSpec {
     },
 }
 
+impl BarLawSpec {
+    /// The measured curve, if it is one.
+    pub(crate) fn curve(&self) -> Option<&CurveSpec> {
+        if let Self::Table(curve) = self { Some(curve) } else { None }
+    }
+}
+
+impl HingeLawSpec {
+    /// The measured curve, if it is one.
+    pub(crate) fn curve(&self) -> Option<&CurveSpec> {
+        if let Self::Table(curve) = self { Some(curve) } else { None }
+    }
+}
+
 /// A curve through measured points: exactly one of `file` and `points`. A stiffness beside it scales the curve; left
 /// out, the slope at rest is the stiffness.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

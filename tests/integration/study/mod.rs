@@ -3,12 +3,14 @@
 mod assemblies;
 mod barriers;
 mod bloch_runs;
+mod drums;
 mod empty_answers;
 mod folds;
 mod gallery_paths;
 mod kept_states;
 mod landscape_runs;
 mod laws;
+mod laws_by_letter;
 mod panels;
 mod paths;
 mod periodic_paths;
