@@ -27,6 +27,7 @@ mod truss;
 mod tubes;
 mod waterbomb;
 mod yoshimura;
+mod zipper;
 
 #[cfg(test)]
 mod tests;
@@ -47,12 +48,12 @@ pub use resch::Resch;
 pub use square_twist::SquareTwist;
 pub use symmetric::{CellSymmetry, Symmetric};
 pub use truss::Truss;
-pub use tubes::AlignedTubes;
+pub use tubes::MiuraTubes;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
 /// The names of the patterns, and a page about each.
-const HELP: [(&str, &str); 15] = [
+const HELP: [(&str, &str); 16] = [
     ("miura", include_str!("help/miura.txt")),
     ("miura-patch", include_str!("help/miura-patch.txt")),
     ("eggbox", include_str!("help/eggbox.txt")),
@@ -65,6 +66,7 @@ const HELP: [(&str, &str); 15] = [
     ("hypar", include_str!("help/hypar.txt")),
     ("truss", include_str!("help/truss.txt")),
     ("aligned-tubes", include_str!("help/aligned-tubes.txt")),
+    ("zipper-tubes", include_str!("help/zipper-tubes.txt")),
     ("random", include_str!("help/random.txt")),
     ("symmetric", include_str!("help/symmetric.txt")),
     ("random-developable", include_str!("help/random-developable.txt")),
@@ -97,7 +99,9 @@ pub enum Pattern {
     /// The two-bar truss of von Mises.
     Truss(Truss),
     /// Two aligned Miura tubes that share a wall.
-    AlignedTubes(AlignedTubes),
+    AlignedTubes(MiuraTubes),
+    /// Two Miura tubes that are coupled as a zipper.
+    ZipperTubes(MiuraTubes),
     /// A random cell that cannot be flattened.
     Random(Random),
     /// A random cell with one symmetry.
@@ -172,7 +176,8 @@ pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
         Pattern::Resch(p) => p.sheet(),
         Pattern::Hypar(p) => p.sheet(),
         Pattern::Truss(p) => p.sheet(),
-        Pattern::AlignedTubes(p) => p.sheet(),
+        Pattern::AlignedTubes(p) => p.aligned(),
+        Pattern::ZipperTubes(p) => p.zipper(),
         Pattern::Random(p) => p.sheet(),
         Pattern::Symmetric(p) => p.sheet(),
         Pattern::RandomDevelopable(p) => p.sheet(),

@@ -3,6 +3,7 @@
 mod assemblies;
 mod barriers;
 mod bloch_runs;
+mod coupled_tubes;
 mod empty_answers;
 mod folds;
 mod gallery_paths;
