@@ -21,7 +21,7 @@ type Vec3 = Vector3<f64>;
 /// Vertices of a ring of the generator: 0 and 1 are those of the shared wall.
 const RING: usize = 6;
 /// Energy of two tubes under a load by MERLIN, ten digits.
-const MERLIN: f64 = 1.476808587e-5;
+pub(super) const MERLIN: f64 = 1.476808587e-5;
 const HOME: [usize; 2] = [0, 0];
 
 fn is_shared(vertex: usize) -> bool {
@@ -43,7 +43,7 @@ fn tubes() -> Sheet {
 
 /// The two aligned tubes apart, each with a wall of its own where they touch: the second tube has the vertices from 30
 /// on where the first has 0 and 1.
-fn apart() -> Sheet {
+pub(super) fn apart() -> Sheet {
     let joined = tubes();
     let own = |vertex: usize| 30 + 2 * (vertex / RING) + vertex % RING;
     let mut coords = joined.vertices.clone();
@@ -75,9 +75,9 @@ fn assembly(sheet: Sheet, [bars, creases, facets]: [Vec<f64>; 3], ties: &[[usize
 }
 
 /// Claim: two tubes as pieces whose vertices are tied, and as one mesh in which three faces meet at the sides of the
-/// shared wall, have MERLIN's energy, and that of each other. The shared wall of the one mesh is doubled by its
+/// shared wall, have MERLIN's energy, and that of each other, and the same eigenvalues. The shared wall of the one mesh is doubled by its
 /// stiffnesses, and the walls of different tubes are freed of each other. Tolerance: the ten digits of MERLIN, and 1e-10
-/// of the energy, whose parts are 1e-2 of the forces that balance to 1e-12.
+/// of the energy, whose parts are 1e-2 of the forces that balance to 1e-12; of eigenvalues 1e-12 of the stiffness of bars.
 #[test]
 fn tubes_tied_and_drawn_as_one_mesh() {
     let pieces = apart();
@@ -105,6 +105,11 @@ fn tubes_tied_and_drawn_as_one_mesh() {
     let creases = all(&joined, &|k| double(0.1, on_wall(k) && !along(k)));
     let facets = all(&joined, &|k| double(1.0, on_wall(k)));
     let one = assembly(joined, [bars, creases, facets], &[]);
+    let spectra = [&tied, &one].map(|assembly| modes(assembly, 40, &mut || true).unwrap().eigenvalues);
+    assert_eq!(spectra.each_ref().map(Vec::len), [40, 40]);
+    for (tied, one) in spectra[0].iter().zip(&spectra[1]) {
+        assert!((tied - one).abs() < 1e-12 * 1e3, "{tied} {one}");
+    }
     let [tied, one] = [tied, one].map(|assembly| relax(&assembly).unwrap().state.total());
     assert!((tied - MERLIN).abs() < 6e-15 && (one - MERLIN).abs() < 6e-15, "{tied:e} {one:e}");
     assert!((tied - one).abs() < 1e-10 * MERLIN, "{tied:e} {one:e}");

@@ -10,6 +10,7 @@ mod gallery_paths;
 mod kept_states;
 mod landscape_runs;
 mod laws;
+mod modes_of_parts;
 mod panels;
 mod paths;
 mod periodic_paths;
