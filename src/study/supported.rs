@@ -13,7 +13,7 @@ pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
     let knows_parts = matches!(*context.study.kind, StudyKind::Modes(_));
     let what = match terms.own_names().first() {
-        _ if !terms.parts.is_empty() && !knows_parts => "rigid parts, which [[part]] gives".to_owned(),
+        _ if !terms.parts.is_empty() && !knows_parts => "rigid parts, which [[part]] and [[tie]] give".to_owned(),
         _ if !terms.guides.is_empty() => "pins along a direction, the key `normal` of [[pin]]".to_owned(),
         Some(name) => format!("the term `{name}`"),
         None => return Ok(()),
