@@ -77,6 +77,7 @@ FIGURES = {
     "waterbomb-push": "waterbomb-push/pushed",
     "waterbomb-push-reaction": "waterbomb-push/pushed-reaction",
     "yoshimura": "yoshimura/relaxed",
+    "zipper-tubes": "zipper-tubes/modes",
 }
 PIXEL = 0.25  # of 1,200; places are rounded to 0.1
 NUMBER = r"([+-]?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?)"

@@ -72,7 +72,7 @@ class Assembly:
         laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
         mass: Table | None = None, material: Table | None = None, units: Table | None = None,
         pins: Tables | None = None, loads: Tables | ArrayLike | None = None, pressures: Tables | None = None,
-        parts: Tables | None = None, springs: Tables | None = None,
+        parts: Tables | None = None, ties: Tables | None = None, springs: Tables | None = None,
     ) -> Assembly:
         """Makes a patch: `cells[0]` times `cells[1]` cells with free edges, or a finite sheet.
 
@@ -96,6 +96,7 @@ class Assembly:
                 a force for each vertex, cell by cell, shape (n, 3); or the weight of the sheet, `{"weight": (0, 0, -9.81)}`.
             pressures: Pressures on faces, each a dict as `[[pressure]]`: `{"value": 0.1}` on all, positive along their normals.
             parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
+            ties: Vertices that are drawn in one place and stay together, each a dict as `[[tie]]`: `{"vertices": "coincident"}`.
             springs: Springs between two vertices, each a dict as `[[spring]]`: `{"vertices": [3, (7, 0, 1)], "stiffness": 2.0}`.
             drives: Quantities that `path` drives, each a dict as `[[drive]]`.
             laws: Laws other than that of a spring, by term: `{"bars": {"kind": "ogden", "exponents": [5.0, 1.0]},
@@ -135,7 +136,7 @@ class Assembly:
     ) -> Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
-        Terms as in `patch`, without pins, loads, pressures, parts and springs.
+        Terms as in `patch`, without pins, loads, pressures, parts, ties and springs.
 
         Example:
             >>> import foldwell as fw
@@ -160,7 +161,7 @@ class Assembly:
         Args:
             sheet: The sheet.
             cells: Cells of pictures; they have no influence on numbers.
-            bars, ...: Terms as in `patch`, without pins, loads, pressures, parts and springs.
+            bars, ...: Terms as in `patch`, without pins, loads, pressures, parts, ties and springs.
 
         Example:
             >>> import foldwell as fw
@@ -194,7 +195,7 @@ class Assembly:
             closing: The closing conditions that hold: "both", "turn" (the seam slips) or "rise" (the tube opens or overlaps).
             inwards: Whether the sheet is rolled up towards its face normals, which it is if this is left out. Not for a sheet that is
                 drawn as a tube.
-            bars, ...: Terms as in `patch`, without pins, loads, pressures, parts and springs.
+            bars, ...: Terms as in `patch`, without pins, loads, pressures, parts, ties and springs.
 
         Raises:
             SceneError: the sheet cannot be rolled up until it closes, or is drawn as a tube that does not close there.
@@ -491,7 +492,7 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     place = {"mesh": title, "domain": domain, **{key: given[key] for key in PLACE if key in given}}
     scene: dict[str, Any] = {"title": title, "sheet": place, "energy": energy, "lock": _locks(given.get("locks", ()))}
     scene |= {name: given.get(name) for name in ("mass", "material", "units")}
-    scene |= {name: given.get(f"{name}s") for name in ("pin", "load", "pressure", "part", "spring", "drive")}
+    scene |= {name: given.get(f"{name}s") for name in ("pin", "load", "pressure", "part", "tie", "spring", "drive")}
     return cls(_foldwell.Assembly.of_arguments(scene, sheet._inner))
 
 

@@ -58,7 +58,7 @@ pub(crate) fn argument(key: &str) -> String {
         ["energy", term, "yield", ref rest @ ..] => [&["yields", term], rest].concat().join("."),
         ["energy", term, "stiffness", ..] => term.to_owned(),
         ["energy", _, ref rest @ ..] | ["sheet", ref rest @ ..] | ["study", _, ref rest @ ..] => rest.join("."),
-        [list @ ("lock" | "pin" | "load" | "pressure" | "part" | "spring" | "drive"), ref rest @ ..] => {
+        [list @ ("lock" | "pin" | "load" | "pressure" | "part" | "tie" | "spring" | "drive"), ref rest @ ..] => {
             [&[format!("{list}s").as_str()], rest].concat().join(".")
         }
         _ => key.to_owned(),

@@ -43,7 +43,8 @@ pub struct Modes {
     /// Smallest kept over largest dropped singular value; a lower bound by a factor of ten for large sheets. `None`
     /// where none is kept: the rank is 0.
     pub gap: Option<f64>,
-    /// Lowest eigenvalues of the energy's Hessian on what rigid terms leave free, ascending.
+    /// Lowest eigenvalues of the energy's Hessian on what rigid terms leave free, ascending. The unknowns of a rigid part
+    /// are the displacement of its centroid, and the components of its rotation vector times the mean edge.
     pub eigenvalues: Vec<f64>,
     /// The eigenvectors, as velocities of all coordinates, one for each eigenvalue.
     pub vectors: Vec<Vec<f64>>,
@@ -146,8 +147,11 @@ fn rigid_bars(terms: &Terms) -> Option<Bars> {
     terms.bar_stiffness()?.rigid_part().map(Bars::from)
 }
 
-/// Rigid motions of the sheet, of a patch of each of its pieces with faces.
+/// Rigid motions of the sheet, of a patch of each of its pieces with faces, or of those that parts join.
 fn rigid_motions(drawn: &Drawn, tiling: &Tiling, bars: &Model) -> usize {
+    if bars.has_parts() {
+        return bars.rigid_motion_counts()[1];
+    }
     let of = |coordinates: &[f64], held: &[bool]| {
         gauge::choose(&gauge::rigid_motions(&drawn.domain, coordinates, true), held).len()
     };
@@ -179,7 +183,7 @@ fn pieces_with_openings(tiling: &Tiling) -> bool {
 /// Null space of the closure conditions of the tiling in this state, rigid facets locked.
 fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, ModesError> {
     let tiling = assembly.tiling();
-    if !assembly.sheet().is_surface() {
+    if !assembly.sheet().is_surface() || !assembly.terms().parts.is_empty() {
         return Ok(None);
     }
     let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };

@@ -12,7 +12,7 @@ use super::rows::Column;
 use super::spec::{DomainSpec, EnergySpec, Lattice, VertexSet};
 use super::stiffness::StiffnessSpec;
 use super::values::{EdgeName, Fraction};
-use super::{Located, SceneError, SceneFile, drives, laws, loads};
+use super::{Located, SceneError, SceneFile, drives, laws, loads, ties};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Cleanup, Format};
@@ -386,8 +386,9 @@ impl<'a> Reader<'a> {
     /// Adds what holds and joins vertices to the terms.
     fn placed(&self, terms: Terms) -> Result<Terms, SceneError> {
         let places = Places::new(self.file, self.assembly);
-        let held = places.held()?;
-        let (parts, springs) = (places.parts(&held)?, places.springs()?);
+        let mut held = places.held()?;
+        let (mut parts, springs) = (places.parts(&held)?, places.springs()?);
+        ties::add((self.file, self.assembly), &mut held, &mut parts)?;
         Ok(Terms { parts, pins: held.pins, guides: held.guides, own: springs.into_iter().collect(), ..terms })
     }
 }

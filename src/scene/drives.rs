@@ -33,6 +33,10 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         let help = "parts need domain = \"patch\"";
         return Err(file.error_at(part.name.span(), "a part on a sheet that is no patch", help));
     }
+    if let Some(tie) = scene.ties.first().filter(|_| !patch) {
+        let help = "ties need domain = \"patch\"";
+        return Err(file.error_at(tie.vertices.span(), "a tie on a sheet that is no patch", help));
+    }
     for drive in &scene.drives {
         let quantity = quantity(file, drive)?;
         if let (Quantity::Vertices(_, axis), false) = (&quantity, patch) {
@@ -249,7 +253,10 @@ fn vertices(
     let terms = assembly.terms();
     for &vertex in &vertices {
         if let Some(part) = terms.parts.iter().position(|part| part.vertices.contains(&vertex)) {
-            let name = &file.scene.parts[part].name.0;
+            let Some(name) = file.scene.parts.get(part).map(|part| &part.name.0) else {
+                let message = format!("{} is tied to another vertex", places.described(vertex));
+                return Err(file.error_at(set.span(), message, "make the tied vertices a [[part]], and drive that"));
+            };
             let message = format!("{} is in part `{name}`", places.described(vertex));
             return Err(file.error_at(set.span(), message, format!("drive part = \"{name}\" instead")));
         }

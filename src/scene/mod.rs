@@ -29,6 +29,7 @@ mod setting;
 pub(crate) mod spec;
 pub(crate) mod stiffness;
 mod sweep;
+mod ties;
 mod turns;
 pub(crate) mod values;
 mod written;

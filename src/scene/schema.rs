@@ -50,7 +50,7 @@ mod tests {
             properties(&schema),
             [
                 "drive", "energy", "load", "lock", "mass", "material", "part", "pin", "pressure", "sheet", "spring",
-                "study", "sweep", "title", "units"
+                "study", "sweep", "tie", "title", "units"
             ]
         );
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));

@@ -67,6 +67,9 @@ pub struct Scene {
     /// Vertices of a patch that move as rigid bodies.
     #[serde(default, rename = "part")]
     pub parts: Vec<PartSpec>,
+    /// Vertices of a patch that are drawn in one place and stay together.
+    #[serde(default, rename = "tie")]
+    pub ties: Vec<TieSpec>,
     /// Springs between two vertices of a patch.
     #[serde(default, rename = "spring")]
     pub springs: Vec<SpringSpec>,

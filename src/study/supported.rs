@@ -2,16 +2,18 @@
 
 use super::context::Context;
 use super::error::StudyError;
+use crate::scene::spec::StudyKind;
 
 /// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
 
-/// Checks that there are no rigid parts, no pins along a direction and no terms of one's own, as springs between
-/// vertices are, which relaxations, paths and wells alone know.
+/// Checks that there are no rigid parts, which modes know too, no pins along a direction and no terms of one's own, as
+/// springs between vertices are, which relaxations, paths and wells alone know.
 pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
+    let knows_parts = matches!(*context.study.kind, StudyKind::Modes(_));
     let what = match terms.own_names().first() {
-        _ if !terms.parts.is_empty() => "rigid parts, which [[part]] gives".to_owned(),
+        _ if !terms.parts.is_empty() && !knows_parts => "rigid parts, which [[part]] and [[tie]] give".to_owned(),
         _ if !terms.guides.is_empty() => "pins along a direction, the key `normal` of [[pin]]".to_owned(),
         Some(name) => format!("the term `{name}`"),
         None => return Ok(()),

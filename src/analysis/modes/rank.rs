@@ -8,11 +8,11 @@ use crate::numerics::vector::max_abs;
 use crate::numerics::{dense, rank};
 use crate::solver::Problem;
 
-/// Bars and rigid polygons only, all rigid; pins as they are.
+/// Bars and rigid polygons only, all rigid; pins and parts as they are.
 pub(super) fn rigid_part(terms: &Terms) -> Terms {
     let rigid = |hinges: &Hinges| Some(Hinges { stiffness: hinges.stiffness.rigid_part()?, rest: hinges.rest.clone() });
     let facets = terms.facets.as_ref().and_then(rigid);
-    Terms { bars: Some(RIGID.into()), facets, pins: terms.pins.clone(), ..Terms::default() }
+    Terms { bars: Some(RIGID.into()), facets, pins: terms.pins.clone(), parts: terms.parts.clone(), ..Terms::default() }
 }
 
 /// Rank of the Jacobian of a model's stiff measures at its reference state, and the gap.

@@ -76,6 +76,11 @@ impl Bodies {
         self.bodies[part].centroid + self.displacement(part, generalised)
     }
 
+    /// Whether the vertices of a part stand in one place, up to this distance: then its rotation moves nothing.
+    pub(super) fn is_point(&self, part: usize, distance: f64) -> bool {
+        self.bodies[part].arms.iter().all(|arm| arm.norm() <= distance)
+    }
+
     /// Returns the rotation vector of a part.
     pub(super) fn rotation(&self, part: usize, generalised: &[f64]) -> Vec3 {
         Vec3::from_column_slice(&generalised[self.pose(part, generalised) + 3..][..3])

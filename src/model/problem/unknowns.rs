@@ -27,6 +27,9 @@ const STILL_HELD: f64 = 0.3;
 /// the unit of a straight sheet, the stiffness of a curved one against it is so large that all others drown in its
 /// rounding errors.
 const MOST_CHANGED_UNIT: f64 = 4.0;
+/// Distance of the vertices of a part from their centroid, relative to the mean edge, up to which they are in one place:
+/// what holds the rotation of such a part does not hold the sheet.
+const POINT: f64 = 1e-6;
 /// Singular value of the rigid motions of the held coordinates, relative to motions of unit length, below which a
 /// motion is not held.
 const NOT_HELD: f64 = 1e-9;
@@ -62,6 +65,8 @@ impl Model {
         (0..motions.len()).filter(|&k| self.is_derived(k)).for_each(|k| motions[k].fill(0.0));
         for part in 0..self.equations.bodies.coordinates() / POSE {
             motions.extend(gauge::rows_of(1.0, turn * (self.equations.bodies.pivot(part, generalised) - centre)));
+            let is_point = self.equations.bodies.is_point(part, POINT * self.equations.mean_edge);
+            let turn = if is_point { 0.0 } else { turn };
             let by_turn = turn * inverse_left_jacobian(&self.equations.bodies.rotation(part, generalised));
             motions.extend([0, 1, 2].map(|row| {
                 let mut motion = gauge::Motion::zeros();

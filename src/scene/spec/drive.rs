@@ -1,4 +1,4 @@
-//! `[[part]]` and `[[drive]]`: vertices that move as one body, and the quantities that a path drives.
+//! `[[part]]`, `[[tie]]` and `[[drive]]`: vertices that move as one body, those that stay in one place, and the quantities that a path drives.
 
 use std::borrow::Cow;
 
@@ -24,6 +24,14 @@ pub struct PartSpec {
     /// The motions that it keeps: along "x", "y", "z", and about "rx", "ry", "rz" through the centroid of its vertices;
     /// left out: all; []: it is held.
     pub free: Option<Located<Motions>>,
+}
+
+/// `[[tie]]`: vertices of a patch that are drawn in one place and stay together, as those of sheets that touch.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TieSpec {
+    /// A set of vertices, of which those that are drawn in one place are tied; "coincident": all vertices.
+    pub vertices: Located<VertexSet>,
 }
 
 /// `[[drive]]`: a quantity that a path drives. One of `part`, `vertices`, `load`, `lock`, `rest` and `stiffness` says

@@ -27,6 +27,7 @@ mod truss;
 mod tubes;
 mod waterbomb;
 mod yoshimura;
+mod zipper;
 
 #[cfg(test)]
 mod tests;
@@ -47,13 +48,13 @@ pub use resch::Resch;
 pub use square_twist::SquareTwist;
 pub use symmetric::{CellSymmetry, Symmetric};
 pub use truss::Truss;
-pub use tubes::AlignedTubes;
+pub use tubes::MiuraTubes;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
-/// Defines the patterns by their names and the types of their parameters.
+/// Defines the patterns by their names, and the function of their parameters that makes the sheet.
 macro_rules! patterns {
-    ($($(#[$about:meta])* $name:literal: $pattern:ident,)+) => {
+    ($($(#[$about:meta])* $name:literal: $pattern:ident($parameters:ident::$sheet:ident),)+) => {
         /// The names of the patterns, and a page about each.
         const HELP: &[(&str, &str)] = &[$(($name, include_str!(concat!("help/", $name, ".txt")))),+];
 
@@ -62,7 +63,7 @@ macro_rules! patterns {
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(tag = "pattern", rename_all = "kebab-case")]
         pub enum Pattern {
-            $($(#[$about])* $pattern($pattern)),+
+            $($(#[$about])* $pattern($parameters)),+
         }
 
         /// Makes the sheet of a pattern.
@@ -72,7 +73,7 @@ macro_rules! patterns {
         /// mesh if the parameters together give none.
         pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
             match pattern {
-                $(Pattern::$pattern(parameters) => parameters.sheet()),+
+                $(Pattern::$pattern(parameters) => parameters.$sheet()),+
             }
         }
     };
@@ -80,35 +81,37 @@ macro_rules! patterns {
 
 patterns! {
     /// One cell of Miura-ori.
-    "miura": Miura,
+    "miura": Miura(Miura::sheet),
     /// A finite Miura-ori.
-    "miura-patch": MiuraPatch,
+    "miura-patch": MiuraPatch(MiuraPatch::sheet),
     /// One cell of the eggbox.
-    "eggbox": Eggbox,
+    "eggbox": Eggbox(Eggbox::sheet),
     /// One cell of four parallelograms of any lengths and angles.
-    "four-parallelogram": FourParallelogram,
+    "four-parallelogram": FourParallelogram(FourParallelogram::sheet),
     /// One cell of the waterbomb tessellation.
-    "waterbomb": Waterbomb,
+    "waterbomb": Waterbomb(Waterbomb::sheet),
     /// One cell of the Yoshimura pattern.
-    "yoshimura": Yoshimura,
+    "yoshimura": Yoshimura(Yoshimura::sheet),
     /// A ring of Kresling's pattern, open or closed to a drum.
-    "kresling": Kresling,
+    "kresling": Kresling(Kresling::sheet),
     /// One cell of square twists.
-    "square-twist": SquareTwist,
+    "square-twist": SquareTwist(SquareTwist::sheet),
     /// One flat cell of Ron Resch's triangular tessellation.
-    "resch": Resch,
+    "resch": Resch(Resch::sheet),
     /// The flat crease pattern of the pleated hyperbolic paraboloid.
-    "hypar": Hypar,
+    "hypar": Hypar(Hypar::sheet),
     /// The two-bar truss of von Mises.
-    "truss": Truss,
+    "truss": Truss(Truss::sheet),
     /// Two aligned Miura tubes that share a wall.
-    "aligned-tubes": AlignedTubes,
+    "aligned-tubes": AlignedTubes(MiuraTubes::aligned),
+    /// Two Miura tubes that are coupled as a zipper.
+    "zipper-tubes": ZipperTubes(MiuraTubes::zipper),
     /// A random cell that cannot be flattened.
-    "random": Random,
+    "random": Random(Random::sheet),
     /// A random cell with one symmetry.
-    "symmetric": Symmetric,
+    "symmetric": Symmetric(Symmetric::sheet),
     /// A random flat cell.
-    "random-developable": RandomDevelopable,
+    "random-developable": RandomDevelopable(RandomDevelopable::sheet),
 }
 
 impl Pattern {

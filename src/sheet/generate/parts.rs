@@ -3,7 +3,7 @@
 use super::error::GenerateError;
 use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{Drawing, build, draw};
+use crate::sheet::build::{Drawing, GluedEdge, build, draw};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};
 use std::f64::consts::PI;
 
@@ -19,6 +19,11 @@ pub(super) struct Parts {
 
 impl Parts {
     pub(crate) fn sheet(self, parameters: String) -> Result<Sheet, GenerateError> {
+        self.glued(parameters, vec![])
+    }
+
+    /// Makes a sheet with these words for the joints of edges of more than two faces.
+    pub(super) fn glued(self, parameters: String, glue: Vec<GluedEdge>) -> Result<Sheet, GenerateError> {
         let Self { title, source, vertices, lattice, polygons } = self;
         let bare = Sheet {
             title: title.to_owned(),
@@ -28,8 +33,7 @@ impl Parts {
             polygons,
             ..Sheet::default()
         };
-        let drawn: Drawing = draw(&bare);
-        Ok(build(&drawn)?)
+        Ok(build(&Drawing { glue, ..draw(&bare) })?)
     }
 
     /// Makes a flat sheet whose edges fold to these angles, in radians, valley positive: each gets the letter of its

@@ -1,4 +1,4 @@
-//! Two aligned Miura tubes that share a wall.
+//! Two Miura tubes side by side, aligned so that they share a wall; `zipper.rs` couples them as a zipper.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
@@ -10,19 +10,19 @@ use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
-const SOURCE: &str = "Coupled Miura tubes: E. T. Filipov, T. Tachi, G. H. Paulino, PNAS 112, 12321 (2015).";
+pub(super) const SOURCE: &str = "Coupled Miura tubes: E. T. Filipov, T. Tachi, G. H. Paulino, PNAS 112, 12321 (2015).";
 
 /// Number of vertices of a ring: two of the wall that both tubes share, and two of each tube.
 const RING: usize = 6;
 
-/// Two tubes of Miura-ori along x that share a wall of parallelograms, so that three faces meet at its edges.
+/// Two coupled tubes of Miura-ori along x.
 ///
-/// Ring `r` is that of `r = 0` moved by `(r b cos f, [r odd] b sin f, 0)`. The shared wall has the side `u = (0, y, z)` of
-/// length `a`, `y = a cos t / sin f`; the first tube has the sides `u` and `v = (0, y, -z)`, the second one `u` and `-v`.
-/// Both fold together without stretching.
+/// Ring `r` of the first tube is that of `r = 0` moved by `(r b cos f, [r odd] b sin f, 0)`. It has the sides
+/// `u = (0, y, z)` and `v = (0, y, -z)` of length `a`, `y = a cos t / sin f`; the wall of the side `u` touches the second
+/// tube.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct AlignedTubes {
+pub struct MiuraTubes {
     /// Side `a` of the parallelograms round the tubes. Default 1.
     pub a: f64,
     /// Side `b` of the parallelograms along the tubes. Default 1.
@@ -37,23 +37,53 @@ pub struct AlignedTubes {
     pub cells: usize,
 }
 
-impl Default for AlignedTubes {
+impl Default for MiuraTubes {
     fn default() -> Self {
         Self { a: 1.0, b: 1.0, sector: FRAC_PI_3, fold: FRAC_PI_4, cells: 2 }
     }
 }
 
-impl AlignedTubes {
-    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+/// The first of two coupled tubes.
+pub(super) struct Tube {
+    pub sides: [Vec3; 2],
+    /// Step from a ring to the next one: along the axis, and to and fro across it.
+    step: [f64; 2],
+    /// Number of pieces between rings.
+    pub pieces: usize,
+    /// The parameters, in words.
+    pub words: String,
+}
+
+impl Tube {
+    /// Returns the displacement of a ring from the first one.
+    pub fn place(&self, ring: usize) -> Vec3 {
+        Vec3::new(ring as f64 * self.step[0], (ring % 2) as f64 * self.step[1], 0.0)
+    }
+}
+
+impl MiuraTubes {
+    /// The first tube, of checked parameters.
+    pub(super) fn tube(&self) -> Result<Tube, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
         let t = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
         let f = angle_between("fold", self.fold, FRAC_PI_2 - t, FRAC_PI_2)?;
         let cells = count("cells", self.cells, 1, 500)?;
         let y = a * libm::cos(t) / libm::sin(f);
         let z = (a * a - y * y).sqrt();
-        let (u, v) = (Vec3::new(0.0, y, z), Vec3::new(0.0, y, -z));
+        Ok(Tube {
+            sides: [Vec3::new(0.0, y, z), Vec3::new(0.0, y, -z)],
+            step: [b * libm::cos(f), b * libm::sin(f)],
+            pieces: 2 * cells,
+            words: format!("a = {a}, b = {b}, sector = {t}, fold = {f}, cells = {cells}."),
+        })
+    }
+
+    /// The second tube has the sides `u` and `-v`: both share the wall of `u`, so that three faces meet at its edges,
+    /// and fold together without stretching.
+    pub(super) fn aligned(&self) -> Result<Sheet, GenerateError> {
+        let tube = self.tube()?;
+        let [u, v] = tube.sides;
         let ring = [Vec3::zeros(), u, u + v, v, u - v, -v];
-        let place = |r: usize| Vec3::new(r as f64 * b * libm::cos(f), (r % 2) as f64 * b * libm::sin(f), 0.0);
         let walls = [[0, 1], [1, 2], [2, 3], [3, 0], [1, 4], [4, 5], [5, 0]];
         let face = |r: usize, [i, j]: [usize; 2]| {
             [i, j, j + RING, i + RING].map(|vertex| Corner::home(r * RING + vertex)).to_vec()
@@ -61,10 +91,10 @@ impl AlignedTubes {
         let parts = Parts {
             title: "aligned-tubes",
             source: SOURCE,
-            vertices: (0..=2 * cells).flat_map(|r| ring.map(|point| point + place(r))).collect(),
+            vertices: (0..=tube.pieces).flat_map(|r| ring.map(|point| point + tube.place(r))).collect(),
             lattice: None,
-            polygons: (0..2 * cells).flat_map(|r| walls.map(|wall| face(r, wall))).collect(),
+            polygons: (0..tube.pieces).flat_map(|r| walls.map(|wall| face(r, wall))).collect(),
         };
-        parts.sheet(format!("a = {a}, b = {b}, sector = {t}, fold = {f}, cells = {cells}."))
+        parts.sheet(tube.words)
     }
 }

@@ -98,7 +98,7 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
     fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "duplicate key", ""),
     fault(1, "title = 3", "1:9", "invalid type: integer `3`", "expected a string"),
-    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "did you mean `title`? the keys here are `title`, `sheet`, `units`, `material`, `energy`, `mass`, `lock`, `load`, `pressure`, `pin`, `part`, `spring`, `drive`, `study`, `sweep`"),
+    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "did you mean `title`? the keys here are `title`, `sheet`, `units`, `material`, `energy`, `mass`, `lock`, `load`, `pressure`, `pin`, `part`, `tie`, `spring`, `drive`, `study`, `sweep`"),
     // the sheet
     fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),

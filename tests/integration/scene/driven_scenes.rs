@@ -345,7 +345,10 @@ fn studies_that_cannot_begin() {
             format!("{energy}{up}{}", study("kind = \"path\"\nstart = { random = 0.1, seed = 1 }")),
             "a path does not start there",
         ),
-        (format!("{energy}{PARTS}{}", study("kind = \"modes\"")), "studies of kind modes do not know rigid parts"),
+        (
+            format!("{energy}{PARTS}{}", study("kind = \"branches\"")),
+            "studies of kind branches do not know rigid parts",
+        ),
         (
             format!("{energy}[[pin]]\nvertex = 0\nnormal = [0, 0, 1]\n{}", study("kind = \"branches\"")),
             "studies of kind branches do not know pins along a direction",

@@ -1,135 +1,40 @@
 //! Assemblies: edges of more than two faces, pieces that are joined, bars without faces, and sheets with one side.
 //!
-//! Sources: K. Liu and G. H. Paulino's MERLIN, whose two tubes with merged degrees of freedom have the energy
-//! 1.476808587e-5 under the load below; the statics of three flaps, of a hanging chain and of a truss; and a Hessian of
-//! bars and hinges by differences that shares no code with the library.
+//! Sources: the statics of three flaps, of a hanging chain and of a truss; and a Hessian of bars and hinges by differences
+//! that shares no code with the library.
 
 use crate::common::{Scene, eigenvalues};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
 use foldwell::analysis::modes::modes;
 use foldwell::model::{Assembly, AssemblyError};
 use foldwell::numerics::DenseMatrix;
-use foldwell::sheet::build::{Drawing, build};
-use foldwell::sheet::generate::AlignedTubes;
 use foldwell::sheet::symmetry::symmetries;
-use foldwell::sheet::{EdgeKey, EdgeKind, Glue, fold, welded};
-use foldwell::{Pattern, RIGID, Rest, Sheet, generate, relax};
+use foldwell::sheet::{EdgeKey, EdgeKind, Glue, fold};
+use foldwell::{RIGID, Rest, Sheet, relax};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 type Vec3 = Vector3<f64>;
 
-/// Vertices of a ring of the generator: 0 and 1 are those of the shared wall.
-const RING: usize = 6;
-/// Energy of two tubes under a load by MERLIN, ten digits.
-const MERLIN: f64 = 1.476808587e-5;
 const HOME: [usize; 2] = [0, 0];
 
-fn is_shared(vertex: usize) -> bool {
-    vertex % RING < 2
-}
-
-/// MERLIN's two tubes of rhombi with an angle of 60 degrees, whose zigzags stand at 0.6 rad to the axis; vertices and
-/// faces are in the order of the generator.
-fn tubes() -> Sheet {
-    let generated = generate(&Pattern::AlignedTubes(AlignedTubes::default())).unwrap();
-    let p = 0.5 / 0.6f64.cos();
-    let (u, v) = (Vec3::new(p, (1.0 - p * p).sqrt(), 0.0), Vec3::new(p, -(1.0 - p * p).sqrt(), 0.0));
-    let ring = [Vec3::zeros(), u, u + v, v, u - v, -v];
-    let place = |r: usize| Vec3::new(r as f64 * 0.6f64.cos(), 0.0, (r % 2) as f64 * 0.6f64.sin());
-    let coords = (0..30).map(|k| ring[k % RING] + place(k / RING)).collect();
-    let faces = generated.polygons.iter().map(|face| face.iter().map(|corner| corner.vertex).collect()).collect();
-    build(&Drawing { coords, faces, ..Drawing::default() }).unwrap()
-}
-
-/// The two aligned tubes apart, each with a wall of its own where they touch: the second tube has the vertices from 30
-/// on where the first has 0 and 1.
-fn apart() -> Sheet {
-    let joined = tubes();
-    let own = |vertex: usize| 30 + 2 * (vertex / RING) + vertex % RING;
-    let mut coords = joined.vertices.clone();
-    coords.extend((0..30).filter(|&v| is_shared(v)).map(|v| joined.vertices[v]));
-    let mut faces: Vec<Vec<usize>> =
-        joined.polygons.iter().map(|face| face.iter().map(|corner| corner.vertex).collect()).collect();
-    let wall = |face: &Vec<usize>| face.iter().all(|&v| is_shared(v));
-    let second = |face: &Vec<usize>| face.iter().any(|&v| v % RING > 3);
-    let doubled: Vec<Vec<usize>> = faces.iter().filter(|face| wall(face)).cloned().collect();
-    faces.extend(doubled);
-    let count = faces.len();
-    for (f, face) in faces.iter_mut().enumerate() {
-        if second(face) || f >= count - 4 {
-            face.iter_mut().filter(|v| is_shared(**v)).for_each(|v| *v = own(*v));
-        }
+/// What joins two neighbours of those polygons that meet at an edge. A zipper's six-sided faces belong to both tubes: the
+/// triangles beside them are parts of one tube's faces, and the five-sided walls of the other fold; a triangle and such a
+/// wall do not hold each other.
+fn joint(sheet: &Sheet, meeting: usize, [one, other]: [usize; 2]) -> Glue {
+    let sides = [one, other].map(|polygon| sheet.polygons[polygon].len());
+    match (sides[0].min(sides[1]), sides[0].max(sides[1])) {
+        _ if one == other => Glue::Weld,
+        (3, 6) if meeting == 3 => Glue::Weld,
+        (3, 5) if meeting == 3 => Glue::Free,
+        _ => Glue::Fold,
     }
-    build(&Drawing { coords, faces, ..Drawing::default() }).unwrap()
-}
-
-/// Pins and the load of MERLIN's problem.
-fn energy(sheet: Sheet, [bars, creases, facets]: [Vec<f64>; 3], ties: &[[usize; 2]]) -> f64 {
-    let mut builder = Assembly::patch(sheet, [1, 1]).bars(bars).creases(creases).facets(facets);
-    builder = builder.pin(3, HOME, [true; 3]).pin(2, HOME, [false, true, true]).pin(9, HOME, [false, false, true]);
-    builder = builder.load(28, HOME, [0.0, 0.01, 0.01]);
-    for tie in ties {
-        builder = builder.part(tie.map(|vertex| (vertex, HOME)), [true, true, true, false, false, false]);
-    }
-    relax(&builder.build().unwrap()).unwrap().state.total()
-}
-
-/// Claim: two tubes as pieces whose vertices are tied, and as one mesh in which three faces meet at the sides of the
-/// shared wall, have MERLIN's energy, and that of each other. The shared wall of the one mesh is doubled by its
-/// stiffnesses, and the walls of different tubes are freed of each other. Tolerance: the ten digits of MERLIN, and 1e-10
-/// of the energy, whose parts are 1e-2 of the forces that balance to 1e-12.
-#[test]
-fn tubes_tied_and_drawn_as_one_mesh() {
-    let pieces = apart();
-    let ends = |sheet: &Sheet, k: usize| [sheet.edges[k].key.i, sheet.edges[k].key.j];
-    let all = |sheet: &Sheet, of: &dyn Fn(usize) -> f64| (0..sheet.edges.len()).map(of).collect::<Vec<f64>>();
-    let same = [1e3, 0.1, 1.0].map(|stiffness| all(&pieces, &|_| stiffness));
-    let ties: Vec<[usize; 2]> = (0..10).map(|k| [RING * (k / 2) + k % 2, 30 + k]).collect();
-    let tied = energy(pieces, same, &ties);
-
-    let mut joined = tubes();
-    let mut glue: BTreeMap<_, Vec<Glue>> = BTreeMap::new();
-    for edge in &joined.edges {
-        let [a, b] = edge.wings.map(|wing| wing.is_some_and(|wing| is_shared(wing.vertex)));
-        if joined.hinges_round(edge.key) == 3 {
-            glue.entry(edge.key.whole()).or_default().push(if a || b { Glue::Fold } else { Glue::Free });
-        }
-    }
-    assert_eq!(glue.len(), 8, "four sides of the wall along each of two lines have three faces");
-    joined.glue = glue;
-    let joined = fold::parse(&fold::write(&joined), "joined.fold").unwrap();
-    let on_wall = |k: usize| ends(&joined, k).iter().all(|&v| is_shared(v));
-    let along = |k: usize| joined.hinges_round(joined.edges[k].key) == 2 && joined.edges[k].kind == EdgeKind::Crease;
-    let double = |stiffness: f64, on: bool| if on { 2.0 * stiffness } else { stiffness };
-    let bars = all(&joined, &|k| double(1e3, on_wall(k)));
-    let creases = all(&joined, &|k| double(0.1, on_wall(k) && !along(k)));
-    let facets = all(&joined, &|k| double(1.0, on_wall(k)));
-    let one = energy(joined, [bars, creases, facets], &[]);
-    assert!((tied - MERLIN).abs() < 6e-15 && (one - MERLIN).abs() < 6e-15, "{tied:e} {one:e}");
-    assert!((tied - one).abs() < 1e-10 * MERLIN, "{tied:e} {one:e}");
-}
-
-/// Claim: pieces that touch are joined to the mesh that is drawn as one, and `convert --weld` does it.
-#[test]
-fn pieces_are_welded() {
-    let (joined, less) = welded(&apart()).unwrap();
-    let drawn = tubes();
-    assert_eq!(less, [10, 4]);
-    let named = |sheet: &Sheet| sheet.edges.iter().map(|edge| (edge.key, edge.kind)).collect::<BTreeMap<_, _>>().len();
-    assert_eq!((joined.vertices.len(), joined.polygons.len()), (drawn.vertices.len(), drawn.polygons.len()));
-    assert_eq!((joined.edges.len(), named(&joined)), (drawn.edges.len(), drawn.edges.len()));
-    let folder = crate::common::Folder::new().with("apart.fold", fold::write(&apart()));
-    let said = folder.foldwell("convert apart.fold joined.fold --weld").well();
-    assert!(said.all().contains("10; faces on others left out: 4"), "{}", said.all());
-    let read = fold::parse(&folder.text("joined.fold"), "joined.fold").unwrap();
-    assert_eq!(read.edges, joined.edges);
 }
 
 /// The Hessian of bars and hinges at rest, of all coordinates: by differences of lengths and of angles between faces,
 /// and hinges between all neighbours round an edge.
-fn hessian(sheet: &Sheet, [bars, creases, facets]: [f64; 3]) -> DenseMatrix {
+pub(super) fn hessian(sheet: &Sheet, [bars, creases, facets]: [f64; 3]) -> DenseMatrix {
     let mut at: BTreeMap<[usize; 2], Vec<(usize, usize)>> = BTreeMap::new();
     for triangle in &sheet.triangles {
         let [a, b, c] = triangle.corners.map(|corner| corner.vertex);
@@ -164,7 +69,11 @@ fn hessian(sheet: &Sheet, [bars, creases, facets]: [f64; 3]) -> DenseMatrix {
         let pairs = if flaps.len() < 3 { flaps.len() - 1 } else { flaps.len() };
         for k in 0..pairs {
             let (one, other) = (flaps[k], flaps[(k + 1) % flaps.len()]);
-            let stiffness = if one.1 == other.1 { facets } else { creases };
+            let stiffness = match joint(sheet, flaps.len(), [one.1, other.1]) {
+                Glue::Weld => facets,
+                Glue::Fold => creases,
+                Glue::Free => 0.0,
+            };
             add(vec![i, j, one.0, other.0], stiffness * along.norm(), &|x| {
                 // from the straight continuation of one face to the other, so that flat faces are at 0
                 let axis = (x[1] - x[0]).normalize();
@@ -174,20 +83,6 @@ fn hessian(sheet: &Sheet, [bars, creases, facets]: [f64; 3]) -> DenseMatrix {
         }
     }
     hessian
-}
-
-/// Claim: the eigenvalues of coupled tubes are those of a Hessian by differences, six of rigid motions, and exact folding
-/// says nothing of them. Tolerance: differences of 1e-5 are good to 1e-9 of the largest eigenvalue.
-#[test]
-fn modes_of_coupled_tubes() {
-    let sheet = generate(&Pattern::AlignedTubes(AlignedTubes::default())).unwrap();
-    let expected = eigenvalues(hessian(&sheet, [1e5, 0.1, 1.0]));
-    let assembly = Assembly::patch(sheet, [1, 1]).bars(1e5).creases(0.1).facets(1.0).rest(Rest::Drawn);
-    let found = modes(&assembly.build().unwrap(), 12, &mut || true).unwrap();
-    assert_eq!((found.rigid_motions, found.folding_modes), (6, None));
-    for (found, expected) in found.eigenvalues.iter().zip(&expected) {
-        assert!((found - expected).abs() < 1e-9 * 1e5, "{found} {expected}");
-    }
 }
 
 /// Three flaps at the edge of length 1 from the origin to (0, 0, 1), at these angles.
