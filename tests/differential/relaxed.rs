@@ -10,7 +10,7 @@ use foldwell::solver::Options;
 use nalgebra::Rotation3;
 
 /// Steps of a relaxation that starts where another one ended at its rounding errors.
-pub const FEW: usize = 4;
+const FEW: usize = 4;
 
 pub fn examine(seed: u64, trial: &Trial, report: &mut Report) {
     let what = format!("seed {seed}, {}", trial.describe());
