@@ -1,6 +1,6 @@
 //! One random sheet, and its answers.
 
-use crate::common::{Numbers, Testing, on};
+use crate::common::{self, Numbers, Testing, on};
 use crate::redrawn::redrawn;
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
@@ -16,6 +16,11 @@ use std::f64::consts::PI;
 
 /// Largest part of the energy that open gaps may leave unknown; what is seen in degenerate states is a tenth of it.
 const MOST_OPEN: f64 = 1e-4;
+/// Largest magnitude of a fold angle, in radians, at which a drawn hinge counts as flat.
+const FLAT_RAD: f64 = 1e-9;
+/// Distance, in the unit of the sheet, within which two states are one. Those of rigid bars and of bars of 1e13 are
+/// nearer, and two branches of a flat sheet farther apart than that.
+const SAME_PLACE: f64 = 1e-6;
 /// Random starts where nothing else is said.
 const STARTS: usize = 150;
 
@@ -45,6 +50,8 @@ pub struct Answer {
     /// `t = a / (2 sqrt(g))`, and the energy is off by `2 t g`. Elsewhere it is off by `t g`, which is nothing beside
     /// the tolerance.
     pub open: f64,
+    /// All coordinates, as this sheet is drawn.
+    pub coordinates: Vec<f64>,
     /// Fold angles of the tiling's edges.
     pub angles: Vec<f64>,
     pub negative: Option<usize>,
@@ -58,6 +65,17 @@ pub struct Answer {
     pub exact: Option<f64>,
     /// The sum of the energies of all lines of the picture.
     pub pictured: f64,
+}
+
+impl Answer {
+    /// The same with its vertices mapped. Coordinates that all points share stay as they are: only patches, which have
+    /// none, are asked for them.
+    pub fn mapped(mut self, map: impl Fn(Vec3) -> Vec3) -> Self {
+        for point in self.coordinates.chunks_exact_mut(3) {
+            point.copy_from_slice(map(Vec3::from_column_slice(point)).as_slice());
+        }
+        self
+    }
 }
 
 impl Trial {
@@ -163,7 +181,31 @@ impl Trial {
         let works = gaps.iter().zip(tension).zip(&compliance).map(|((gap, t), c)| (t * (gap - c * t)).abs());
         let open = (2.0 * works.sum::<f64>()).min(MOST_OPEN * found.state.total());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
-        Ok(Answer { energy, open, angles, negative, again, residual, halves, compliance, exact, pictured })
+        let coordinates = found.state.coordinates;
+        Ok(Answer { energy, open, coordinates, angles, negative, again, residual, halves, compliance, exact, pictured })
+    }
+
+    /// Whether the sheet is a flat patch. Several branches of rigid folding meet in that state, and which one is taken
+    /// is no claim of the program.
+    pub fn starts_flat(&self) -> bool {
+        let angles = self.case().drawn_angles().to_vec();
+        self.boundary == Boundary::Patch && angles.iter().filter(|angle| !angle.is_nan()).all(|a| a.abs() <= FLAT_RAD)
+    }
+
+    /// Whether the state with these coordinates is a minimum of such an energy: a relaxation that starts there, without
+    /// its tensions, ends there. Told beside the energy are `t^2 / 2` of every stiff measure.
+    pub fn has_minimum_at(&self, coordinates: &[f64], such: impl Fn(f64, &[f64]) -> bool) -> bool {
+        let case = self.case();
+        let terms = self.terms(&case);
+        let mut model = case.with_terms(terms).model(Gauge::Held);
+        let x = model.start_from(coordinates.to_vec());
+        let found = relax_from(&model, x, Options::default(), &mut |_| true);
+        found.is_ok_and(|found| {
+            let apart = common::distance(&found.state.coordinates, coordinates);
+            apart <= SAME_PLACE
+                && found.negative_eigenvalues == Some(0)
+                && such(found.state.total(), &halves(found.configuration.tensions()))
+        })
     }
 
     /// Whether random starts reach an equilibrium of such an energy; told beside it are `t^2 / 2` of every stiff

@@ -1,6 +1,7 @@
 //! Tensions under which the residual says what it should: small beside the forces of soft terms, and without self
 //! stress.
 
+use super::straight_screw;
 use crate::analysis::relax::rigid_forces::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_interruption};
 use crate::model::Domain;
@@ -14,9 +15,10 @@ pub(super) fn are_needed(run: &Run<'_>, ending: &Ending) -> bool {
     ending.is_ok() && run.has_moved()
 }
 
-/// The equilibrium with smaller residuals where tensions hide them.
+/// The equilibrium with smaller residuals where tensions hide them. That of a straight screw is sought about an axis
+/// that keeps its direction: with one that may turn Newton's method takes hundreds of steps and comes no nearer.
 pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
-    let found = ending?;
+    let found = straight_screw::about_one_axis(run, ending?)?;
     let hidden =
         matches!(run.model.domain(), Domain::Screw) && rigid_over_others(&run.model, &found) > HIDING_FORCE_RATIO;
     let found = if hidden { refined(run, found)? } else { found };

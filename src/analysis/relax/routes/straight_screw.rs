@@ -9,7 +9,7 @@
 
 use super::has_failed;
 use crate::analysis::relax::certainty::{CERTAIN, next_change};
-use crate::analysis::relax::run::{Ending, Run};
+use crate::analysis::relax::run::{Ending, Run, is_interruption};
 use crate::model::Model;
 use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 use std::f64::consts::PI;
@@ -86,14 +86,39 @@ fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending
     run.minimize(start)
 }
 
-/// The equilibrium of a screw with its negative eigenvalues counted about axes that keep their direction, the most of
-/// several, if it is straight and would bend about none of them. Then the direction has no effect, and the sign of its
-/// eigenvalue is one of rounding. Other equilibria are returned as they are.
+/// The equilibrium of a straight screw with residuals within the tolerance about an axis that keeps its direction, which
+/// is how it starts again. Others, and those that do not meet it so, are returned as they are.
+///
+/// # Errors
+/// [`Failure::Interrupted`](crate::solver::Failure::Interrupted) where the observer asks to stop.
+pub(super) fn about_one_axis(run: &mut Run<'_>, found: Equilibrium) -> Ending {
+    let place = run.model.coordinates(&found.x);
+    if !curvature(&run.model, &place).is_some_and(|curvature| curvature <= ROUNDING) {
+        return Ok(found);
+    }
+    let (tension, steps) = (Some(found.tension.clone()), run.recorder.steps());
+    let about_one = |run: &mut Run<'_>| {
+        let x = run.model.hold_axis(1, place);
+        let reached = run.minimize(Start { x, tension });
+        if run.recorder.steps() == steps + 1 {
+            // it was within the tolerance already
+            run.recorder.forget_after(steps);
+        }
+        Some(reached)
+    };
+    run.prefer(Ok(found), about_one, |about_one, _| about_one.as_ref().map_or_else(is_interruption, |_| true))
+}
+
+/// The equilibrium of a screw about an axis that may turn, with its negative eigenvalues counted about axes that keep
+/// their direction, the most of several, if it is straight and would bend about none of them. Then the direction has no
+/// effect, and the sign of its eigenvalue is one of rounding. Other equilibria are returned as they are.
 pub(crate) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     let place = model.coordinates(&found.x);
-    if found.negative_eigenvalues == Some(0) || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT)
-    {
+    if !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT) {
         return found;
+    }
+    if found.negative_eigenvalues == Some(0) {
+        return Equilibrium { x: model.hold_axis(0, place), ..found };
     }
     let directions = (0..AXES).map(|axis| AXIS + PI * axis as f64 / AXES as f64);
     let counts: Option<Vec<usize>> =
