@@ -247,7 +247,7 @@ impl Cuts<'_> {
         let nearer = usize::from(off[1] < off[0]);
         if off[nearer] <= NEAR_END * self.places.tolerance {
             self.places.merge(v, self.edges[edge][nearer]);
-        } else {
+        } else if self.of_edge[edge].last() != Some(&v) {
             self.of_edge[edge].push(v);
         }
     }

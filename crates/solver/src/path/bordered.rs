@@ -56,7 +56,7 @@ pub(super) struct Bordered {
     length: f64,
     /// One unit of length of the parameter.
     unit: f64,
-    /// Inertia of the last factorization; `None` where it needed a shift.
+    /// Inertia of the last factorization; `None` where it needed a shift, or has a pivot that may be zero.
     inertia: Option<Inertia>,
     /// Response to the rates by the parameter, by the last factorization.
     response: Pair,
@@ -90,8 +90,8 @@ impl Bordered {
     pub fn factor(&mut self) -> Result<(), FactorError> {
         let found = self.system.factor(&self.at, &self.compliance, 0.0);
         self.inertia = match found {
-            Ok(inertia) if inertia.ratio > ZERO_PIVOT => Some(inertia),
-            Ok(_) | Err(FactorError::Singular { .. }) => {
+            Ok(inertia) => Some(inertia).filter(|inertia| inertia.ratio > ZERO_PIVOT),
+            Err(FactorError::Singular { .. }) => {
                 self.system.factor(&self.at, &self.compliance, SINGULAR_SHIFT)?;
                 None
             }
