@@ -18,6 +18,8 @@ use super::Vec3;
 use super::taylor::{Path, Taylor, cross, difference, dot};
 use nalgebra::{Matrix3, SVector};
 
+/// Largest magnitude of a fold angle, in radians, at which a hinge counts as flat.
+pub(crate) const FLAT_RAD: f64 = 1e-9;
 /// Gradient over the twelve coordinates of `[i, j, left, right]`.
 pub(crate) type HingeGradient = SVector<f64, 12>;
 /// Number of entries of the lower triangle of the Hessian over these coordinates.

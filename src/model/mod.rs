@@ -72,7 +72,6 @@ pub use measure::{FoldAngle, Length, Measure};
 pub use own_term::OwnTerm;
 pub use part::Part;
 pub use plasticity::ElasticPlastic;
-pub(crate) use problem::FLAT_RAD;
 pub use problem::driving::DrivenModel;
 pub use problem::{Gauge, Model};
 pub use published_laws::{GreenLagrange, Ogden, Stiffening};

@@ -26,7 +26,6 @@ mod unknowns;
 
 pub(super) use bodies::Bodies;
 use bodies::POSE;
-pub(crate) use softened::FLAT_RAD;
 pub(crate) use support::Support;
 
 /// Ranges of the coordinates of a hinge's two wings among the coordinates of its element.

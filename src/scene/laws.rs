@@ -28,6 +28,9 @@ pub(super) struct GivenLaw {
 /// A law and the stiffness at rest, if the law says it.
 type ReadLaw = (Arc<dyn Law>, Option<f64>);
 
+/// Returns a law from what stands at a place of a scene.
+type LawReader<T> = fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneError>;
+
 /// Returns the laws that bars, creases and facets are given.
 ///
 /// # Errors
@@ -49,7 +52,7 @@ fn of_elements<T>(
     file: &SceneFile,
     (values, of): (&ElementValues, ElementKind),
     spec: &Located<LawForm<T>>,
-    read: fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneError>,
+    read: LawReader<T>,
 ) -> Result<GivenLaw, SceneError> {
     match &**spec {
         LawForm::All(law) => {

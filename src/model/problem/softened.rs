@@ -1,10 +1,8 @@
 //! A model whose rigid bars have a finite stiffness for a while.
 
 use super::Model;
+use crate::math::fold_angle::FLAT_RAD;
 use crate::model::element::TermKind;
-
-/// Largest magnitude of a fold angle, in radians, at which a hinge counts as flat.
-pub(crate) const FLAT_RAD: f64 = 1e-9;
 
 impl Model {
     /// Whether some of the bars are rigid.

@@ -396,7 +396,7 @@ fn faults_of_named_files_name_the_file() {
     };
     let mesh = |name: &str| format!("[sheet]\nmesh = \"{name}\"\n");
     let cases = [
-        (mesh("none.fold"), "FOLDER/none.fold"),
+        (mesh("none.fold"), "FOLDER/scene.toml:2:8: there is no file FOLDER/none.fold"),
         (mesh("torn.fold"), "FOLDER/torn.fold:"),
         (rest("none.csv"), "FOLDER/none.csv: cannot be read"),
         (rest("strange.csv"), "FOLDER/strange.csv:3: the sheet has no crease [0, 1, 5, 0]"),

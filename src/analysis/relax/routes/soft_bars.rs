@@ -13,7 +13,8 @@
 
 use crate::analysis::relax::rigid_forces::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
-use crate::model::{FLAT_RAD, Model, TermKind};
+use crate::math::fold_angle::FLAT_RAD;
+use crate::model::{Model, TermKind};
 use crate::numerics::vector::max_abs;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start};
 use schemars::JsonSchema;
