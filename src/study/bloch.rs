@@ -13,6 +13,7 @@ use super::summary::StudyResult;
 use super::{start, states};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
+use crate::analysis::bloch::zero_lines::ZeroLine;
 use crate::analysis::bloch::{
     self, BlochError, Counts, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone,
 };
@@ -314,6 +315,7 @@ fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochS
         vanishes: decay.vanishes,
     };
     let traced = survey.lines();
+    let summarized = |line: &ZeroLine| ZeroLine { points: vec![], ..line.clone() };
     let to_zero = |(zone, q): (&Zone, [f64; 2])| {
         let (value, gradient) = zone.at(q);
         value.abs() / gradient[0].hypot(gradient[1])
@@ -331,7 +333,7 @@ fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochS
         positive_fraction: real.as_ref().map(|(zone, _)| zone.positive_fraction(grid)),
         zero_lines: traced.map(|lines| lines.lines.len()),
         no_zero_lines: survey.no_lines().map(ToString::to_string),
-        lines: traced.map_or(vec![], |traced| traced.lines.clone()),
+        lines: traced.iter().flat_map(|traced| traced.lines.iter().map(summarized)).collect(),
         regions: traced.map_or(vec![], |traced| traced.regions.clone()),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
         directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
