@@ -19,8 +19,8 @@ pub(super) fn reason(branch: &PathBranch) -> Option<String> {
         }
         PathEnd::Retraced => Some(format!("the path goes back over its own states from drive {} on", rounded(at, 6))),
         PathEnd::Failed => Some(format!(
-            "no step leads on from the state with drive {}, however short: the sheet is blocked there, or a stiffness is \
-             too far from the others",
+            "no step leads on from the state with drive {}, however short: the sheet is blocked there, has motions that \
+             cost nothing, or a stiffness is too far from the others",
             rounded(at, 6)
         )),
         PathEnd::TooManySteps => {

@@ -98,6 +98,19 @@ fn held_coordinates_do_not_turn_a_path_back() {
     assert!(stopped.report.summary.studies[0].sentence().contains("stop at fold"));
 }
 
+/// Claim: a sheet with motions that cost nothing, faces of Ron Resch's pattern that hang at vertices, is stable at rest, and its
+/// path has no branch points and no negative eigenvalues, which would be those of rounding errors; that it has no path is
+/// said. Source: its energy is a sum of squares that vanishes along the way.
+#[test]
+fn motions_that_cost_nothing_are_no_branch_points() {
+    let ran = folding("generate = { pattern = \"resch\" }\ncells = [2, 1]", "target").ran();
+    let (table, study) = (ran.out.table("fold.csv"), &ran.report.summary.studies[0]);
+    assert!((0..table.len()).all(|row| table.at(row, "negative_eigenvalues") == 0.0));
+    let Some(StudyResult::Path(path)) = &study.result else { panic!("{:?}", study.reason) };
+    assert_eq!(path.branches[0].events, vec![]);
+    assert!(study.reason.as_ref().is_some_and(|reason| reason.contains("has motions that cost nothing")), "{study:?}");
+}
+
 /// Claim: a fold that arrives says how many hinges end on the side of their rest angles, and the energy that is left.
 /// Source: one of four creases at a vertex folds to the other side than the three others (Maekawa's theorem), here the
 /// one that is to fold least.
