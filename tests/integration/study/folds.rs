@@ -98,9 +98,9 @@ fn held_coordinates_do_not_turn_a_path_back() {
     assert!(stopped.report.summary.studies[0].sentence().contains("stop at fold"));
 }
 
-/// Claim: a sheet with motions that cost nothing, faces of Ron Resch's pattern that hang at vertices, is stable at rest, and its
-/// path has no branch points and no negative eigenvalues, which would be those of rounding errors; that it has no path is
-/// said. Source: its energy is a sum of squares that vanishes along the way.
+/// Claim: a sheet with motions that cost nothing, faces of Ron Resch's pattern that hang at vertices, is stable at rest,
+/// and its path has no branch points and no negative eigenvalues, which would be those of rounding errors; that it has
+/// no path is said. Source: its energy is a sum of squares that vanishes along the way.
 #[test]
 fn motions_that_cost_nothing_are_no_branch_points() {
     let ran = folding("generate = { pattern = \"resch\" }\ncells = [2, 1]", "target").ran();
