@@ -97,7 +97,7 @@ impl Watch {
 
     /// Shows a step; returns `Break` after Ctrl-C.
     pub(crate) fn step(&self, progress: &Progress) -> ControlFlow<()> {
-        let (stops, all_taken) = (self.interrupted(), progress.of == Some(0));
+        let (stops, all_taken) = (self.interrupted(), progress.all_taken());
         self.ending.store(stops || all_taken, Ordering::Relaxed);
         if let Some(shown) = self.shown.as_ref().filter(|_| !all_taken) {
             shown.lock().unwrap_or_else(PoisonError::into_inner).step(progress);

@@ -62,8 +62,7 @@ fn spawned<R: Send + 'static>(
     let (sender, receiver) = mpsc::channel();
     let worker = move || {
         let observer = |progress: &Progress| {
-            // a callback hears of steps, not that all are taken
-            if listens && progress.of != Some(0) {
+            if listens && !progress.all_taken() {
                 let (told, waiting) = mpsc::channel();
                 let _ = sender.send(News::Progress(progress.clone(), told)); // nobody hears it after Ctrl-C
                 let _ = waiting.recv();

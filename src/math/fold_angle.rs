@@ -20,6 +20,7 @@ use nalgebra::{Matrix3, SVector};
 
 /// Largest magnitude of a fold angle, in radians, at which a hinge counts as flat.
 pub(crate) const FLAT_RAD: f64 = 1e-9;
+
 /// Gradient over the twelve coordinates of `[i, j, left, right]`.
 pub(crate) type HingeGradient = SVector<f64, 12>;
 /// Number of entries of the lower triangle of the Hessian over these coordinates.

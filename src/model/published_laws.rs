@@ -58,7 +58,8 @@ impl Law for Ogden {
 }
 
 impl Ogden {
-    /// By the strain and not by the stretch, which would lose the digits of small strains of stiff bars.
+    /// The energy, force and stiffness at a strain, over `EA` and the rest length. Computed from the strain: from the stretch,
+    /// which is near 1, small strains of stiff bars would have lost their digits.
     fn by_strain(&self, strain: f64) -> [f64; 3] {
         let ([a, b], log) = (self.exponents, strain.ln_1p());
         let power = |a: f64| if a == 0.0 { log } else { (a * log).exp_m1() / a };
@@ -82,7 +83,8 @@ impl Law for GreenLagrange {
     }
 }
 
-/// By the strain, as for [`Ogden`]; `twice` is twice the strain of Green and Lagrange.
+/// The energy, force and stiffness of [`GreenLagrange`] at a strain, over `EA` and the rest length; computed from the strain
+/// as those of [`Ogden`] are. `twice` is twice the strain of Green and Lagrange.
 fn green_lagrange(strain: f64) -> [f64; 3] {
     let twice = strain * (2.0 + strain);
     [0.125 * twice * twice, 0.5 * (1.0 + strain) * twice, 1.0 + 1.5 * twice]

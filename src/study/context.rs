@@ -28,6 +28,13 @@ pub struct Progress {
     pub part: f64,
 }
 
+impl Progress {
+    /// Whether all steps of the study are taken: what is left is to draw and to write.
+    pub fn all_taken(&self) -> bool {
+        self.of == Some(0)
+    }
+}
+
 /// The observer of a run: called after every step, it returns whether to go on.
 pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The sides to which the creases and soft facets are folded that have a rest angle other than 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct RestSides {
-    /// Their number.
+    /// Number of these creases and facets.
     pub hinges: usize,
     /// Number of those that are folded to the side of their rest angle.
     pub on_rest_side: usize,

@@ -71,8 +71,8 @@ fn faces(r: usize, pieces: usize) -> Vec<Vec<usize>> {
     [vec![common], alone.to_vec(), walls(0).to_vec(), walls(4).to_vec()].concat()
 }
 
-/// What joins the three faces at the edges of the face that both tubes share: to the triangle beyond, which belongs to
-/// one tube, a weld; to the wall of the other tube a crease; between these two nothing.
+/// The joints at the four edges of the face that both tubes share, where three faces meet: a weld to the triangle beside it,
+/// which belongs to one of the tubes, and a crease to the wall of the other tube. Triangle and wall are not joined.
 fn glue(common: &[usize], vertices: &[Vec3]) -> [GluedEdge; 4] {
     let centre = common.iter().map(|&vertex| vertices[vertex]).sum::<Vec3>() / common.len() as f64;
     let &[near, near_too, n, far_too, far, m] = common else { return Default::default() };

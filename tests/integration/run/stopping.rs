@@ -4,9 +4,10 @@
 //! No test here measures time; `cargo bench --bench stopping` prints it.
 
 use crate::common::{Folder, Said, Scene, signal};
-use foldwell::run::{Ledger, read_scene, run};
+use foldwell::run::{Ledger, Progress, read_scene, run};
 use serde_json::Value;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
 fn scene(cells: [usize; 2], studies: &str) -> Scene {
@@ -21,6 +22,26 @@ fn studies(out: &Folder) -> Vec<(String, bool, Option<String>)> {
     let one =
         |study: &Value| (text(&study["name"]).unwrap(), study["converged"].as_bool().unwrap(), text(&study["reason"]));
     out.studies().iter().map(one).collect()
+}
+
+/// Claim: the observer is told that all steps of a study are taken before its files are written, and nothing is lost where
+/// it asks to stop then.
+#[test]
+fn results_are_told_before_they_are_written() {
+    let scene = scene([2, 2], "[[study]]\nname = \"first\"\nkind = \"relax\"\n");
+    let out = scene.folder().inner("out");
+    let told = AtomicUsize::new(0);
+    let observer = |progress: &Progress| {
+        if !progress.all_taken() {
+            return ControlFlow::Continue(());
+        }
+        assert!(!out.has("first.csv"), "it is not written yet");
+        told.fetch_add(1, Ordering::Relaxed);
+        ControlFlow::Break(())
+    };
+    let ran = scene.observed(&observer).unwrap();
+    assert!(told.into_inner() > 0 && ran.report.summary.studies[0].converged);
+    assert!(!ran.report.interrupted && ran.out.has("first.csv"));
 }
 
 const THREE: &str = "[[study]]\nname = \"first\"\nkind = \"relax\"\n[[study]]\nname = \"second\"\nkind = \"relax\"\n\
@@ -38,7 +59,7 @@ fn a_closed_ledger_is_the_last_word() {
     let (hangs, hung) = channel();
     let (go, gone) = channel::<()>();
     let gone = std::sync::Mutex::new(gone);
-    let observer = move |step: &foldwell::run::Progress| {
+    let observer = move |step: &Progress| {
         if step.study == "second" && hangs.send(()).is_ok() {
             let _ = gone.lock().unwrap().recv(); // until the ledger is closed; at once afterwards
         }

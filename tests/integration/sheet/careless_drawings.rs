@@ -241,7 +241,7 @@ fn random_drawings_come_to_an_end() {
 }
 
 /// Claim: ten thousand lines that all cross, and that lie side by side within the distance of merging, are refused, and
-/// those of a careless tessellation are read, within ten seconds. Source: processor time of a usual machine, several
+/// those of a careless tessellation, and two thousand through one point, are read, within ten seconds. Source: processor time of a usual machine, several
 /// times as much as is needed.
 #[test]
 fn ten_thousand_lines_take_seconds() {
@@ -264,12 +264,12 @@ fn ten_thousand_lines_take_seconds() {
         }
     }
     let mut bundle = rim.to_owned();
-    for k in 0..10_000 {
-        bundle += &format!("2 {} 0 {} 10000\n", 2 * k + 1, 19_999 - 2 * k);
+    for k in 0..2_000 {
+        bundle += &format!("2 {} 0 {} 10000\n", 10 * k + 5, 19_995 - 10 * k);
     }
     for (name, text, good) in [
         ("chords", chords, false),
-        ("bundle", bundle, false),
+        ("bundle", bundle, true),
         ("diagonals", rim.to_owned() + &diagonals, false),
         ("tessellation", tessellation, true),
     ] {

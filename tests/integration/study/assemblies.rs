@@ -19,9 +19,9 @@ type Vec3 = Vector3<f64>;
 
 const HOME: [usize; 2] = [0, 0];
 
-/// What joins two neighbours of those polygons that meet at an edge. A zipper's six-sided faces belong to both tubes: the
-/// triangles beside them are parts of one tube's faces, and the five-sided walls of the other fold; a triangle and such a
-/// wall do not hold each other.
+/// The joint of two neighbours among the polygons that meet at an edge. In a zipper the faces of six sides belong to both
+/// tubes: they are welded to the triangles beside them, which complete the faces of one tube, and fold against the walls
+/// of five sides, which belong to the other; triangle and wall are not joined.
 fn joint(sheet: &Sheet, meeting: usize, [one, other]: [usize; 2]) -> Glue {
     let sides = [one, other].map(|polygon| sheet.polygons[polygon].len());
     match (sides[0].min(sides[1]), sides[0].max(sides[1])) {

@@ -23,7 +23,7 @@ struct Drum {
 /// angle.
 type Laws = (fn(f64) -> f64, fn(f64, f64) -> f64);
 
-/// What a drum is made of: `EA`, the stiffness of creases, their laws, and whether the upper ring is rigid.
+/// The material of a drum: `EA`, the stiffness of creases, the laws of both, and whether the upper ring is a rigid plate.
 struct Made {
     bars: f64,
     creases: f64,

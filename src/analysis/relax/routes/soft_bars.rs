@@ -40,11 +40,12 @@ const DOUBTFUL_FORCE: f64 = 1e3;
 /// Part of the energy of a flat start that a state must keep to be in doubt: most patterns lose more than a third of
 /// it.
 const DOUBTFUL_PART: f64 = 0.9;
+
 /// A branch of rigid folding, by the creases and soft facets that have a rest angle other than 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "BranchChoiceSummary")]
 pub struct BranchChoice {
-    /// Their number.
+    /// Number of these creases and facets.
     pub hinges: usize,
     /// Number of those that are folded to the side of their rest angle.
     pub on_rest_side: usize,
