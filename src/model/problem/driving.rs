@@ -92,6 +92,13 @@ impl DrivenModel {
         Self::driven(model, Driven::Stiffness(TermKind::Bars), [stiffness.recip(), 0.0], effect)
     }
 
+    /// Makes a model whose bars that stretch have this part of their `compliances` ([`Model::soft_bars`]), and get all
+    /// of it.
+    pub(crate) fn by_softening(model: Model, compliances: Vec<(usize, f64)>, part: f64) -> Self {
+        let effect = Effect::Compliance(compliances);
+        Self::driven(model, Driven::Stiffness(TermKind::Bars), [part, 1.0], effect)
+    }
+
     fn driven(model: Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {
         let (first, way) = (model.base.clone(), (target - parameter).abs());
         let mut driven = Self { model, quantity, parameter, target, way, effect, first };

@@ -16,6 +16,12 @@ impl Model {
         lengths.into_iter().for_each(|(measure, length)| self.compliance[measure] = length / stiffness);
     }
 
+    /// Returns the number among the stiff measures and the compliance of each bar that stretches.
+    pub(crate) fn soft_bars(&self) -> Vec<(usize, f64)> {
+        let bars = self.stiff_of(TermKind::Bars).map(|(measure, _)| (measure, self.compliance[measure]));
+        bars.filter(|(_, compliance)| *compliance > 0.0).collect()
+    }
+
     /// Returns the smallest stiffness of the hinges that are not rigid, torque per radian and length; infinite if there
     /// are none.
     pub(crate) fn softest_hinge(&self) -> f64 {

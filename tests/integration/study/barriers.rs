@@ -134,15 +134,16 @@ fn crumpled_states_need_no_digits() {
     assert_eq!(found.wells.iter().map(|well| well.reached).sum::<usize>() + found.saddles, 10);
 }
 
-/// Claim: if most starts fail, the wells found are not a result, and the reasons are counted: facets of 1e-9 of the
-/// creases leave directions of almost no stiffness.
+/// Claim: if most starts fail, the wells found are not a result, and the reasons are counted: a drum with bars as soft
+/// as its creases has no state with triangles.
 #[test]
 fn failed_starts_are_counted() {
-    let ran = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10\nseed = 2").ran();
+    let soft = "bars = { stiffness = 1.0 }\ncreases = { stiffness = 1.0, rest = 3.0 }";
+    let ran = wells("drum", "", soft, "starts = 4\nseed = 2").ran();
     let (study, found) = (ran.study("a"), ran.wells("a"));
     let counted: usize = found.failures.iter().map(|one| one.starts).sum();
     assert!(2 * found.failed > found.starts && counted == found.failed && !study.converged, "{found:?}");
-    let said = format!("{} of 10 starts failed", found.failed);
+    let said = format!("{} of 4 starts failed", found.failed);
     assert!(study.reason.as_ref().unwrap().contains(&said) && found.failures.iter().all(|one| !one.reason.is_empty()));
 }
 

@@ -58,14 +58,21 @@ fn followed(run: &mut Run<'_>) -> Option<Ending> {
 /// Follows the path of rest values from the start of the relaxation.
 fn along_rests(run: &mut Run<'_>) -> Option<Ending> {
     let x = run.begin_anew();
-    let (own, targets) = (run.model.values(&x), run.model.rests());
-    run.model.set_rests(&own, &targets, 0.0);
+    let ends = [run.model.values(&x), run.model.rests()];
+    from_minimum(run, &|model| DrivenModel::by_rests(model, ends.clone()), x)
+}
+
+/// Minimises at the beginning of a drive and follows the minimum to its target. `None` where there is none to follow.
+pub(super) fn from_minimum(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, x: Vec<f64>) -> Option<Ending> {
+    let begin = drive(run.model.clone()).parameter();
+    drive_to(run, drive, begin);
     let begun = run.minimize(x);
-    run.model.set_rests(&own, &targets, 1.0);
-    match begun {
-        Ok(found) => along(run, &|model| DrivenModel::by_rests(model, [own.clone(), targets.clone()]), found),
-        Err(error) => is_interruption(&error).then_some(Err(error)),
+    if let Ok(found) = begun {
+        return along(run, drive, found);
     }
+    let target = drive(run.model.clone()).target();
+    drive_to(run, drive, target);
+    begun.err().filter(is_interruption).map(Err)
 }
 
 /// Follows a path of minima from a start to its target, where it ends with a minimum. `None` where it does not lead

@@ -110,7 +110,7 @@ pub(super) fn leave_if_better(run: &mut Run<'_>, ending: Ending) -> Ending {
     let forced = ending.as_ref().is_ok_and(|found| hides_others(run, found));
     run.prefer(
         ending,
-        |run| Some(from_the_start(run)),
+        |run| Some(from_the_start(run, &RATIOS)),
         |left, before| match (left, before) {
             (Err(NewtonError { failure: Failure::Unbounded { .. }, .. }), before) => before.is_err() || forced,
             _ => is_better(left, before),
@@ -125,15 +125,15 @@ pub(super) fn leave_if_better(run: &mut Run<'_>, ending: Ending) -> Ending {
 /// [`Failure::Interrupted`].
 pub(super) fn leave(run: &mut Run<'_>, _: Ending) -> Ending {
     run.soft_steps = 0..run.recorder.steps();
-    from_the_start(run)
+    from_the_start(run, &RATIOS)
 }
 
 /// Relaxes from the start with bars that stretch, then with rigid ones.
-fn from_the_start(run: &mut Run<'_>) -> Ending {
+pub(super) fn from_the_start(run: &mut Run<'_>, ratios: &[f64]) -> Ending {
     let start = run.begin_anew();
     let mut coordinates = run.model.coordinates(&start);
     let loose = Options { tolerance: INTERMEDIATE_TOLERANCE, ..run.options };
-    for ratio in RATIOS {
+    for &ratio in ratios {
         coordinates = match with_soft_bars(run, ratio, (&coordinates, None), loose) {
             Ok(found) => run.model.coordinates(&found.x),
             Err(error) if is_interruption(&error) => return Err(error),
