@@ -7,6 +7,17 @@ use crate::math::Vec2;
 /// Most entries in all strips, in multiples of the number of boxes.
 const ENTRIES: f64 = 4.0;
 
+/// A box over which a sweep has come, side by side with the others in memory.
+struct Open {
+    number: usize,
+    /// The lowest strip in which it is.
+    lowest: usize,
+    /// Its lower side.
+    low: f64,
+    /// Its upper corner.
+    high: Vec2,
+}
+
 /// Calls `visit` once for each pair of boxes that meet, until it breaks; boxes are given by their lower and upper
 /// corners. In `visit(p, q)` box `p` does not begin to the left of box `q`.
 ///
@@ -24,22 +35,24 @@ pub(super) fn for_pairs_that_meet<B>(
     let strip = |y: f64| ((y - low) / (high - low) * strips).min(strips - 1.0) as usize;
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|&a, &b| boxes[a][0].x.total_cmp(&boxes[b][0].x));
+    let lowest: Vec<usize> = boxes.iter().map(|corners| strip(corners[0].y)).collect();
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); strips as usize];
     for p in order {
-        members[strip(boxes[p][0].y)..=strip(boxes[p][1].y)].iter_mut().for_each(|strip| strip.push(p));
+        members[lowest[p]..=strip(boxes[p][1].y)].iter_mut().for_each(|strip| strip.push(p));
     }
     for (here, members) in members.into_iter().enumerate() {
-        let mut open: Vec<usize> = Vec::new();
+        let mut open: Vec<Open> = Vec::new();
         for p in members {
             let [low, high] = boxes[p];
-            open.retain(|&q| boxes[q][1].x >= low.x);
-            for &q in &open {
-                let common = low.y.max(boxes[q][0].y);
-                if common <= high.y.min(boxes[q][1].y) && strip(common) == here {
-                    visit(p, q)?;
+            open.retain(|other| other.high.x >= low.x);
+            for other in &open {
+                // a pair that shares several strips is visited in the lowest of them
+                let is_lowest = lowest[p].max(other.lowest) == here;
+                if is_lowest && low.y <= other.high.y && other.low <= high.y {
+                    visit(p, other.number)?;
                 }
             }
-            open.push(p);
+            open.push(Open { number: p, lowest: lowest[p], low: low.y, high });
         }
     }
     ControlFlow::Continue(())

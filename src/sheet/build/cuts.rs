@@ -114,11 +114,11 @@ fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedg
             fan.0.extend(members);
             fan.1.extend(borders);
         }
-        fan.0.sort_unstable();
         fans = apart;
         fans.push(fan);
     }
     let mut fans: Vec<Vec<Wedge>> = fans.into_iter().map(|(members, _)| members).collect();
+    fans.iter_mut().for_each(|members| members.sort_unstable());
     fans.sort_unstable();
     fans
 }

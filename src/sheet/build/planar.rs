@@ -43,8 +43,8 @@ fn touches(a: Vec3, b: Vec3, c: Vec3) -> bool {
 fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
     if let Some(common) = p.iter().find(|v| q.contains(v)) {
         let [b, c] = [p, q].map(|s| x[if s[0] == *common { s[1] } else { s[0] }]);
-        let a = x[*common];
-        return turn(a, b, c) == 0.0 && (b - a).xy().dot(&(c - a).xy()) > 0.0;
+        let [u, v] = [b, c].map(|end| (end - x[*common]).xy());
+        return u.dot(&v) > 0.0 && u.perp(&v).powi(2) <= ALIGNED * ALIGNED * u.norm_squared() * v.norm_squared();
     }
     let ([a, b], [c, d]) = (p.map(|v| x[v]), q.map(|v| x[v]));
     let crosses = turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;

@@ -124,11 +124,10 @@ impl Places {
             for j in cell(x.y - self.tolerance)..=cell(x.y + self.tolerance) {
                 let mut next = self.cells.get(&[i, j]).copied();
                 while let Some(v) = next {
-                    let distance = (self.points[v] - x).norm();
-                    if distance <= SAME_POINT * self.tolerance {
+                    if self.is_at(v, x) {
                         return v;
                     }
-                    if distance <= self.tolerance {
+                    if (self.points[v] - x).norm() <= self.tolerance {
                         near.push(v);
                     }
                     next = self.before[v];
@@ -141,6 +140,11 @@ impl Places {
         self.before.push(self.cells.insert([cell(x.x), cell(x.y)], new));
         near.into_iter().for_each(|v| self.merge(v, new));
         new
+    }
+
+    /// Whether point `v` is not told apart from one at `x`.
+    fn is_at(&self, v: usize, x: Vec2) -> bool {
+        (self.points[v] - x).norm() <= SAME_POINT * self.tolerance
     }
 
     /// Returns the first of the points that are one with `v`.
@@ -223,9 +227,11 @@ impl Cuts<'_> {
         let [ends_p, ends_q] = [self.edges[p], self.edges[q]];
         let mut touching = false;
         for (edge, ends, points) in [(p, ends_p, ends_q), (q, ends_q, ends_p)] {
-            for v in points.into_iter().filter(|&v| touches(self.places, ends, v)).collect::<Vec<_>>() {
-                self.split(edge, v);
-                touching = true;
+            for v in points {
+                if touches(self.places, ends, v) {
+                    self.split(edge, v);
+                    touching = true;
+                }
             }
         }
         if touching || ends_p.iter().any(|v| ends_q.contains(v)) {
@@ -236,13 +242,16 @@ impl Cuts<'_> {
         if from * to >= 0.0 || turn(a, b, c) * turn(a, b, d) >= 0.0 {
             return;
         }
-        let v = self.places.number(a + (b - a) * (from / (from - to)));
+        let x = a + (b - a) * (from / (from - to));
+        let mut last = [p, q].into_iter().filter_map(|edge| self.of_edge[edge].last().copied());
+        let v = last.find(|&v| self.places.is_at(v, x)).unwrap_or_else(|| self.places.number(x));
         [p, q].into_iter().for_each(|edge| self.split(edge, v));
     }
 
     /// Splits an edge at a point, which is merged with the end of the edge if it is near.
     fn split(&mut self, edge: usize, v: usize) {
-        let x = self.places.position(v);
+        let v = self.places.first(v);
+        let x = self.places.points[v];
         let off = self.edges[edge].map(|end| (self.places.points[end] - x).norm());
         let nearer = usize::from(off[1] < off[0]);
         if off[nearer] <= NEAR_END * self.places.tolerance {
@@ -260,8 +269,8 @@ fn touches(places: &Places, ends: [usize; 2], v: usize) -> bool {
     }
     let ([a, b], x) = (ends.map(|v| places.points[v]), places.points[v]);
     let along = b - a;
-    let t = (x - a).dot(&along) / along.norm_squared();
-    t > 0.0 && t < 1.0 && (x - a - along * t).norm() <= places.tolerance
+    let (squared, t) = (along.norm_squared(), (x - a).dot(&along));
+    t > 0.0 && t < squared && (x - a).perp(&along).powi(2) <= places.tolerance.powi(2) * squared
 }
 
 /// Returns twice the signed area of a triangle, with the right sign however thin it is.

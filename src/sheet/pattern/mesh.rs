@@ -89,7 +89,8 @@ fn untidy(lines: &[Line], disorder: Disorder, tolerance: f64) -> Misdrawn {
 
 /// Builds the sheet of pieces between these points.
 fn built(lines: &[Line], coords: Vec<Vec3>, pieces: &[Piece], head: &Drawing) -> Result<Sheet, Defect> {
-    let mut drawn = Drawing { coords, planar: true, ..head.clone() };
+    // whether edges cross is checked where the faces are made
+    let mut drawn = Drawing { coords, planar: false, ..head.clone() };
     let of = |piece: &Piece| &lines[piece.segment];
     let edges: Vec<[usize; 2]> = pieces.iter().map(|piece| piece.ends).collect();
     drawn.assignments = pieces.iter().map(|piece| (piece.ends, of(piece).letter)).collect();

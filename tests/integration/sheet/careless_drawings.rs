@@ -241,7 +241,7 @@ fn random_drawings_come_to_an_end() {
 }
 
 /// Claim: ten thousand lines that all cross, and that lie side by side within the distance of merging, are refused, and
-/// those of a careless tessellation, and two thousand through one point, are read, within ten seconds. Source:
+/// those of a careless tessellation, and five thousand through one point, are read, within ten seconds. Source:
 /// processor time of a usual machine, several times as much as is needed.
 #[test]
 fn ten_thousand_lines_take_seconds() {
@@ -263,15 +263,15 @@ fn ten_thousand_lines_take_seconds() {
             tessellation += &format!("{kind} {} {} {} {}\n", at(j), at(i), at(j + 1), at(i));
         }
     }
-    // two thousand lines through the middle of a square, which rounding errors set apart there
+    // five thousand lines through the middle of a square, which rounding errors set apart there
     let mut bundle = String::from("1 0 0 1000 0\n1 1000 0 1000 1000\n1 1000 1000 0 1000\n1 0 1000 0 0\n");
     let on_the_rim = |k: usize| {
-        let at = k as f64 / 1000.0;
+        let at = k as f64 / 2500.0;
         let along = 1000.0 * at.fract();
         [[along, 0.0], [1000.0, along], [1000.0 - along, 1000.0], [0.0, 1000.0 - along]][at as usize % 4]
     };
-    for k in 0..2_000 {
-        let [[x0, y0], [x1, y1]] = [on_the_rim(k), on_the_rim(k + 2_000)];
+    for k in 0..5_000 {
+        let [[x0, y0], [x1, y1]] = [on_the_rim(k), on_the_rim(k + 5_000)];
         bundle += &format!("2 {x0} {y0} {x1} {y1}\n");
     }
     for (name, text, good) in [
