@@ -55,7 +55,7 @@ PATH_COLUMNS = ("branch,step,arc_length,drive,reaction,work,energy_bars,energy_c
                 "residual_force,residual_length,negative_eigenvalues,event").split(",")
 RATIOS = ["poisson_in_plane", "poisson_bending"]
 CYLINDER = ["curvature", "theta1", "theta2", "strain11", "strain22", "strain12"]
-EVENTS = {"", "limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"}
+EVENTS = {"", "limit-load", "limit-displacement", "branch-point", "self-intersection", "snap", "stop"}
 
 
 class Checks:

@@ -59,7 +59,7 @@ DRIVEN = {
     "rest": ("folded (1: as given)", "derivative of the energy"),
     "stiffness": ("stiffness", "derivative of the energy"),
 }
-EVENTS = {"limit-load": "o", "limit-displacement": "s", "branch-point": "D", "self-intersection": "X", "stop": "|"}
+EVENTS = {"limit-load": "o", "limit-displacement": "s", "branch-point": "D", "self-intersection": "X", "snap": "^", "stop": "|"}
 WORDS = {"energy_total": "energy", "arc_length": "arc length (rad)"}
 
 

@@ -301,6 +301,7 @@ def path(
     tolerance: float | None = None,
     max_step: float | None = None,
     switch: bool | None = None,
+    snap: bool | None = None,
     stop: Mapping[str, Any] | None = None,
     at: ArrayLike | None = None,
     probe: Sequence[Mapping[str, Any]] | None = None,
@@ -317,6 +318,8 @@ def path(
         tolerance: Bound on both scaled residuals.
         max_step: Longest step in arc length.
         switch: Whether branches that leave at branch points are followed too.
+        snap: Whether the sheet goes to the minimum beyond where the driven value cannot grow, instead of along the path,
+            on which it turns back; left out: no.
         stop: Conditions of which the first ends a branch: those of `trace`, and `{"drive": v}`, `{"reaction": r}`,
             `{"displacement": {"probe": name, "value": d}}`, `{"states": n}`, `{"limit_points": n}`.
         at: Values of the drive of which the states are rows of their own, wherever the path passes them.
@@ -360,6 +363,7 @@ def fold(
     tolerance: float | None = None,
     max_step: float | None = None,
     switch: bool | None = None,
+    snap: bool | None = None,
     stop: Mapping[str, Any] | None = None,
     at: ArrayLike | None = None,
     probe: Sequence[Mapping[str, Any]] | None = None,
@@ -372,6 +376,7 @@ def fold(
     Args:
         assembly: The sheet with its energy, with rest angles such as `rest="assigned"`.
         start, tolerance, max_step, switch, stop, probe, response: As in `path`.
+        snap: As in `path`; left out: yes, without `switch`.
         at: Parts of the way, from 0 to 1, of which the states are rows of their own.
         name, draw, check, threads, progress, must_converge: As for every study, see `compute`.
 

@@ -6,7 +6,7 @@ mod plot;
 mod summary;
 mod table;
 
-use self::drive::{drive, drive_name, folds, follows, has_effect, lists, moves, then};
+use self::drive::{drive, drive_name, folds, follows, has_effect, lists, moves, snaps, stays_on_one_branch, then};
 use self::end::{INSIDE_OUT, end_word, inside_out, reason};
 use self::plot::{Words, event_word, figure};
 use super::answer::Answer;
@@ -49,6 +49,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     stop(context, spec)?;
     probes(context, spec)?;
     follows(context, spec)?;
+    stays_on_one_branch(context, spec)?;
     match spec.start.as_ref().map(|start| (&**start, start.span())) {
         Some((StartSpec::Random(_), span)) => {
             let help =
@@ -69,6 +70,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     let start = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
     let options = PathOptions {
         switch: spec.switch,
+        snap: snaps(context, spec),
         stop,
         at: spec.at.iter().map(|value| value.0).collect(),
         then: then(context, spec),

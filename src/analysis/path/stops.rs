@@ -65,13 +65,15 @@ pub(super) struct Stops<'a> {
     /// The crease's angle in the last state that was asked for, from which angles continue.
     last_angle: f64,
     crossing: Option<SelfIntersection>,
+    /// Whether the path ends where the driven value turns back.
+    snap: bool,
 }
 
 impl<'a> Stops<'a> {
-    pub(super) fn new(assembly: &'a Assembly, stop: &'a PathStop, has_conjugate_limits: bool) -> Self {
+    pub(super) fn new(assembly: &'a Assembly, stop: &'a PathStop, has_conjugate_limits: bool, snap: bool) -> Self {
         let crossing = stop.self_intersection.then(|| SelfIntersection::new(assembly));
         let last_angle = stop.crease_angle.map_or(0.0, |(edge, _)| assembly.drawn_angles()[edge]);
-        Self { assembly, stop, has_conjugate_limits, last_angle, crossing }
+        Self { assembly, stop, has_conjugate_limits, last_angle, crossing, snap }
     }
 
     /// The watched crease's angle less the one at which to stop.
@@ -123,6 +125,7 @@ impl Watch<DrivenModel> for Stops<'_> {
         let Some(last) = marks.last() else { return false };
         let enough =
             || self.stop.limit_points.is_some_and(|most| marks.iter().filter(|mark| is_limit(mark)).count() >= most);
-        matches!(last, PathMark::Watched(_)) || (is_limit(last) && enough())
+        let snaps = self.snap && *last == PathMark::ParameterTurns;
+        snaps || matches!(last, PathMark::Watched(_)) || (is_limit(last) && enough())
     }
 }

@@ -71,7 +71,8 @@ fn drawn(plot: &ReactionPlot, caption: &Caption) -> Canvas {
     }
     for (number, branch) in plot.branches.iter().enumerate() {
         let states: Vec<PlottedState> = branch.iter().filter(has).copied().collect();
-        for (piece, stable) in pieces(&states) {
+        let stretches = states.chunk_by(|_, next| next.event != Some("snap"));
+        for (piece, stable) in stretches.flat_map(pieces) {
             let places: Vec<PaperPoint> = piece.iter().map(place).collect();
             canvas.line(&places, curve(number, stable));
             places.windows(2).for_each(|ends| take(&mut canvas, ends[0], ends[1]));
@@ -122,6 +123,7 @@ fn mark(event: &str) -> Style {
         "limit-displacement" => Style::area(PAPER).outlined(INK, 2.2),
         "branch-point" => Style::area(BRANCHES).outlined(INK, 1.4),
         "self-intersection" => Style::area(PAPER).outlined(MOUNTAIN, 2.4),
+        "snap" => Style::area(MOUNTAIN).outlined(PAPER, 1.0),
         _ => Style::area(GREY).outlined(PAPER, 1.0),
     }
 }
@@ -155,7 +157,7 @@ fn legend(canvas: &mut Canvas, plot: &ReactionPlot) {
         let named = plot.branches.iter().enumerate().take(SERIES.len());
         entries.extend(named.map(|(number, _)| (Mark::Line(curve(number, true)), format!("branch {number}"))));
     }
-    for event in ["limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"] {
+    for event in ["limit-load", "limit-displacement", "branch-point", "self-intersection", "snap", "stop"] {
         if all().any(|state| state.event == Some(event)) {
             entries.push((Mark::Circle(RADIUS, mark(event)), event.replace('-', " ")));
         }

@@ -311,6 +311,9 @@ pub struct PathSpec {
     /// Whether branches that leave at branch points are followed too.
     #[serde(default)]
     pub switch: bool,
+    /// Whether the sheet goes to the minimum beyond where the driven value cannot grow, instead of along the path, on
+    /// which it turns back; left out: whether it is of kind `fold`, without `switch`.
+    pub snap: Option<Located<bool>>,
     /// The first of these that is met ends a branch; `curvature` is one of `screw` and `tube`.
     pub stop: Option<Located<StopSpec>>,
     /// Values of the drive of which the states are rows of their own, wherever the path passes them; of `fold` parts of

@@ -26,6 +26,22 @@ pub(super) fn folds(context: &Context<'_>) -> bool {
     matches!(*context.study.kind, StudyKind::Fold(_))
 }
 
+/// Whether the sheet snaps where the driven value turns back.
+pub(super) fn snaps(context: &Context<'_>, spec: &PathSpec) -> bool {
+    spec.snap.as_ref().map_or_else(|| folds(context) && !spec.switch, |snap| **snap)
+}
+
+/// Checks that a sheet that snaps, which is on one branch, is to follow no others.
+pub(super) fn stays_on_one_branch(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    match spec.snap.as_ref().filter(|snap| ***snap && spec.switch) {
+        Some(snap) => {
+            let help = "leave out snap or switch";
+            Err(context.file.error_at(snap.span(), "a sheet that snaps follows no other branches", help).into())
+        }
+        None => Ok(()),
+    }
+}
+
 /// Returns the name of the drive that the study names, or of the only one of the scene.
 pub(super) fn drive_name<'a>(context: &'a Context<'_>, spec: &'a PathSpec) -> &'a str {
     if folds(context) {

@@ -23,6 +23,9 @@ pub(super) fn reason(branch: &PathBranch) -> Option<String> {
              cost nothing, or a stiffness is too far from the others",
             rounded(at, 6)
         )),
+        PathEnd::NoMinimum => {
+            Some(format!("the sheet snaps at drive {}, and no minimum was found beyond", rounded(at, 6)))
+        }
         PathEnd::TooManySteps => {
             let count = branch.points.len();
             Some(format!(
@@ -56,6 +59,7 @@ pub(super) fn end_word(end: &PathEnd) -> &'static str {
         PathEnd::Retraced => "retraced",
         PathEnd::TooManySteps => "too-many-steps",
         PathEnd::Failed => "failed",
+        PathEnd::NoMinimum => "no-minimum",
         PathEnd::Interrupted => "interrupted",
     }
 }

@@ -67,6 +67,7 @@ pub(crate) fn event_word(event: PathEvent) -> &'static str {
         PathEvent::LimitDisplacement => "limit-displacement",
         PathEvent::BranchPoint => "branch-point",
         PathEvent::SelfIntersection => "self-intersection",
+        PathEvent::Snap => "snap",
         PathEvent::Stop => "stop",
     }
 }

@@ -29,7 +29,7 @@ pub struct PathBranchSummary {
     /// Number of the branch.
     pub branch: usize,
     /// How it ended.
-    #[schemars(extend("enum" = ["arrived", "stop", "returned", "retraced", "failed", "too-many-steps", "interrupted"]))]
+    #[schemars(extend("enum" = ["arrived", "stop", "returned", "retraced", "failed", "no-minimum", "too-many-steps", "interrupted"]))]
     pub end: String,
     /// Number of its states.
     pub steps: usize,
@@ -67,7 +67,7 @@ pub struct PathBranchSummary {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathEventSummary {
     /// The kind of the event.
-    #[schemars(extend("enum" = ["limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"]))]
+    #[schemars(extend("enum" = ["limit-load", "limit-displacement", "branch-point", "self-intersection", "snap", "stop"]))]
     pub event: String,
     /// The driven value; null: infinite stiffness.
     pub drive: Option<f64>,

@@ -21,6 +21,7 @@ mod plasticity;
 mod pressure;
 mod reasons;
 mod response_runs;
+mod snaps;
 mod touching;
 mod waterbomb_base;
 mod wells_of_parts;

@@ -76,6 +76,18 @@ fn a_path_goes_on_behind_the_largest_pressure() {
     assert!(limits.iter().any(|limit| (2.0 * limit - largest).abs() < 1e-9), "{limits:?}, expected {}", largest / 2.0);
 }
 
+/// Claim: where no equilibrium lies beyond a limit point this is said: a tetrahedron is blown up by no more than its
+/// largest pressure, from which it cannot snap anywhere.
+#[test]
+fn nothing_lies_beyond_the_largest_pressure() {
+    let lines = "[[pressure]]\nvalue = 2.0\n[[drive]]\nname = \"blown\"\nload = true\nto = 0.4\n[[study]]\nname = \"blown\"\n\
+                 kind = \"path\"\ndrive = \"blown\"\nsnap = true\n";
+    let ran = tetrahedron(lines).ran();
+    let study = &ran.report.summary.studies[0];
+    assert_eq!(ran.path("blown").branches[0].end, "no-minimum");
+    assert!(!study.converged && study.reason.as_ref().unwrap().contains("no minimum was found beyond"), "{study:?}");
+}
+
 /// Claim: the energy of a well under pressure is that of the bars less the work of the pressure since the drawn state,
 /// of which tables know nothing. Tolerance: 1e-9, as residuals are 1e-12.
 #[test]

@@ -44,6 +44,13 @@ impl FromIterator<PathEntry> for PathRecord {
 }
 
 impl PathRecord {
+    /// Takes what was recorded under the number of a branch, as the record of a path of its own.
+    pub fn part(&mut self, branch: usize) -> Self {
+        let mut entries = self.0.get_mut(branch).map(std::mem::take).unwrap_or_default();
+        entries.iter_mut().for_each(|entry| entry.branch = 0);
+        Self(vec![entries])
+    }
+
     /// Takes the entries of a branch that begins with these states. If another one is recorded nothing is taken, and
     /// what was recorded of later branches is forgotten.
     pub(super) fn take(&mut self, branch: usize, first: &[MarkedState]) -> Vec<PathEntry> {
