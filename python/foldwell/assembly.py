@@ -70,7 +70,7 @@ class Assembly:
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
         laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
-        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
+        mass: Table | None = None, material: Table | None = None, membrane: bool | None = None, units: Table | None = None,
         pins: Tables | None = None, loads: Tables | ArrayLike | None = None, pressures: Tables | None = None,
         parts: Tables | None = None, ties: Tables | None = None, springs: Tables | None = None,
     ) -> Assembly:
@@ -107,6 +107,8 @@ class Assembly:
             mass: Mass, from which frequencies and weight follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
             material: The elastic sheet from which stiffnesses follow that are not given: `{"young": 1400.0, "poisson": 0.4,
                 "thickness": 0.3, "crease_length": 20.0}`; without `crease_length` there are no creases. Left out: none.
+            membrane: Whether triangles are stretched and sheared as a plate of the `material`, in the place of bars that are not
+                given. Left out: no.
             units: Names of units for axes and xarray, `{"length": "mm", "force": "N"}`; they change no number.
 
         Raises:
@@ -132,7 +134,7 @@ class Assembly:
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
         laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
-        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
+        mass: Table | None = None, material: Table | None = None, membrane: bool | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
 
@@ -154,7 +156,7 @@ class Assembly:
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
         laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
-        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
+        mass: Table | None = None, material: Table | None = None, membrane: bool | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a screw: one cell repeated by two commuting screw motions, so that the sheet can be a cylinder.
 
@@ -184,7 +186,7 @@ class Assembly:
         bars: Stiffness | None = None, rest_lengths: Rest | None = None, creases: Stiffness | None = None, rest: Rest | None = None,
         fraction: float | None = None, facets: Stiffness | None = None, facet_rest: Rest | None = None,
         laws: Laws | None = None, yields: Laws | None = None, locks: Locks | None = None, drives: Tables | None = None,
-        mass: Table | None = None, material: Table | None = None, units: Table | None = None,
+        mass: Table | None = None, material: Table | None = None, membrane: bool | None = None, units: Table | None = None,
     ) -> Assembly:
         """Makes a tube: the sheet rolled up, or drawn as a tube, and closed so that the cell `seam` lies on cell (0, 0).
 
@@ -474,7 +476,7 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     if not isinstance(sheet, Sheet):
         raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
     given = {name: value for name, value in given.items() if value is not None}
-    energy: dict[str, dict[str, Any]] = {term: {"stiffness": given[term]} for term in ("bars", "creases", "facets") if term in given}
+    energy: dict[str, Any] = {term: {"stiffness": given[term]} for term in ("bars", "creases", "facets") if term in given}
     if isinstance(given.get("facets"), str) and given["facets"] != "mesh":
         energy["facets"] = {"model": given["facets"]}
     own = {"bars": ("rest", "rest_lengths"), "creases": ("rest", "rest"), "facets": ("rest", "facet_rest")}
@@ -488,6 +490,8 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
             raise TypeError(f"{name} is given without {term}")
         if value is not None:
             energy.setdefault(term, {})[key] = value
+    if "membrane" in given:
+        energy["membrane"] = given["membrane"]
     title = sheet.title or "sheet"
     place = {"mesh": title, "domain": domain, **{key: given[key] for key in PLACE if key in given}}
     scene: dict[str, Any] = {"title": title, "sheet": place, "energy": energy, "lock": _locks(given.get("locks", ()))}

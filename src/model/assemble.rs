@@ -109,7 +109,7 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
         ));
     }
     for own in &terms.own {
-        let list = if own.is_stiff() { &mut stiff } else { &mut soft };
+        let list = if own.has_tensions { &mut stiff } else { &mut soft };
         list.terms.push(own.elements.clone());
         list.springs.extend(&own.springs);
     }

@@ -42,13 +42,14 @@ impl TermKind {
     }
 }
 
-/// A term: a list of elements with the same measure `M` of `N` points, which have `D = 3 N` coordinates.
+/// A term: a list of elements with a measure `M` of `N` points, which have `D = 3 N` coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Term<M, const N: usize, const D: usize> {
     /// The kind of the elements.
     kind: TermKind,
     name: Arc<str>,
-    measure: M,
+    /// The measure of each element, or one for all.
+    measures: Vec<M>,
     /// The points of each element, in the order of the measure's arguments, and the number of its edge in the tiling.
     elements: Vec<([Site; N], Option<usize>)>,
     /// How each element stores energy.
@@ -125,7 +126,17 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
         stored: impl Fn(Option<usize>) -> Stored,
     ) -> Self {
         let stored = elements.iter().map(|(_, edge)| stored(*edge)).collect();
-        Self { kind, name: name.into(), measure, elements, stored }
+        Self { kind, name: name.into(), measures: vec![measure], elements, stored }
+    }
+
+    /// Makes a term of springs, each with a measure of its own.
+    pub(super) fn of_each((kind, name): (TermKind, &str), elements: Vec<(M, [Site; N])>) -> Self {
+        let (measures, elements): (Vec<M>, Vec<_>) = elements.into_iter().map(|(m, sites)| (m, (sites, None))).unzip();
+        Self { kind, name: name.into(), measures, stored: vec![Stored::Spring; elements.len()], elements }
+    }
+
+    fn measure(&self, k: usize) -> &M {
+        if let [all] = &self.measures[..] { all } else { &self.measures[k] }
     }
 }
 
@@ -163,15 +174,16 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D
     }
 
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
-        self.measure.value(&domain.points(x, &self.elements[k].0))
+        self.measure(k).value(&domain.points(x, &self.elements[k].0))
     }
 
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
         let sites = &self.elements[k].0;
         out.gradient.clear();
         out.hessian.clear();
+        let of = self.measure(k);
         let mut measure = |points: &[Vec3; N]| {
-            if want_hessian { self.measure.hessian(points, &mut out.hessian) } else { self.measure.gradient(points) }
+            if want_hessian { of.hessian(points, &mut out.hessian) } else { of.gradient(points) }
         };
         out.value = if domain.is_fixed_translation() {
             let (value, gradient) = measure(&domain.points(x, sites));
@@ -189,7 +201,7 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D
     }
 
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Option<Taylor> {
-        self.measure.along(&self.elements[k].0.map(|site| domain.path(x, site)))
+        self.measure(k).along(&self.elements[k].0.map(|site| domain.path(x, site)))
     }
 }
 

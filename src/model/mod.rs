@@ -38,6 +38,7 @@ mod law;
 mod mass;
 mod material;
 pub mod measure;
+mod membrane;
 mod own_term;
 mod part;
 mod plasticity;

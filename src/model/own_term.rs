@@ -29,6 +29,8 @@ use std::sync::Arc;
 pub struct OwnTerm {
     pub(super) elements: Arc<dyn Elements>,
     pub(super) springs: Vec<Spring>,
+    /// Whether its elements have tensions as unknowns, as is best where they may be much stiffer than others.
+    pub(super) has_tensions: bool,
 }
 
 impl OwnTerm {
@@ -53,7 +55,7 @@ impl OwnTerm {
         law: impl Law + 'static,
     ) -> Self {
         let term = Self::storing(name, measure, elements, Stored::Law(Arc::new(law)));
-        assert!(!term.is_stiff(), "a rigid element has no law");
+        assert!(!term.has_tensions, "a rigid element has no law");
         term
     }
 
@@ -64,7 +66,14 @@ impl OwnTerm {
         stored: Stored,
     ) -> Self {
         let (sites, springs) = elements.into_iter().map(|(sites, spring)| ((sites, None), spring)).unzip();
-        Self { elements: Arc::new(Term::new((TermKind::Own, name), measure, sites, |_| stored.clone())), springs }
+        let elements = Arc::new(Term::new((TermKind::Own, name), measure, sites, |_| stored.clone()));
+        Self::of(elements, springs)
+    }
+
+    /// Makes a term of these elements, which have tensions where one of them is rigid.
+    pub(super) fn of(elements: Arc<dyn Elements>, springs: Vec<Spring>) -> Self {
+        let has_tensions = springs.iter().any(|spring| spring.stiffness.is_infinite());
+        Self { elements, springs, has_tensions }
     }
 
     /// Returns its name.
@@ -75,11 +84,6 @@ impl OwnTerm {
     /// Whether it is a load and no energy: the pressure on faces.
     pub fn is_load(&self) -> bool {
         self.elements.kind() == TermKind::Pressure
-    }
-
-    /// Whether its elements have tensions as unknowns: one of them is rigid.
-    pub(super) fn is_stiff(&self) -> bool {
-        self.springs.iter().any(|spring| spring.stiffness.is_infinite())
     }
 }
 

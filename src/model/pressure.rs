@@ -115,7 +115,7 @@ impl OwnTerm {
         let kind = TermKind::Pressure;
         let push: Arc<dyn Law> = Arc::new(Push);
         let term = Term::new((kind, kind.name()), VolumeFrom(centre), elements, |_| Stored::Law(push.clone()));
-        Ok(Self { elements: Arc::new(term), springs })
+        Ok(Self::of(Arc::new(term), springs))
     }
 }
 

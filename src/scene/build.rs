@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
     }
 
     fn terms(&self) -> Result<Terms, SceneError> {
-        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec } = &self.file.scene.energy;
+        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec, .. } = &self.file.scene.energy;
         let [bar_law, crease_law, facet_law] = laws::given(self.file, &self.values)?;
         let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
         let bars = match self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)? {
@@ -251,6 +251,7 @@ impl<'a> Reader<'a> {
         }
         let Some(material) = material(self.file) else { return Ok(None) };
         Ok(match of {
+            ElementKind::Bars if self.file.scene.energy.has_membrane_alone() => None,
             ElementKind::Bars => Some(super::material::bars(self.file, self.assembly, &material)?),
             ElementKind::Creases => material.creases(),
             ElementKind::Facets => Some(material.facets(self.assembly)),
@@ -389,6 +390,7 @@ impl<'a> Reader<'a> {
         let mut held = places.held()?;
         let (mut parts, springs) = (places.parts(&held)?, places.springs()?);
         ties::add((self.file, self.assembly), &mut held, &mut parts)?;
-        Ok(Terms { parts, pins: held.pins, guides: held.guides, own: springs.into_iter().collect(), ..terms })
+        let own = springs.into_iter().chain(super::material::membrane(self.file, self.assembly)).collect();
+        Ok(Terms { parts, pins: held.pins, guides: held.guides, own, ..terms })
     }
 }

@@ -3,7 +3,7 @@
 use super::elements::name;
 use super::spec::{FacetModel, MaterialSpec};
 use super::{Located, SceneError, SceneFile};
-use crate::model::{Assembly, Material, Stiffness};
+use crate::model::{Assembly, Material, OwnTerm, Stiffness};
 use crate::sheet::{Sheet, with_centres};
 
 /// Checks that every term of the energy has a stiffness, or the material one for it.
@@ -18,6 +18,10 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         let Some(span) = without.filter(|_| !follows && !of_curve) else { continue };
         let help = "`stiffness` has to be given here, or follow from [material], for creases with `crease_length`";
         return Err(file.error_at(span, "missing key `stiffness`", help));
+    }
+    if let Some(membrane) = energy.membrane.as_ref().filter(|_| energy.has_membrane() && material.is_none()) {
+        let help = "give [material] with `young`, `poisson` and `thickness`";
+        return Err(file.error_at(membrane.span(), "a membrane needs a material", help));
     }
     Ok(())
 }
@@ -68,4 +72,10 @@ pub(super) fn bars(file: &SceneFile, assembly: &Assembly, material: &Material) -
         return Err(file.error_at(span, message, help));
     }
     Ok(bars)
+}
+
+/// Returns the membrane of the sheet; `None` if the scene asks for none.
+pub(super) fn membrane(file: &SceneFile, assembly: &Assembly) -> Option<OwnTerm> {
+    let material = material(file).filter(|_| file.scene.energy.has_membrane())?;
+    Some(OwnTerm::membrane(assembly, &material))
 }

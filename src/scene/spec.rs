@@ -201,9 +201,21 @@ pub struct EnergySpec {
     pub creases: Option<Located<CreasesSpec>>,
     /// Hinges at the diagonals of polygons; left out, polygons are rigid, unless there is a material.
     pub facets: Option<Located<FacetsForm>>,
+    /// Whether triangles are stretched and sheared as a plate of the material, in the place of bars; left out: false.
+    pub membrane: Option<Located<bool>>,
 }
 
 impl EnergySpec {
+    /// Whether there is a membrane.
+    pub(crate) fn has_membrane(&self) -> bool {
+        self.membrane.as_deref() == Some(&true)
+    }
+
+    /// Whether a membrane is in the place of bars.
+    pub(crate) fn has_membrane_alone(&self) -> bool {
+        self.has_membrane() && self.bars.is_none()
+    }
+
     /// The measured curves of all terms.
     pub(crate) fn curves(&self) -> Vec<&CurveSpec> {
         let (bars, hinges) = self.laws();

@@ -12,6 +12,7 @@ mod kept_states;
 mod landscape_runs;
 mod laws;
 mod laws_by_letter;
+mod membranes;
 mod modes_of_parts;
 mod panels;
 mod paths;

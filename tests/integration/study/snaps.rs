@@ -33,6 +33,7 @@ fn patterns_snap_to_their_flat_fold() {
         let snaps = branch.events.iter().filter(|event| event.event == "snap").count();
         assert!(branch.end == "arrived" && branch.stable && snaps > 0, "{mesh}: {branch:?}");
         assert!(branch.energy.is_some_and(|energy| energy < 1e-20), "{mesh}: {:?}", branch.energy);
+        assert!(branch.rest_sides.is_some_and(|sides| sides.hinges == sides.on_rest_side), "{mesh}");
         let mut free: f64 = 0.0;
         let mut snapped = false;
         for row in 0..table.len() {
