@@ -212,6 +212,17 @@ impl Model {
         coordinate.checked_sub(first).map_or(1.0, |shared| self.units[shared])
     }
 
+    /// Returns the unknowns of the pose of every rigid part.
+    pub(crate) fn poses(&self) -> Vec<Vec<usize>> {
+        let mut poses = vec![vec![]; self.equations.bodies.coordinates() / POSE];
+        for (unknown, &coordinate) in self.free.iter().enumerate() {
+            if let Some(pose) = (coordinate as usize).checked_sub(self.points()) {
+                poses[pose / POSE].push(unknown);
+            }
+        }
+        poses
+    }
+
     /// Returns the rates of all coordinates for given rates of the unknowns; zero where a coordinate is held.
     pub fn velocity(&self, rates: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.base.len()];

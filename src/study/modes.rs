@@ -48,8 +48,7 @@ fn masses(context: &Context<'_>) -> Result<(), StudyError> {
         let help = match error {
             ModesError::Massless { .. } => "give every vertex a mass, mass = { vertex = 1.0 }",
             _ => {
-                "give domain = \"patch\" without [[part]], or \"torus\" with lattice = \"fixed\"; leave out `mass` for eigenvalues \
-                 alone"
+                "give domain = \"patch\", or \"torus\" with lattice = \"fixed\"; leave out `mass` for eigenvalues alone"
             }
         };
         context.file.error_at(mass.span(), error.to_string(), help).into()

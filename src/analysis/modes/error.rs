@@ -33,6 +33,15 @@ pub enum ModesError {
         /// The other coordinates.
         of: &'static str,
     },
+    /// The mass matrix of a rigid part is not diagonal.
+    #[error(
+        "the motions of part {part} are coupled by its mass, or one has none: frequencies are of parts whose middle is \
+         their centre of mass, and whose turns are about principal axes"
+    )]
+    CoupledMotions {
+        /// Number of the part.
+        part: usize,
+    },
     /// A mass per area gives none to a vertex.
     #[error("vertex {vertex} of cell {cell:?} belongs to no face: a mass per area gives it none")]
     Massless {

@@ -1,12 +1,16 @@
 //! Small vibrations about a state: the eigenvalues of the energy's Hessian `H` against the masses `M` of the vertices.
 //!
-//! `H u = omega^2 M u`. `M` is diagonal, so that with `u = M^(-1/2) y` the eigenvalues are those of the symmetric
+//! `H u = omega^2 M u`. `M` is diagonal, that of the motions of a rigid part where its middle is its centre of mass and
+//! the axes of its turns are principal ones, so that with `u = M^(-1/2) y` the eigenvalues are those of the symmetric
 //! matrix `M^(-1/2) H M^(-1/2)`. Masses enter relative to the largest one: multiplying all of them by a number divides
 //! every `omega^2` by it and changes nothing else.
 
 use super::error::ModesError;
 use super::spectrum::{Observer, Spectrum, lowest};
 use crate::model::{Assembly, Boundary, Model};
+
+/// Largest product of two motions of a rigid part with the mass, over those of each with itself, that is rounding error.
+const COUPLED: f64 = 1e-12;
 
 /// The slowest vibrations of a sheet about a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,8 +63,7 @@ impl Vibrations {
             return Ok(Some(Self { squares: vec![], rounding: 0.0, vectors: vec![] }));
         }
         let largest = masses.iter().copied().fold(0.0, f64::max);
-        let of_coordinates: Vec<f64> = masses.iter().flat_map(|mass| [(largest / mass).sqrt(); 3]).collect();
-        let factors = model.unknowns(&of_coordinates);
+        let factors: Vec<f64> = of_unknowns(model, &masses)?.iter().map(|mass| (largest / mass).sqrt()).collect();
         let Spectrum { values, mut vectors, rounding } = lowest((model, tension), &factors, (wanted, free), observe)?;
         let squares = values.iter().map(|value| if value.abs() <= rounding { 0.0 } else { value / largest }).collect();
         vectors.iter_mut().flatten().for_each(|rate| *rate /= largest.sqrt());
@@ -68,15 +71,37 @@ impl Vibrations {
     }
 }
 
-/// Checks that every coordinate of an assembly is one of a vertex that has a mass.
+/// Returns the mass of every unknown of a model, given those of the vertices.
 ///
 /// # Errors
-/// [`ModesError::NoMassMatrix`] where lattice vectors, the turns of a cylinder or rigid parts are coordinates, and
+/// [`ModesError::CoupledMotions`] where the motions of a rigid part are coupled by its mass, or one has none.
+fn of_unknowns(model: &Model, masses: &[f64]) -> Result<Vec<f64>, ModesError> {
+    let of_coordinates: Vec<f64> = masses.iter().flat_map(|mass| [*mass; 3]).collect();
+    let mut found = model.unknowns(&of_coordinates);
+    for (part, motions) in model.poses().into_iter().enumerate() {
+        let only = |unknown: usize| (0..found.len()).map(|k| f64::from(u8::from(k == unknown))).collect::<Vec<f64>>();
+        let rates: Vec<Vec<f64>> = motions.iter().map(|&unknown| model.velocity(&only(unknown))).collect();
+        let product = |i: usize, j: usize| -> f64 {
+            of_coordinates.iter().zip(rates[i].iter().zip(&rates[j])).map(|(mass, (a, b))| mass * a * b).sum()
+        };
+        let own: Vec<f64> = (0..motions.len()).map(|i| product(i, i)).collect();
+        let is_coupled = |i: usize, j: usize| product(i, j).abs() > COUPLED * (own[i] * own[j]).sqrt();
+        if (0..motions.len()).any(|i| !(own[i] > 0.0) || (0..i).any(|j| is_coupled(i, j))) {
+            return Err(ModesError::CoupledMotions { part });
+        }
+        motions.iter().zip(own).for_each(|(&unknown, mass)| found[unknown] = mass);
+    }
+    Ok(found)
+}
+
+/// Checks that every coordinate of an assembly is one of a vertex that has a mass, or of a rigid part.
+///
+/// # Errors
+/// [`ModesError::NoMassMatrix`] where lattice vectors or the turns of a cylinder are coordinates, and
 /// [`ModesError::Massless`] where a vertex has no mass.
 pub fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
     let of = match assembly.boundary() {
-        Boundary::Patch | Boundary::FixedTorus if assembly.terms().parts.is_empty() => None,
-        Boundary::Patch | Boundary::FixedTorus => Some("the turns of rigid parts"),
+        Boundary::Patch | Boundary::FixedTorus => None,
         Boundary::FreeTorus => Some("the vectors of a free lattice"),
         Boundary::Screw | Boundary::Tube { .. } => Some("the turns of a cylinder"),
         Boundary::Own => Some("the shared coordinates of a domain of one's own"),

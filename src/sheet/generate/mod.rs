@@ -24,6 +24,7 @@ mod resch;
 mod square_twist;
 mod symmetric;
 mod truss;
+mod tube_block;
 mod tubes;
 mod waterbomb;
 mod yoshimura;
@@ -48,6 +49,7 @@ pub use resch::Resch;
 pub use square_twist::SquareTwist;
 pub use symmetric::{CellSymmetry, Symmetric};
 pub use truss::Truss;
+pub use tube_block::TubeBlock;
 pub use tubes::MiuraTubes;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
@@ -104,6 +106,8 @@ patterns! {
     "truss": Truss(Truss::sheet),
     /// Two aligned Miura tubes that share a wall.
     "aligned-tubes": AlignedTubes(MiuraTubes::aligned),
+    /// A block of aligned Miura tubes.
+    "tube-block": TubeBlock(TubeBlock::sheet),
     /// Two Miura tubes that are coupled as a zipper.
     "zipper-tubes": ZipperTubes(MiuraTubes::zipper),
     /// A random cell that cannot be flattened.

@@ -213,7 +213,7 @@ fn what_has_no_mass_is_refused() {
     for (builder, of) in [
         (Assembly::torus(star(), [1, 1]), "the vectors of a free lattice"),
         (Assembly::screw(star(), [1, 1]), "the turns of a cylinder"),
-        (part, "the turns of rigid parts"),
+        (part, "the motions of part 0 are coupled by its mass"),
     ] {
         let said = refused(&energy(builder, Mass::Vertex(1.0)));
         assert!(said.contains(of), "{said}");

@@ -7,7 +7,7 @@ use super::assemblies::hessian;
 use super::coupled_tubes::{MERLIN, apart};
 use crate::common::{Scene, eigenvalues, mesh};
 use foldwell::analysis::modes::modes;
-use foldwell::model::Assembly;
+use foldwell::model::{Assembly, Builder, Mass};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::fold;
 use foldwell::{Rest, Sheet};
@@ -67,6 +67,52 @@ fn a_drum_with_plates() {
     }
 }
 
+/// Squared frequencies by the Hessian of all coordinates, for motions with these velocities and this mass at every
+/// vertex.
+fn squares(hessian: &DenseMatrix, motions: &DenseMatrix, mass: f64) -> Vec<f64> {
+    let columns = motions.column_iter().map(|motion| motion / (mass.sqrt() * motion.norm()));
+    let motions = DenseMatrix::from_columns(&columns.collect::<Vec<_>>());
+    eigenvalues(motions.transpose() * hessian * &motions)
+}
+
+/// Claim: a drum with a plate, and pieces that are tied, have the frequencies of the Hessian in the coordinates of plate
+/// and ties against the masses that these move; a plate whose vertices are not spread evenly about its middle is
+/// refused. Source: the mass of a motion is the sum of those of its vertices times their squared velocities; by symmetry
+/// no two motions of a regular plate, and none of a tie, are coupled. Tolerance: as of the eigenvalues.
+#[test]
+fn plates_and_ties_vibrate() {
+    let compare = |assembly: Assembly, expected: Vec<f64>| {
+        let found = modes(&assembly, 20, &mut || true).unwrap().vibrations.unwrap().squares;
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-9 * 1e3, "{found} {expected}");
+        }
+    };
+    let home = |part: &[usize]| part.iter().map(|&vertex| (vertex, [0, 0])).collect::<Vec<_>>();
+    let sheet = mesh("drum");
+    let top: Vec<usize> = sheet.names["top"].iter().map(|corner| corner.vertex).collect();
+    let drum = Assembly::patch(sheet.clone(), [1, 1]).bars(1e3).creases(1.0).facets(10.0).rest(Rest::Drawn);
+    let drum = drum.mass(Mass::Vertex(2.0));
+    let plate = drum.clone().part(home(&top), [true; 6]).build().unwrap();
+    compare(plate, squares(&hessian(&sheet, [1e3, 1.0, 10.0]), &motions(&sheet, &top), 2.0));
+    let uneven = drum.part(home(&top[..top.len() - 1]), [true; 6]).build().unwrap();
+    let said = modes(&uneven, 20, &mut || true).unwrap_err().to_string();
+    assert!(said.contains("the motions of part 0 are coupled by its mass"), "{said}");
+
+    let pieces = apart();
+    let ties: Vec<[usize; 2]> = (0..10).map(|k| [6 * (k / 2) + k % 2, 30 + k]).collect();
+    let alone = (0..pieces.vertices.len()).filter(|v| !ties.iter().any(|tie| tie.contains(v))).map(|v| vec![v]);
+    let groups: Vec<Vec<usize>> = ties.iter().map(|tie| tie.to_vec()).chain(alone).collect();
+    let mut moved = DenseMatrix::zeros(3 * pieces.vertices.len(), 3 * groups.len());
+    for (group, vertices) in groups.iter().enumerate() {
+        (0..3).for_each(|axis| vertices.iter().for_each(|v| moved[(3 * v + axis, 3 * group + axis)] = 1.0));
+    }
+    let expected = squares(&hessian(&pieces, [1e3, 0.1, 1.0]), &moved, 0.5);
+    let tubes =
+        Assembly::patch(pieces, [1, 1]).bars(1e3).creases(0.1).facets(1.0).rest(Rest::Drawn).mass(Mass::Vertex(0.5));
+    let tie = |builder: Builder, tie: &[usize; 2]| builder.part(home(tie), [true, true, true, false, false, false]);
+    compare(ties.iter().fold(tubes, tie).build().unwrap(), expected);
+}
+
 /// A scene of two tubes as pieces, with MERLIN's stiffnesses.
 fn tied(ties: &str, held: &str, study: &str) -> Scene {
     let energy = "[energy]\nbars = { stiffness = 1e3 }\ncreases = { stiffness = 0.1 }\nfacets = { stiffness = 1.0 }\n";
@@ -109,7 +155,7 @@ fn scenes_tie_vertices() {
     tied(all, driven, "kind = \"path\"").refused("vertex 30 is tied to another vertex");
 }
 
-/// Claim: a scene asks for modes of tied pieces, as the library does; vibrations of parts are refused.
+/// Claim: a scene asks for modes and vibrations of tied pieces, as the library does.
 #[test]
 fn scenes_ask_for_modes_of_parts() {
     let all = "[[tie]]\nvertices = \"coincident\"\n";
@@ -119,5 +165,6 @@ fn scenes_ask_for_modes_of_parts() {
     assert_eq!((found.rigid_motions, found.eigenvalues.len()), (6, 9));
     assert!(found.eigenvalues[5].abs() < 1e-9 && found.eigenvalues[6] > 1e-3, "{:?}", found.eigenvalues);
     let mass = "[mass]\nvertex = 1.0\n";
-    tied(mass, all, study).refused("the turns of rigid parts");
+    let frequencies = tied(mass, all, study).ran().modes("s").frequencies.clone().unwrap();
+    assert!(frequencies[5] == Some(0.0) && frequencies[6] > Some(0.0), "{frequencies:?}");
 }
