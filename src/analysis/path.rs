@@ -9,47 +9,17 @@ mod stops;
 use super::relax::relax_model;
 use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gauge, Model};
 use crate::solver::path::ParametrizedProblem;
-use crate::solver::path::{self, Branch, BranchEnd, PathError};
+use crate::solver::path::{self, Branch, BranchEnd, PathError, Watch};
 pub use crate::solver::path::{HalfBranches, PathEntry, PathRecord};
 use crate::solver::{Failure, Options, Problem, Start};
 pub use options::PathOptions;
-pub use point::{BranchPoint, PathEvent, PathPoint};
+pub use point::{BranchPoint, PathBranch, PathEnd, PathEvent, PathPoint};
 pub use seen::PathCallbacks;
 use seen::Seen;
 use std::mem;
 use stops::Stops;
 pub use stops::{PathStop, Probe};
 use thiserror::Error;
-
-/// The reason for which a branch of a path ends.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PathEnd {
-    /// The drive arrived.
-    Arrived,
-    /// A stop was met.
-    Stopped,
-    /// A branch came back to the driven value at which the path began, or to a branch point that is known.
-    Returned,
-    /// A branch came back to a state of its own and would go on over its own states.
-    Retraced,
-    /// The largest number of states was reached.
-    TooManySteps,
-    /// No step, however short, led on.
-    Failed,
-    /// No minimum was found beyond the limit point at which it ends.
-    NoMinimum,
-    /// The observer asked to stop.
-    Interrupted,
-}
-
-/// A branch of a path: number 0 begins at the start, the others at branch points.
-#[derive(Clone, Debug)]
-pub struct PathBranch {
-    /// The states, in order.
-    pub points: Vec<PathPoint>,
-    /// The reason for its end.
-    pub end: PathEnd,
-}
 
 /// The reason for which a path cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -122,25 +92,29 @@ pub fn resume_path(
     let then = options.then.iter().map(|value| driven.parameter_at(*value));
     let ways = [driven.parameter(), driven.target()].into_iter().chain(then).collect();
     let mut seen = Seen::new(measures, ways, callbacks);
+    let kept = options.at.iter().copied().chain(options.stop.drive).map(|value| driven.parameter_at(value));
+    let kept: Vec<f64> = kept.collect();
+    let mut is_last = false;
     loop {
-        let stop = seen.left_of(&options.stop);
+        let left = seen.left_of(&options.stop);
+        let stop = PathStop { states: if is_last { Some(1) } else { left.states }, ..left };
         let mut watch = Stops::new(assembly, &stop, driven.has_conjugate_limits(), options.snap);
         let known = if options.snap { record.part(seen.stretch()) } else { mem::take(&mut record) };
         let settings = seen.settings(options, &stop, &driven);
-        let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut seen, known)?;
-        let limit =
-            found.first().and_then(snap::limit_point).filter(|_| options.snap && !seen.has_enough(&options.stop));
-        let Some(limit) = limit else {
-            return Ok(found
-                .iter()
-                .zip(seen.points())
-                .map(|(found, points)| ended(found, points, &options.stop))
-                .collect());
+        let found = match path::follow_path(&mut driven, first, &settings, &mut watch, &mut seen, known) {
+            Err(_) if seen.stretch() > 0 => return Ok(seen.ended(PathEnd::NoMinimum)),
+            found => found?,
         };
+        let limit = found.first().and_then(snap::limit_point);
+        let Some(limit) = limit.filter(|_| options.snap && !seen.has_enough(&options.stop)) else {
+            return Ok(found.iter().zip(seen.points()).map(|(branch, points)| ended(branch, points, &stop)).collect());
+        };
+        let values = watch.values(&driven, &limit.state);
         seen.begin_stretch(limit);
-        let Some(start) = snap::beyond(&mut driven, &limit.state.x, seen.target(), options.tolerance) else {
-            return Ok(seen.points().map(|points| PathBranch { points, end: PathEnd::NoMinimum }).collect());
+        let Some(start) = snap::beyond(&mut driven, &limit.state.x, seen.target(), &kept, options.tolerance) else {
+            return Ok(seen.ended(PathEnd::NoMinimum));
         };
+        is_last = watch.passes(&driven, &values, &start);
         first = start;
     }
 }

@@ -1,4 +1,4 @@
-//! The states of a path and their events.
+//! The branches of a path: their states, events and ends.
 
 use crate::analysis::path::stops::CROSSING;
 use crate::analysis::state::State;
@@ -69,6 +69,36 @@ pub struct BranchPoint {
     /// The half branches that leave there; `None` where they were not sought, or sought at a state of another branch
     /// that is the same.
     pub half_branches: Option<HalfBranches>,
+}
+
+/// The reason for which a branch of a path ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PathEnd {
+    /// The drive arrived.
+    Arrived,
+    /// A stop was met.
+    Stopped,
+    /// A branch came back to the driven value at which the path began, or to a branch point that is known.
+    Returned,
+    /// A branch came back to a state of its own and would go on over its own states.
+    Retraced,
+    /// The largest number of states was reached.
+    TooManySteps,
+    /// No step, however short, led on.
+    Failed,
+    /// No minimum was found beyond the limit point at which it ends.
+    NoMinimum,
+    /// The observer asked to stop.
+    Interrupted,
+}
+
+/// A branch of a path: number 0 begins at the start, the others at branch points.
+#[derive(Clone, Debug)]
+pub struct PathBranch {
+    /// The states, in order.
+    pub points: Vec<PathPoint>,
+    /// The reason for its end.
+    pub end: PathEnd,
 }
 
 impl PathPoint {

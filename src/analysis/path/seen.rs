@@ -1,7 +1,7 @@
 //! What a path has found so far: its points, from stretches between which the sheet snaps.
 
 use super::options::PathOptions;
-use super::point::{PathEvent, PathPoint, point};
+use super::point::{PathBranch, PathEnd, PathEvent, PathPoint, point};
 use super::stops::PathStop;
 use crate::model::DrivenModel;
 use crate::solver::path::{MarkedState, PathEntry, PathMark, PathObserver, PathSettings, PathState};
@@ -57,6 +57,11 @@ impl<'a> Seen<'a> {
         self.branches.into_iter().map(|(points, _)| points)
     }
 
+    /// The branches, which end for this reason.
+    pub(super) fn ended(self, end: PathEnd) -> Vec<PathBranch> {
+        self.points().map(|points| PathBranch { points, end: end.clone() }).collect()
+    }
+
     /// How often the parameter of the first branch has begun to go another way.
     fn turns(&self) -> usize {
         self.branches.first().map_or(0, |(_, turns)| *turns)
@@ -92,9 +97,10 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// Whether the path has passed as many limit points as end it.
+    /// Whether the path has passed as many limit points, or has as many states, as end it.
     pub(super) fn has_enough(&self, stop: &PathStop) -> bool {
-        stop.limit_points.is_some_and(|most| self.limits() >= most)
+        let states = self.branches.first().map_or(0, |(points, _)| points.len());
+        stop.limit_points.is_some_and(|most| self.limits() >= most) || stop.states.is_some_and(|most| states >= most)
     }
 
     /// Number of limit points so far.

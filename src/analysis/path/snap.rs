@@ -14,11 +14,13 @@ pub(super) fn limit_point(branch: &Branch) -> Option<&MarkedState> {
     (branch.end == BranchEnd::Marked).then_some(last)
 }
 
-/// Takes a model that is driven to `target` from the state `x` at a limit point to the minimum a little beyond. `None`
-/// if none is found.
-pub(super) fn beyond(driven: &mut DrivenModel, x: &[f64], target: f64, tolerance: f64) -> Option<Start> {
+/// Takes a model that is driven to `target` from the state `x` at a limit point to the minimum a little beyond, but over
+/// none of the parameters `kept`, of which the path has states of their own. `None` if none is found.
+pub(super) fn beyond(driven: &mut DrivenModel, x: &[f64], target: f64, kept: &[f64], tolerance: f64) -> Option<Start> {
     let (from, step) = (driven.parameter(), BEYOND * driven.parameter_scale());
     let left = target - from;
+    let ahead = kept.iter().map(|value| (value - from) * left.signum()).filter(|way| *way > 0.0 && *way < step);
+    let step = ahead.fold(step, |step, way| step.min(0.5 * way));
     driven.set_parameter(if left.abs() <= step { target } else { from + step * left.signum() });
     let options = Options { tolerance, ..Options::default() };
     let (relaxed, model, x) = relax_model(driven.model.clone(), x.to_vec(), options, &mut |_| true).ok()?;

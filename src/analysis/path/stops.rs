@@ -4,7 +4,8 @@ use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::{State, cylinder};
 use crate::math::fold_angle::fold_angle;
 use crate::model::{Assembly, DrivenModel, Model};
-use crate::solver::path::{PathMark, PathState, Watch};
+use crate::solver::path::{ParametrizedProblem, PathMark, PathState, Watch};
+use crate::solver::{Linearization, Problem, Start};
 use std::f64::consts::TAU;
 
 /// Numbers of the watched functions.
@@ -91,29 +92,51 @@ impl<'a> Stops<'a> {
     }
 
     /// 1 where faces pass through each other, -1 elsewhere.
-    fn crosses(&mut self, driven: &DrivenModel, state: &PathState) -> Option<f64> {
+    fn crosses(&mut self, driven: &DrivenModel, x: &[f64], tension: &[f64]) -> Option<f64> {
         let finder = self.crossing.as_mut()?;
-        let shown = State::new(&driven.model, &state.x, &state.tension);
+        let shown = State::new(&driven.model, x, tension);
         let any = finder.marks(self.assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any;
         Some(if any { 1.0 } else { -1.0 })
+    }
+
+    /// The values of all watched functions in a state with these unknowns and tensions, this parameter and its conjugate;
+    /// not numbers where nothing is watched.
+    fn values_at(
+        &mut self,
+        driven: &DrivenModel,
+        (x, tension): (&[f64], &[f64]),
+        [parameter, conjugate]: [f64; 2],
+    ) -> Vec<f64> {
+        let coordinates = driven.model.coordinates(x);
+        let mut values = vec![f64::NAN; 6];
+        values[CURVATURE] = self.curvature(&coordinates).unwrap_or(f64::NAN);
+        values[CREASE_ANGLE] = self.angle(&driven.model, &coordinates).unwrap_or(f64::NAN);
+        values[CROSSING] = self.crosses(driven, x, tension).unwrap_or(f64::NAN);
+        let drive = driven.drive_at(parameter);
+        values[DRIVE] = self.stop.drive.map_or(f64::NAN, |wanted| drive - wanted);
+        let displacement = self.stop.displacement.as_ref();
+        let off = |(probe, wanted): &(Probe, f64)| probe.displacement(self.assembly, &coordinates) - wanted;
+        values[DISPLACEMENT] = displacement.map_or(f64::NAN, off);
+        let reaction = driven.reaction_of(conjugate, parameter);
+        values[REACTION] = self.stop.reaction.map_or(f64::NAN, |wanted| reaction - wanted);
+        values
+    }
+
+    /// Whether a watched function, but the driven value itself, changes its sign between a state of a path and the start
+    /// of another stretch.
+    pub(super) fn passes(&mut self, driven: &DrivenModel, before: &[f64], start: &Start) -> bool {
+        let tension = start.tension.as_deref().unwrap_or_default();
+        let at = Linearization::new(driven.layout());
+        let conjugate = driven.conjugate(&at, &start.x, tension);
+        let after = self.values_at(driven, (&start.x, tension), [driven.parameter(), conjugate]);
+        let pairs = before.iter().zip(&after).enumerate();
+        pairs.into_iter().any(|(function, (before, after))| function != DRIVE && before * after < 0.0)
     }
 }
 
 impl Watch<DrivenModel> for Stops<'_> {
     fn values(&mut self, driven: &DrivenModel, state: &PathState) -> Vec<f64> {
-        let coordinates = driven.model.coordinates(&state.x);
-        let mut values = vec![f64::NAN; 6];
-        values[CURVATURE] = self.curvature(&coordinates).unwrap_or(f64::NAN);
-        values[CREASE_ANGLE] = self.angle(&driven.model, &coordinates).unwrap_or(f64::NAN);
-        values[CROSSING] = self.crosses(driven, state).unwrap_or(f64::NAN);
-        let drive = driven.drive_at(state.parameter);
-        values[DRIVE] = self.stop.drive.map_or(f64::NAN, |wanted| drive - wanted);
-        let displacement = self.stop.displacement.as_ref();
-        let off = |(probe, wanted): &(Probe, f64)| probe.displacement(self.assembly, &coordinates) - wanted;
-        values[DISPLACEMENT] = displacement.map_or(f64::NAN, off);
-        let reaction = driven.reaction_of(state.conjugate[0], state.parameter);
-        values[REACTION] = self.stop.reaction.map_or(f64::NAN, |wanted| reaction - wanted);
-        values
+        self.values_at(driven, (&state.x, &state.tension), [state.parameter, state.conjugate[0]])
     }
 
     fn ends(&self, marks: &[PathMark]) -> bool {

@@ -78,7 +78,9 @@ fn two_bars_have_a_loop() {
     assert!(all > 0.0 && (work - all).abs() < 1e-4 * all, "{work} {all}");
 }
 
-/// Claim: stops count over snaps, and a sheet that snaps follows no branches.
+/// Claim: stops count over snaps, values that are listed or at which to stop are not jumped over, a quantity that jumps over
+/// the value at which to stop ends the path behind the jump, and a sheet that snaps follows no branches. Source: the
+/// snap of two bars goes from a load of 9.5303e-3 to 9.6303e-3, and from a displacement of 0.129 to 0.649.
 #[test]
 fn stops_count_over_snaps() {
     let ran = loaded("[0.02, -0.02]", "stop = { limit_points = 2 }").converged();
@@ -87,6 +89,14 @@ fn stops_count_over_snaps() {
     let ran = loaded("0.02", "stop = { states = 20 }").converged();
     let branch = &ran.path("loaded").branches[0];
     assert!(branch.steps == 20 && branch.events.iter().any(|event| event.event == "snap"), "{branch:?}");
+    let ran = loaded("0.02", "at = [0.00956]\nstop = { drive = 0.00962 }").converged();
+    let table = ran.out.table("loaded.csv");
+    assert!((0..table.len()).any(|row| (table.at(row, "drive") - 0.00956).abs() < 1e-15));
+    assert!((table.last("drive") - 0.00962).abs() < 1e-12 && table.last("reaction") > 0.6);
+    let ran = loaded("0.02", "stop = { reaction = 0.4 }").converged();
+    let (table, branch) = (ran.out.table("loaded.csv"), &ran.path("loaded").branches[0]);
+    assert_eq!((branch.end.as_str(), branch.events.last().map(|event| event.event.as_str())), ("stop", Some("stop")));
+    assert!(table.last("reaction") > 0.6 && table.at(table.len() - 2, "reaction") < 0.2);
     loaded("0.02", "switch = true").refused("a sheet that snaps follows no other branches");
 }
 
