@@ -8,7 +8,7 @@ use foldwell::study::StudyResult;
 const ENERGY: &str = "[energy]\nbars = { stiffness = 1e3 }\nfacets = { stiffness = 10.0 }\n";
 
 /// Returns a scene in which this sheet folds to these rest angles.
-fn folding(sheet: &str, rest: &str) -> Scene {
+pub(super) fn folding(sheet: &str, rest: &str) -> Scene {
     let creases = format!("creases = {{ stiffness = 1.0, rest = \"{rest}\" }}\n");
     Scene::on(sheet, &format!("{ENERGY}{creases}[[study]]\nname = \"fold\"\nkind = \"fold\"\ndraw = []"))
 }
@@ -73,7 +73,7 @@ fn what_does_not_fold_is_refused() {
 }
 
 /// A square of 80 units with these lines on it.
-fn square(lines: &str) -> String {
+pub(super) fn square(lines: &str) -> String {
     format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><rect width=\"80\" height=\"80\" stroke=\"#000\"/>{lines}</svg>")
 }
 
