@@ -299,6 +299,12 @@ def read_table(path):
     return rows[0], rows[1:]
 
 
+def own_energies(header):
+    """The columns of terms other than bars, creases and facets, whose energies are on no line of the pictures."""
+    known = ("energy_bars", "energy_creases", "energy_facets", "energy_total")
+    return [name for name in header if name.startswith("energy_") and name not in known]
+
+
 def check_table(checks, path, kind, edges):
     """Header, widths, and numbers that are numbers; gives the fold angles of the last row."""
     if not checks.that(path.exists(), f"{path} is there"):
@@ -315,6 +321,7 @@ def check_table(checks, path, kind, edges):
                 float(field or 0)
             except ValueError:
                 checks.that(False, f"{path}: `{field}` in column {column} is a number")
+    header = [name for name in header if name not in own_energies(header)]
     if kind == "path":
         between = header[len(PATH_COLUMNS):-edges]
         checks.that(header[: len(PATH_COLUMNS)] == PATH_COLUMNS, f"{path}: the first columns")
@@ -430,7 +437,8 @@ def energies_of(out, study):
     if study["kind"] not in ("relax", "trace", "wells", "path"):
         return []
     header, rows = read_table(out / f"{study['name']}.csv")
-    energies = [float(row[header.index("energy_total")] or "nan") for row in rows]
+    own = [header.index(name) for name in own_energies(header)]
+    energies = [float(row[header.index("energy_total")] or "nan") - sum(float(row[k]) for k in own) for row in rows]
     if study["kind"] in ("path", "trace"):
         found = [energies[row] for row in pictured_rows(out, study)]
         return found if np.all(np.isfinite(found)) else []
