@@ -197,7 +197,8 @@ impl<'a> Reader<'a> {
     }
 
     fn terms(&self) -> Result<Terms, SceneError> {
-        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec, .. } = &self.file.scene.energy;
+        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec, membrane: _ } =
+            &self.file.scene.energy;
         let [bar_law, crease_law, facet_law] = laws::given(self.file, &self.values)?;
         let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
         let bars = match self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)? {

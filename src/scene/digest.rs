@@ -65,7 +65,7 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
         Mode::Curvature(_) | Mode::Wave(_) => None,
     };
     let mut found: Vec<PathBuf> = scene.sheet.mesh.iter().map(|mesh| mesh.to_path_buf()).collect();
-    let EnergySpec { bars, creases, facets, .. } = &scene.energy;
+    let EnergySpec { bars, creases, facets, membrane: _ } = &scene.energy;
     let hinges = |stiffness, rest: &Option<Located<RestSpec>>| {
         let angles = match rest.as_deref() {
             Some(RestSpec::File(name)) => Some(name.file.to_path_buf()),

@@ -36,7 +36,7 @@ type LawReader<T> = fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneE
 /// # Errors
 /// [`SceneError`] if a curve or a formula is none.
 pub(super) fn given(file: &SceneFile, values: &ElementValues) -> Result<[Option<GivenLaw>; 3], SceneError> {
-    let EnergySpec { bars, creases, facets, .. } = &file.scene.energy;
+    let EnergySpec { bars, creases, facets, membrane: _ } = &file.scene.energy;
     let [in_creases, in_facets] =
         [creases.as_ref().and_then(|spec| spec.law.as_ref()), facets.as_ref().and_then(|spec| spec.law.as_ref())];
     let in_bars = bars.as_ref().and_then(|spec| spec.law.as_ref());
@@ -77,7 +77,7 @@ pub(super) fn of_terms(
     [of_bars, of_creases, of_facets]: [Option<GivenLaw>; 3],
     [bar, crease, facet]: [Option<Stiffness>; 3],
 ) -> Result<Laws, SceneError> {
-    let EnergySpec { bars, creases, facets, .. } = &file.scene.energy;
+    let EnergySpec { bars, creases, facets, membrane: _ } = &file.scene.energy;
     let in_bars = bars.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
     let in_creases = creases.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
     let in_facets = facets.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);

@@ -33,7 +33,7 @@ pub enum ModesError {
         /// The other coordinates.
         of: &'static str,
     },
-    /// The mass matrix of a rigid part is not diagonal.
+    /// A rigid part whose mass matrix is not diagonal, or that has a motion without mass.
     #[error(
         "the motions of part {part} are coupled by its mass, or one has none: frequencies are of parts whose middle is \
          their centre of mass, and whose turns are about principal axes"

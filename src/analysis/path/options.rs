@@ -1,4 +1,4 @@
-//! What is asked of a path.
+//! The options of a path: its tolerance, its steps, and where it ends.
 
 use crate::analysis::path::stops::PathStop;
 

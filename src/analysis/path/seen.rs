@@ -1,4 +1,7 @@
-//! What a path has found so far: its points, from stretches between which the sheet snaps.
+//! The points of a path while it is followed.
+//!
+//! A sheet that snaps has a path of several stretches: each ends at a limit point, and the next one begins at the minimum
+//! to which the sheet snaps from there. Their points make one branch.
 
 use super::options::PathOptions;
 use super::point::{PathBranch, PathEnd, PathEvent, PathPoint, point};
@@ -23,21 +26,23 @@ pub(super) struct Seen<'a> {
     ways: Vec<f64>,
     /// The states of each branch, and how often its parameter has begun to go another way.
     branches: Vec<(Vec<PathPoint>, usize)>,
-    /// What was before the last snap.
+    /// Sums over the stretches before the one that is followed.
     before: Before,
     callbacks: PathCallbacks<'a>,
 }
 
-/// What was before the stretch of a path that is followed: stretches end at limit points, from which the sheet snaps.
+/// Sums over the stretches of a path that have ended, and where the last one did.
 #[derive(Default)]
 struct Before {
-    /// Number of stretches.
+    /// Number of these stretches.
     stretches: usize,
     /// Number of their states.
     points: usize,
+    /// Sum of their arc lengths.
     arc_length: f64,
-    /// Integral of the conjugate over the parameter, and the parameter.
+    /// Integral of the conjugate over the parameter.
     work: f64,
+    /// The parameter at the limit point at which the last one ended.
     parameter: f64,
 }
 
@@ -87,7 +92,7 @@ impl<'a> Seen<'a> {
         PathSettings { steps: stop.states.unwrap_or(settings.steps), ..settings }
     }
 
-    /// What is left of the conditions that end the path.
+    /// The stops of the next stretch: lengths and counts less those of the stretches before it.
     pub(super) fn left_of(&self, stop: &PathStop) -> PathStop {
         PathStop {
             arc_length: stop.arc_length.map(|length| length - self.before.arc_length),

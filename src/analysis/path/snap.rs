@@ -14,14 +14,15 @@ pub(super) fn limit_point(branch: &Branch) -> Option<&MarkedState> {
     (branch.end == BranchEnd::Marked).then_some(last)
 }
 
-/// Takes a model that is driven to `target` from the state `x` at a limit point to the minimum a little beyond, but over
-/// none of the parameters `kept`, of which the path has states of their own. `None` if none is found.
+/// Takes a model that is driven to `target` from the state `x` at a limit point to the minimum a little beyond, but
+/// neither to the target nor over one of the parameters `kept`, of which the path has states of their own. `None` if
+/// none is found.
 pub(super) fn beyond(driven: &mut DrivenModel, x: &[f64], target: f64, kept: &[f64], tolerance: f64) -> Option<Start> {
     let (from, step) = (driven.parameter(), BEYOND * driven.parameter_scale());
-    let left = target - from;
-    let ahead = kept.iter().map(|value| (value - from) * left.signum()).filter(|way| *way > 0.0 && *way < step);
-    let step = ahead.fold(step, |step, way| step.min(0.5 * way));
-    driven.set_parameter(if left.abs() <= step { target } else { from + step * left.signum() });
+    let way = (target - from).signum();
+    let ahead = kept.iter().chain([&target]).map(|value| (value - from) * way);
+    let step = ahead.filter(|distance| *distance > 0.0).fold(step, |step, distance| step.min(0.5 * distance));
+    driven.set_parameter(from + step * way);
     let options = Options { tolerance, ..Options::default() };
     let (relaxed, model, x) = relax_model(driven.model.clone(), x.to_vec(), options, &mut |_| true).ok()?;
     if relaxed.negative_eigenvalues != Some(0) {

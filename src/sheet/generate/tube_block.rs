@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::super::angle::radians;
 use super::error::{GenerateError, count};
-use super::parts::Parts;
-use super::tubes::{MiuraTubes, SOURCE};
-use crate::sheet::cell::{Corner, Sheet};
+use super::tubes::MiuraTubes;
+use crate::math::Vec3;
+use crate::sheet::cell::Sheet;
 
 /// Most tubes on top of each other.
 const MOST_TUBES: usize = 100;
@@ -47,29 +47,14 @@ impl TubeBlock {
         let tube = MiuraTubes { a, b, sector, fold, cells }.tube()?;
         let [n, m] = [count("tubes", tubes[0], 1, MOST_TUBES)?, count("tubes", tubes[1], 1, MOST_TUBES)?];
         let [u, v] = tube.sides;
-        let points = || (0..=n).flat_map(|i| (0..=m).map(move |j| u * i as f64 + v * j as f64));
-        let vertex = |r: usize, i: usize, j: usize| (r * (n + 1) + i) * (m + 1) + j;
-        // those outside run round the block, so that all its faces outside are seen from there
-        let ends = |[from, to]: [[usize; 2]; 2], turned: bool| if turned { [to, from] } else { [from, to] };
-        let walls_along_u = (0..n).flat_map(|i| (0..=m).map(move |j| ends([[i, j], [i + 1, j]], j == m)));
-        let walls_along_v = (0..=n).flat_map(|i| (0..m).map(move |j| ends([[i, j], [i, j + 1]], i == 0)));
-        let walls: Vec<[[usize; 2]; 2]> = walls_along_u.chain(walls_along_v).collect();
-        let face = |r: usize, [[i, j], [k, l]]: [[usize; 2]; 2]| {
-            [vertex(r, i, j), vertex(r, k, l), vertex(r + 1, k, l), vertex(r + 1, i, j)].map(Corner::home).to_vec()
-        };
-        let parts = Parts {
-            title: "tube-block",
-            source: SOURCE,
-            vertices: (0..=tube.pieces)
-                .flat_map(|r| points().map(move |x| (r, x)))
-                .map(|(r, x)| x + tube.place(r))
-                .collect(),
-            lattice: None,
-            polygons: (0..tube.pieces)
-                .flat_map(|r| walls.iter().map(move |wall| (r, *wall)))
-                .map(|(r, w)| face(r, w))
-                .collect(),
-        };
+        let ring: Vec<Vec3> = (0..=n).flat_map(|i| (0..=m).map(move |j| u * i as f64 + v * j as f64)).collect();
+        let point = |i: usize, j: usize| i * (m + 1) + j;
+        // walls outside run round the block, so that all its faces outside are seen from there
+        let wall = |from: usize, to: usize, turned: bool| if turned { [to, from] } else { [from, to] };
+        let along_u = (0..n).flat_map(|i| (0..=m).map(move |j| wall(point(i, j), point(i + 1, j), j == m)));
+        let along_v = (0..=n).flat_map(|i| (0..m).map(move |j| wall(point(i, j), point(i, j + 1), i == 0)));
+        let walls: Vec<[usize; 2]> = along_u.chain(along_v).collect();
+        let parts = tube.walls("tube-block", &ring, &walls);
         parts.sheet(format!("{} tubes = [{n}, {m}].", tube.words))
     }
 }

@@ -12,9 +12,6 @@ use crate::sheet::cell::{Corner, Sheet};
 
 pub(super) const SOURCE: &str = "Coupled Miura tubes: E. T. Filipov, T. Tachi, G. H. Paulino, PNAS 112, 12321 (2015).";
 
-/// Number of vertices of a ring: two of the wall that both tubes share, and two of each tube.
-const RING: usize = 6;
-
 /// Two coupled tubes of Miura-ori along x.
 ///
 /// Ring `r` of the first tube is that of `r = 0` moved by `(r b cos f, [r odd] b sin f, 0)`. It has the sides
@@ -59,6 +56,21 @@ impl Tube {
     pub fn place(&self, ring: usize) -> Vec3 {
         Vec3::new(ring as f64 * self.step[0], (ring % 2) as f64 * self.step[1], 0.0)
     }
+
+    /// Returns the parts of a sheet whose rings are the first one, moved, with a face between two rings for each of these
+    /// walls between two points of a ring.
+    pub fn walls(&self, title: &'static str, ring: &[Vec3], walls: &[[usize; 2]]) -> Parts {
+        let corner = |r: usize, point: usize| Corner::home(r * ring.len() + point);
+        let face = |r: usize, [i, j]: [usize; 2]| vec![corner(r, i), corner(r, j), corner(r + 1, j), corner(r + 1, i)];
+        let mut parts = Parts { title, source: SOURCE, vertices: vec![], lattice: None, polygons: vec![] };
+        for r in 0..=self.pieces {
+            parts.vertices.extend(ring.iter().map(|point| point + self.place(r)));
+        }
+        for r in 0..self.pieces {
+            parts.polygons.extend(walls.iter().map(|wall| face(r, *wall)));
+        }
+        parts
+    }
 }
 
 impl MiuraTubes {
@@ -85,16 +97,6 @@ impl MiuraTubes {
         let [u, v] = tube.sides;
         let ring = [Vec3::zeros(), u, u + v, v, u - v, -v];
         let walls = [[0, 1], [1, 2], [2, 3], [3, 0], [1, 4], [4, 5], [5, 0]];
-        let face = |r: usize, [i, j]: [usize; 2]| {
-            [i, j, j + RING, i + RING].map(|vertex| Corner::home(r * RING + vertex)).to_vec()
-        };
-        let parts = Parts {
-            title: "aligned-tubes",
-            source: SOURCE,
-            vertices: (0..=tube.pieces).flat_map(|r| ring.map(|point| point + tube.place(r))).collect(),
-            lattice: None,
-            polygons: (0..tube.pieces).flat_map(|r| walls.map(|wall| face(r, wall))).collect(),
-        };
-        parts.sheet(tube.words)
+        tube.walls("aligned-tubes", &ring, &walls).sheet(tube.words)
     }
 }

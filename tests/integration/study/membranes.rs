@@ -117,6 +117,19 @@ fn scenes_have_membranes() {
     assert!(thick > 0.0 && (thin / thick - 10.0).abs() < 2.0, "{thin} {thick} of {rigid}");
 }
 
+/// Claim: a membrane takes as many iterations at every stiffness, its tensions being unknowns, and tends to rigid bars.
+/// Source: Young's modulus over the stiffness of the creases up to 1e8; without tensions the stiffest took hundreds.
+#[test]
+fn membranes_of_every_stiffness_relax() {
+    let relax = "[[study]]\nname = \"relaxed\"\nkind = \"relax\"\n";
+    for thickness in [1.0, 1e2, 1e4] {
+        let ran = scene(thickness, "membrane = true", relax).converged();
+        let relaxed = ran.relaxed("relaxed");
+        assert!(relaxed.iterations <= 20, "{thickness}: {}", relaxed.iterations);
+        assert!(relaxed.residual_force < 1e-12, "{thickness}: {}", relaxed.residual_force);
+    }
+}
+
 /// Claim: a membrane without a material, and studies that need bars, are refused by name.
 #[test]
 fn membranes_are_refused_by_name() {

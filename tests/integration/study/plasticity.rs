@@ -5,9 +5,6 @@
 //! force follows the elastic line until it meets a line of slope `r k`, and turns back on an elastic one.
 
 use crate::common::{Scene, Table};
-use foldwell::run::Progress;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Two triangles with a hinge of this length, turned in the plane.
 fn hinge(length: f64) -> String {
@@ -176,12 +173,8 @@ fn an_interrupted_loop_goes_on() {
     let scene = crease(1.0, "stiffness = 2.0, yield = { moment = 0.6, hardening = 0.1 }", "[1.0, -1.0, 0.5]");
     let whole = scene.clone().converged();
     for stop in [12, 26, 40] {
-        let (scene, states) = (scene.clone().out(format!("stopped-{stop}")), AtomicUsize::new(0));
-        let observer = |_: &Progress| match states.fetch_add(1, Ordering::Relaxed) + 1 >= stop {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
-        assert!(scene.observed(&observer).unwrap().report.interrupted);
+        let scene = scene.clone().out(format!("stopped-{stop}"));
+        assert!(scene.clone().stopped_after(stop - 1).ran().report.interrupted);
         scene.resumed().converged().out.assert_same(&whole.out, &format!("stopped at {stop}"));
     }
 }

@@ -2,9 +2,6 @@
 
 use super::folds::{folding as drawn, square};
 use crate::common::Scene;
-use foldwell::run::Progress;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Returns a scene in which the pattern of this file folds flat by its letters.
 fn folding(mesh: &str, energy: &str) -> Scene {
@@ -134,6 +131,14 @@ fn stops_count_over_snaps() {
     let (table, branch) = (ran.out.table("loaded.csv"), &ran.path("loaded").branches[0]);
     assert_eq!((branch.end.as_str(), branch.events.last().map(|event| event.event.as_str())), ("stop", Some("stop")));
     assert!(table.last("reaction") > 0.6 && table.at(table.len() - 2, "reaction") < 0.2);
+    // a limit point so near to the end of the drive that the snap would go beyond it
+    for to in ["0.00955", "[0.00955, 0.0]", "[0.00955, 0.02]"] {
+        let ran = loaded(to, "").converged();
+        let branch = &ran.path("loaded").branches[0];
+        let snaps = branch.events.iter().filter(|event| event.event == "snap").count();
+        assert_eq!((branch.end.as_str(), snaps), ("arrived", 1), "{to}: {branch:?}");
+        assert!(ran.out.table("loaded.csv").column("drive").contains(&0.00955), "{to}");
+    }
     loaded("0.02", "switch = true").refused("a sheet that snaps follows no other branches");
 }
 
@@ -144,12 +149,8 @@ fn an_interrupted_fold_goes_on() {
     let whole = scene.clone().converged();
     let steps = whole.path("fold").branches[0].steps;
     for stop in [5, steps / 2, steps - 5, steps - 1] {
-        let (scene, states) = (scene.clone().out(format!("stopped-{stop}")), AtomicUsize::new(0));
-        let observer = |_: &Progress| match states.fetch_add(1, Ordering::Relaxed) + 1 >= stop {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
-        assert!(scene.observed(&observer).unwrap().report.interrupted);
+        let scene = scene.clone().out(format!("stopped-{stop}"));
+        assert!(scene.clone().stopped_after(stop - 1).ran().report.interrupted);
         scene.resumed().converged().out.assert_same(&whole.out, &format!("stopped at {stop}"));
     }
 }
