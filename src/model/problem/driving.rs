@@ -86,17 +86,10 @@ impl DrivenModel {
         Self::driven(model, Driven::Rest, [0.0, 1.0], effect)
     }
 
-    /// Makes a model whose rigid bars have this stiffness `EA`, a force, and become rigid.
-    pub(crate) fn by_stiffening(model: Model, stiffness: f64) -> Self {
-        let effect = Effect::Compliance(model.rigid_bars().collect());
-        Self::driven(model, Driven::Stiffness(TermKind::Bars), [stiffness.recip(), 0.0], effect)
-    }
-
-    /// Makes a model whose bars that stretch have this part of their `compliances` ([`Model::soft_bars`]), and get all
-    /// of it.
-    pub(crate) fn by_softening(model: Model, compliances: Vec<(usize, f64)>, part: f64) -> Self {
-        let effect = Effect::Compliance(compliances);
-        Self::driven(model, Driven::Stiffness(TermKind::Bars), [part, 1.0], effect)
+    /// Makes a model whose compliances of these bars, of the numbers among the stiff measures, go from one multiple of
+    /// those given to another: of [`Model::rigid_bars`] to 0, of [`Model::soft_bars`] to 1.
+    pub(crate) fn by_compliance(model: Model, bars: Vec<(usize, f64)>, multiples: [f64; 2]) -> Self {
+        Self::driven(model, Driven::Stiffness(TermKind::Bars), multiples, Effect::Compliance(bars))
     }
 
     fn driven(model: Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {

@@ -30,7 +30,7 @@ impl Model {
     }
 
     /// Returns the number among the stiff measures and the rest length of each bar that is rigid by its own stiffness.
-    pub(super) fn rigid_bars(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(crate) fn rigid_bars(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let rigid = self.stiff_of(TermKind::Bars).filter(|(_, bar)| bar.spring.stiffness.is_infinite());
         rigid.map(|(measure, bar)| (measure, bar.spring.rest))
     }

@@ -71,8 +71,7 @@ fn drawn(plot: &ReactionPlot, caption: &Caption) -> Canvas {
     }
     for (number, branch) in plot.branches.iter().enumerate() {
         let states: Vec<PlottedState> = branch.iter().filter(has).copied().collect();
-        let stretches = states.chunk_by(|_, next| next.event != Some("snap"));
-        for (piece, stable) in stretches.flat_map(pieces) {
+        for (piece, stable) in pieces(&states) {
             let places: Vec<PaperPoint> = piece.iter().map(place).collect();
             canvas.line(&places, curve(number, stable));
             places.windows(2).for_each(|ends| take(&mut canvas, ends[0], ends[1]));
@@ -91,11 +90,16 @@ fn take(canvas: &mut Canvas, from: PaperPoint, to: PaperPoint) {
     }
 }
 
-/// Returns the pieces of a branch whose states are all stable, or all not; neighbours have their common state.
+/// Returns the pieces of a branch whose states are all stable, or all not; neighbours have their common state, but where
+/// the sheet snaps from one to the other.
 ///
 /// The state of an event is singular, so that its own inertia is a matter of rounding: what lies between an event and
 /// another state is as stable as the other.
 fn pieces(states: &[PlottedState]) -> Vec<(&[PlottedState], bool)> {
+    states.chunk_by(|_, next| next.event != Some("snap")).flat_map(pieces_between_snaps).collect()
+}
+
+fn pieces_between_snaps(states: &[PlottedState]) -> Vec<(&[PlottedState], bool)> {
     let stable = |k: usize| {
         let ends = [states[k], states[k + 1]];
         let mut regular = ends.iter().filter(|state| state.event.is_none());
@@ -190,13 +194,18 @@ mod tests {
         ReactionPlot { drive: "displacement".into(), reaction: "force".into(), logarithmic: false, branches }
     }
 
-    /// Claim: pieces change at events, whose own inertia does not matter, and share their states. Source: by hand.
+    /// Claim: pieces change at events, whose own inertia does not matter, and share their states; none goes over a snap.
+    /// Source: by hand.
     #[test]
     fn pieces_change_at_events() {
         let states = snap();
         let found: Vec<_> = pieces(&states).into_iter().map(|(piece, stable)| (piece.len(), stable)).collect();
         assert_eq!(found, [(3, true), (3, false), (2, true)]);
         assert!(pieces(&states[..1]).is_empty() && pieces(&[]).is_empty());
+        let behind = [state(0.14, -0.5, true, Some("snap")), state(0.2, -0.3, true, None)];
+        let snapping = [&states[..3], &behind].concat();
+        let lengths: Vec<usize> = pieces(&snapping).iter().map(|(piece, _)| piece.len()).collect();
+        assert_eq!(lengths, [3, 2]);
     }
 
     /// Claim: what is not stable is dashed, every event has its mark and is in the legend once, and text overlaps

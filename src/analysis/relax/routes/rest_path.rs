@@ -50,7 +50,10 @@ fn followed(run: &mut Run<'_>) -> Option<Ending> {
     run.model.soften_rigid_bars(f64::INFINITY);
     run.soft_steps = first..run.recorder.steps();
     match soft? {
-        Ok(found) => along(run, &|model| DrivenModel::by_stiffening(model, stiffness), found),
+        Ok(found) => {
+            let bars: Vec<(usize, f64)> = run.model.rigid_bars().collect();
+            along(run, &|model| DrivenModel::by_compliance(model, bars.clone(), [stiffness.recip(), 0.0]), found)
+        }
         interrupted => Some(interrupted),
     }
 }

@@ -30,6 +30,6 @@ fn from_stiffer(run: &mut Run<'_>, ratio: f64) -> Option<Ending> {
     }
     let start = run.begin_anew();
     let bars = run.model.soft_bars();
-    let softening = |model| DrivenModel::by_softening(model, bars.clone(), ratio.recip());
+    let softening = |model| DrivenModel::by_compliance(model, bars.clone(), [ratio.recip(), 1.0]);
     if bars.is_empty() { None } else { rest_path::from_minimum(run, &softening, start) }
 }
