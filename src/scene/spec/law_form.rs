@@ -10,6 +10,9 @@ use serde::{Deserialize, Deserializer};
 use crate::scene::written::{Written, read};
 use crate::sheet::Assignment;
 
+/// The letters of edges, as messages list them.
+const LETTERS: [&str; 7] = ["M", "V", "F", "U", "B", "C", "J"];
+
 /// A law of all elements of a term, or `{ M = { kind = "..", .. }, .. }`: one for each letter of `edges_assignment`;
 /// elements of other letters are springs.
 #[derive(Clone, Debug)]
@@ -58,8 +61,8 @@ impl<T: DeserializeOwned> Written for LawForm<T> {
         }
         match keys.keys().next() {
             None if !letters.is_empty() => Ok(Self::Letters(letters)),
-            Some(key) if !letters.is_empty() => {
-                Err(A::Error::custom(format!("`{key}` stands beside letters, expected {}", Self::FORMS)))
+            Some(key) if !letters.is_empty() || key.chars().count() == 1 => {
+                Err(A::Error::custom(format!("`{key}` is none of the letters {LETTERS:?}, expected {}", Self::FORMS)))
             }
             _ => keys.try_into().map(Self::All).map_err(|fault| A::Error::custom(fault.message())),
         }
@@ -76,7 +79,7 @@ impl<T: JsonSchema> JsonSchema for LawForm<T> {
         let letters = json_schema!({
             "type": "object",
             "description": "a law for each letter of `edges_assignment`; elements of other letters are springs",
-            "propertyNames": { "enum": ["M", "V", "F", "U", "B", "C", "J"] },
+            "propertyNames": { "enum": LETTERS },
             "additionalProperties": law,
             "minProperties": 1,
         });

@@ -64,8 +64,9 @@ fn mountains_and_valleys_have_their_own_laws() {
 fn letters_without_law_are_refused() {
     for (creases, said) in [
         (format!("stiffness = 1.0, law = {{ B = {STIFFENING} }}"), "no crease has the letter B"),
-        (format!("stiffness = 1.0, law = {{ M = {STIFFENING}, kind = \"power\" }}"), "`kind` stands beside letters"),
-        (format!("stiffness = 1.0, law = {{ M = {STIFFENING}, X = {BILINEAR} }}"), "`X` stands beside letters"),
+        (format!("stiffness = 1.0, law = {{ M = {STIFFENING}, kind = \"power\" }}"), "`kind` is none of the letters"),
+        (format!("stiffness = 1.0, law = {{ M = {STIFFENING}, X = {BILINEAR} }}"), "`X` is none of the letters"),
+        (format!("stiffness = 1.0, law = {{ Z = {BILINEAR} }}"), "`Z` is none of the letters"),
         ("stiffness = 1.0, law = { M = { kind = \"stiff\" } }".into(), "unknown word `stiff`"),
         ("stiffness = 1.0, law = { V = { kind = \"power\", exponent = 0.5 } }".into(), "the exponent is 0.5"),
         ("stiffness = 1.0, law = {}".into(), "missing key `kind`"),
