@@ -11,26 +11,20 @@ const SWITCHES: [&str; 1] = ["closed"];
 
 /// The errors in the words after a pattern.
 #[derive(Debug, Error, PartialEq, Eq)]
+#[allow(missing_docs)] // the messages say it
 pub(crate) enum ParameterError {
-    /// A word is not a key, at a position where a key is expected.
     #[error("`{0}` stands where a parameter was expected; write --key value, and -o FILE for the mesh")]
     NoKey(String),
-    /// A key at the end has no value.
     #[error("parameter `--{0}` has no value; write --{0} value")]
     NoValue(String),
-    /// `-o` at the end has no file name.
     #[error("`-o` has no file; write -o FILE.fold")]
     NoFile,
-    /// A whole number does not fit into 64 bits with a sign.
     #[error("`{0}` is too large; whole numbers go up to 9223372036854775807")]
     TooLarge(String),
-    /// A key is given twice.
     #[error("parameter `--{0}` is given twice")]
     Twice(String),
-    /// No pattern has this name.
     #[error("{0}")]
     NoPattern(String),
-    /// No file for the mesh is given.
     #[error("there is no file for the mesh; add -o FILE.fold")]
     NoOutput,
 }
@@ -76,9 +70,6 @@ fn is_help(word: &str) -> bool {
 }
 
 /// Returns a page about a pattern and its parameters, or, for a word that asks for help itself, about all patterns.
-///
-/// # Errors
-/// [`ParameterError::NoPattern`] if no pattern has this name.
 pub(crate) fn help(pattern: &str) -> Result<String, ParameterError> {
     let page = |name: &str| {
         Pattern::help(name).map_err(|error| ParameterError::NoPattern(format!("{error}; {}", error.help())))

@@ -15,26 +15,17 @@ const ITS_NAME: &str = "stdin";
 
 /// The reasons for which the scenes of a call cannot be computed.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub(crate) enum ScenesError {
-    /// One of the scenes is wrong.
     #[error(transparent)]
     Run(RunError),
-    /// Standard input cannot be read, or is no text.
     #[error("standard input: {0}")]
     StandardInput(io::Error),
-    /// Two scenes have the same folder.
     #[error(
         "{} and {} would write into the same folder, {}; run them apart, each with its --out", first.display(),
         second.display(), out.display()
     )]
-    SameFolder {
-        /// The first scene.
-        first: PathBuf,
-        /// The second scene.
-        second: PathBuf,
-        /// Their folder.
-        out: PathBuf,
-    },
+    SameFolder { first: PathBuf, second: PathBuf, out: PathBuf },
 }
 
 impl From<RunError> for ScenesError {
@@ -45,9 +36,6 @@ impl From<RunError> for ScenesError {
 
 /// Reads some scenes, sets keys in each, and returns them with the options of their runs. Several scenes are checked
 /// before any of them is computed; a single one is checked when it is run.
-///
-/// # Errors
-/// [`ScenesError`], with the first scene that would be refused.
 pub(crate) fn read(
     paths: &[PathBuf],
     settings: &[Setting],

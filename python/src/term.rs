@@ -35,17 +35,11 @@ impl CalledTerm {
     }
 
     /// Returns the exception that has ended the function since this was asked last.
-    ///
-    /// # Errors
-    /// That exception.
     pub(crate) fn raise(&self) -> PyResult<()> {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
 
     /// Returns the assembly with this term.
-    ///
-    /// # Errors
-    /// `SceneError` for names, vertices and boundary conditions that it cannot have.
     pub(crate) fn added_to(&self, py: Python<'_>, assembly: &foldwell::Assembly) -> PyResult<foldwell::Assembly> {
         let Self { name, elements, .. } = self;
         let is_taken = assembly.terms().own_names().contains(name.as_str());
@@ -127,9 +121,6 @@ impl Called {
 impl Called {
     /// Compares gradient and Hessian of one element with central differences, each along one direction, near the drawn
     /// state: a symmetric state may hide what is wrong. A Hessian is compared along two directions, times the second.
-    ///
-    /// # Errors
-    /// The name of the derivative that is wrong, and the difference.
     fn checked<const N: usize, const D: usize>(
         &self,
         all: &[Vec3],

@@ -61,11 +61,10 @@ pub struct RelaxedTrajectory {
 
 /// Why there is no relaxed state beside a rigid one.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum AlongFailure {
-    /// The relaxation failed.
     #[error(transparent)]
     Relaxation(#[from] Failure),
-    /// It ended in another state of rigid measures.
     #[error("it ends in another rigid state, whose fold angles differ by up to {apart:.1e} rad")]
     Elsewhere {
         /// Largest difference of a fold angle to the rigid trajectory, in radians.

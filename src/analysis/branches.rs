@@ -17,24 +17,18 @@ const NO_CURVATURE: f64 = 1e-7;
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum BranchesError {
-    /// From the kinematics.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// A torus has conditions that single vertices do not know.
     #[error(
         "on a torus with a lattice the folding angles of one cell do not say all; ask for domain \"screw\" or \"patch\""
     )]
     Torus,
-    /// Exact kinematics knows the closed forms of the built-in domains alone.
     #[error("branches are not known on a domain of one's own")]
     OwnDomain,
-    /// Too many edges.
     #[error("the sheet has {edges} edges that fold; at most {MOST_EDGES} are looked at")]
-    TooLarge {
-        /// How many.
-        edges: usize,
-    },
+    TooLarge { edges: usize },
 }
 
 /// What leaves the drawn state.

@@ -23,14 +23,12 @@ use thiserror::Error;
 
 /// The reason for which a path cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum PathFailure {
-    /// The drive has no effect.
     #[error(transparent)]
     Drive(#[from] DriveError),
-    /// The relaxation from the start failed, for this reason.
     #[error("no equilibrium was found with which the path could begin: {0}")]
     Start(#[from] Failure),
-    /// The path cannot be followed.
     #[error(transparent)]
     Path(#[from] PathError),
 }

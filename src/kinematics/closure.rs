@@ -90,9 +90,6 @@ impl Closure {
     }
 
     /// Returns the closure of several cells of a sheet; edges and vertices are numbered as in the tiling.
-    ///
-    /// # Errors
-    /// [`KinematicsError`] as [`of_cell`](Self::of_cell).
     pub(crate) fn of_tiling(sheet: &Sheet, tiling: &Tiling) -> Result<Self, KinematicsError> {
         check_surface(sheet)?;
         if sheet.screws.is_some() {
@@ -108,9 +105,6 @@ impl Closure {
 
     /// Returns the closure of any list of edges, which are numbered as in the list; vertices are numbered as in their
     /// corners. `position` returns the position of a corner in any state in which the faces have their shape.
-    ///
-    /// # Errors
-    /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub(crate) fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
         let halves = halves_by_vertex(edges);
         let mut rounds = Vec::new();
@@ -172,9 +166,6 @@ impl Closure {
     }
 
     /// Returns an error if a loop is left that the conditions do not close.
-    ///
-    /// # Errors
-    /// [`KinematicsError::Openings`] for a periodic sheet with openings, and for several sheets in one.
     pub(crate) fn is_complete(&self) -> Result<(), KinematicsError> {
         match self.unchecked_loops {
             0 => Ok(()),
@@ -209,9 +200,6 @@ impl Closure {
     }
 
     /// Returns the linear motions of a closed state: the null space of the [`jacobian`](Self::jacobian).
-    ///
-    /// # Errors
-    /// [`DenseError`] where an angle is not finite, and where the number of motions is not clear.
     ///
     /// # Panics
     /// As [`residual`](Self::residual).

@@ -68,9 +68,6 @@ impl SecondOrder {
     /// Whether the one quadric is definite across one null direction, which is then the only real one: that of a motion
     /// without curvature, along which the states stay spatially periodic, as in the planar folding of a triangulated
     /// Miura-ori.
-    ///
-    /// # Errors
-    /// [`KinematicsError`] if an entry is not finite.
     pub(crate) fn one_direction_is_real(&self) -> Result<bool, KinematicsError> {
         let [quadric] = &self.quadrics[..] else { return Ok(false) };
         let [positive, negative, zero] = signature(quadric)?;
@@ -107,9 +104,6 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
 ///
 /// For the one quadric of a periodic state, `[2, 1, 0]` or `[1, 2, 0]` is a cone of real directions, `[3, 0, 0]` has
 /// none, and `[2, 0, 1]` has one, of multiplicity two.
-///
-/// # Errors
-/// [`KinematicsError`] if an entry is not finite.
 pub(crate) fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
     let values = symmetric_eigenvalues(quadric)?;
     let threshold = ZERO * max_abs(&values);

@@ -234,9 +234,6 @@ impl<'a> Tube<'a> {
 
     /// Solves closure and the conditions in `kept` by Newton's method, with the edges in `locked` at the angles of
     /// `start`.
-    ///
-    /// # Errors
-    /// [`KinematicsError::NotClosed`] if there is no solution near `start`.
     pub(crate) fn closed(
         &self,
         start: &[f64],

@@ -28,38 +28,14 @@ enum Operation {
 
 /// The reasons for which a text is no expression. Places are characters, counted from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum ExpressionError {
-    /// A name is neither a variable nor a function.
     #[error("`{name}` at character {at} is not known; there are {known}")]
-    Unknown {
-        /// The name.
-        name: String,
-        /// Its place.
-        at: usize,
-        /// The names that are known.
-        known: String,
-    },
-    /// A character cannot stand where it does.
+    Unknown { name: String, at: usize, known: String },
     #[error("`{found}` at character {at} of `{text}`: expected {expected}")]
-    Unexpected {
-        /// The text.
-        text: String,
-        /// The character that is there.
-        found: char,
-        /// Its place.
-        at: usize,
-        /// Description of what can stand there.
-        expected: &'static str,
-    },
-    /// The text ends too early.
+    Unexpected { text: String, found: char, at: usize, expected: &'static str },
     #[error("`{text}` ends where {expected} is expected")]
-    End {
-        /// The text.
-        text: String,
-        /// Description of what can follow.
-        expected: &'static str,
-    },
-    /// The text is too long.
+    End { text: String, expected: &'static str },
     #[error("an expression has at most {LONGEST} characters")]
     TooLong,
 }

@@ -127,30 +127,24 @@ impl ForceCurve for Bilinear {
 
 /// The reason for which points are no curve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum CurveError {
-    /// Fewer than three points are given.
     #[error("a curve has at least three points, one of them 0, 0")]
     TooFew,
-    /// A number is infinite or NaN.
     #[error("point {at} has a number that is not finite")]
     NotFinite {
         /// The point, counted from 0.
         at: usize,
     },
-    /// A point does not lie beyond the one before.
     #[error("point {at} is at {value:?}, which does not lie beyond {before:?} of the point before")]
     NotAscending {
         /// The point, counted from 0.
         at: usize,
-        /// Its angle or strain.
         value: f64,
-        /// That of the point before.
         before: f64,
     },
-    /// The curve does not go through the rest value.
     #[error("no point is 0, 0: the element has no force at rest, from which angles and strains are counted")]
     NoRest,
-    /// The curve does not rise at the rest value.
     #[error("the curve does not rise at 0, 0: its slope there is the stiffness at rest")]
     NotStable,
 }

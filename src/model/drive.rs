@@ -43,35 +43,24 @@ pub struct Drive {
 
 /// The reason for which a drive does nothing to a model.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum DriveError {
-    /// There are no loads.
     #[error("there are no loads to drive")]
     NoLoads,
-    /// Nothing holds the sheet against rotations, which the loads would have to do.
     #[error("the loads can turn the sheet as a whole: hold it against rotations with pins, or drive a displacement")]
     FreeRotation,
-    /// The edge is not locked.
     #[error("the crease is not locked")]
     NotLocked,
-    /// The model has no elements of this kind.
     #[error("there are no {}", .0.name())]
     NoTerm(TermKind),
-    /// The elements of this kind have different stiffnesses.
     #[error("the {} do not all have the same stiffness", .0.name())]
     NotUniform(TermKind),
-    /// The elements of this kind have a law and tensions.
     #[error("the stiffness of the {} cannot be driven: they have a law", .0.name())]
     HasLaw(TermKind),
-    /// Soft hinges cannot be driven to infinite stiffness.
     #[error("the {} cannot be driven to infinite stiffness: only bars can", .0.name())]
     TooStiff(TermKind),
-    /// The rest values are those of the drawn state.
     #[error("the creases rest as they are drawn, so that nothing folds")]
     RestAsDrawn,
-    /// The driven value is at its end already.
     #[error("the driven value is {at} at the beginning already")]
-    NoWay {
-        /// The parameter there.
-        at: f64,
-    },
+    NoWay { at: f64 },
 }

@@ -26,31 +26,14 @@ pub struct Formula {
 
 /// The reasons for which a text is no formula of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum FormulaError {
-    /// The text is no expression.
     #[error(transparent)]
     Expression(#[from] ExpressionError),
-    /// The formula has no finite value somewhere.
     #[error("the formula is {value} at m = {measure}, m0 = {rest}, k = 1")]
-    Undefined {
-        /// Value of the measure.
-        measure: f64,
-        /// Value at rest.
-        rest: f64,
-        /// Value of the formula.
-        value: f64,
-    },
-    /// The formula is not that of a spring at rest.
+    Undefined { measure: f64, rest: f64, value: f64 },
     #[error("at m = m0 = {rest}, k = 1 the formula is {force} with the slope {slope}; it has to be 0 with the slope k")]
-    NoSpring {
-        /// Value at rest.
-        rest: f64,
-        /// Value of the formula there.
-        force: f64,
-        /// Its derivative by the measure.
-        slope: f64,
-    },
-    /// Twice the stiffness does not give twice the force.
+    NoSpring { rest: f64, force: f64, slope: f64 },
     #[error("the formula is not proportional to k")]
     NotProportional,
 }

@@ -13,19 +13,16 @@ const CLOSED: f64 = 1e-6;
 
 /// The reason why a sheet is not drawn as a tube with a given seam.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum RollError {
-    /// No screw motions repeat the cell.
     #[error("the sheet is not drawn as a tube: no screw motions repeat its cell")]
     NoScrews,
-    /// The seam is `[0, 0]`, or has numbers of more than 15 bits.
     #[error("a seam is a cell other than [0, 0], with numbers of at most 15 bits")]
     NoSeam,
-    /// A closing condition that is kept does not hold in the drawing.
     #[error("the drawn tube does not close: the seam turns by {} degrees and rises by {}, not by 360 and 0", rounded(turn.to_degrees()), rounded(*rise))]
     Open {
         /// Angle of the seam, in radians.
         turn: f64,
-        /// Translation of the seam along the axis.
         rise: f64,
     },
 }

@@ -33,9 +33,6 @@ pub(crate) struct Claim {
 impl Claim {
     /// Claims a folder, which is created if it does not exist: alone, or together with all claims for the same
     /// `purpose`.
-    ///
-    /// # Errors
-    /// [`OutputError::Claimed`] while the folder has another claim, [`OutputError::Write`] if it cannot be written.
     pub(crate) fn on(folder: &Path, purpose: Option<&str>) -> Result<Self, OutputError> {
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let failed = |source| OutputError::Write { path: folder.into(), source };

@@ -9,48 +9,19 @@ use super::fault::{ShapeError, VtuFault};
 
 /// The reason why a file could not be written or read.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum OutputError {
-    /// The file was not written, and no part of it is left on the disk.
     #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// Path of the file.
-        path: PathBuf,
-        /// Error of the operating system.
-        source: io::Error,
-    },
-    /// The file cannot be read.
+    Write { path: PathBuf, source: io::Error },
     #[error("{}: cannot be read: {source}", path.display())]
-    Read {
-        /// Path of the file.
-        path: PathBuf,
-        /// Error of the operating system.
-        source: io::Error,
-    },
-    /// Another run is writing into the folder.
+    Read { path: PathBuf, source: io::Error },
     #[error(
         "{}: another run (process {process}) is writing into this folder; wait for its end, or choose another folder",
         path.display()
     )]
-    Claimed {
-        /// Path of the folder.
-        path: PathBuf,
-        /// The process of the other run, on the machine on which it is.
-        process: u32,
-    },
-    /// The file was read, but its content is not a valid VTU file of triangles and lines.
+    Claimed { path: PathBuf, process: u32 },
     #[error("{}: {fault}", path.display())]
-    Vtu {
-        /// Path of the file.
-        path: PathBuf,
-        /// Fault of the content.
-        fault: VtuFault,
-    },
-    /// The file was not written, because the data for it are inconsistent.
+    Vtu { path: PathBuf, fault: VtuFault },
     #[error("{}: not written: {fault}", path.display())]
-    Shape {
-        /// Path of the file.
-        path: PathBuf,
-        /// Inconsistency of the data.
-        fault: ShapeError,
-    },
+    Shape { path: PathBuf, fault: ShapeError },
 }

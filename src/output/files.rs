@@ -25,9 +25,6 @@ pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), OutputError>
 
 /// Writes the bytes that `fill` writes to its argument into a file, and creates the folders on its path if they do not
 /// exist.
-///
-/// # Errors
-/// [`OutputError::Write`], also if `fill` fails; the file is then as it was before.
 pub(crate) fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
     replace(path, fill).map_err(|source| OutputError::Write { path: path.into(), source })
 }

@@ -114,9 +114,6 @@ fn paint(map: &mut Pixmap, Shape { places, closed, style }: &Shape, scale: Trans
 }
 
 /// Writes a GIF that starts anew after its last frame.
-///
-/// # Errors
-/// [`OutputError::Write`], also if there is no state.
 pub(crate) fn write_gif(path: &Path, reel: &Reel, options: FilmOptions) -> Result<(), OutputError> {
     files::write_with(path, |file| gif(file, reel, options))
 }
@@ -133,10 +130,6 @@ fn gif(file: &mut dyn Write, reel: &Reel, options: FilmOptions) -> io::Result<()
 }
 
 /// Writes an MP4 (H.264) by the program `ffmpeg`.
-///
-/// # Errors
-/// [`OutputError::Write`], of the kind [`io::ErrorKind::NotFound`] if there is no such program, and also if it fails or
-/// if there is no state.
 pub(crate) fn write_mp4(path: &Path, reel: &Reel, options: FilmOptions) -> Result<(), OutputError> {
     let bytes = mp4(reel, options).map_err(|source| OutputError::Write { path: path.into(), source })?;
     files::write(path, bytes)

@@ -135,10 +135,6 @@ impl Picture {
     }
 
     /// Checks that all arrays are consistent; programs that read files with inconsistent arrays crash.
-    ///
-    /// # Errors
-    /// [`ShapeError::Length`] for the first array of a wrong length, [`ShapeError::NoSuchPoint`] for the first invalid
-    /// index.
     pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let (points, faces, lines) = (self.points.len(), self.triangles.len(), self.lines.len());
         let arrays = [

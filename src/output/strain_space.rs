@@ -26,10 +26,6 @@ pub struct StrainSurface {
 
 impl StrainSurface {
     /// Checks that the arrays are consistent.
-    ///
-    /// # Errors
-    /// [`ShapeError::Length`] for the first array of a wrong length, [`ShapeError::NoSuchPoint`] for a triangle or
-    /// segment with an invalid index.
     pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let expected = self.points.len();
         let folds = self.folds.iter().map(|(_, angles)| ("fold", angles.len()));

@@ -12,9 +12,6 @@ use crate::sheet::EdgeKey;
 
 /// Reads the named columns of a table that was written by this module. Returns one vector for each row, with NaN for
 /// empty fields and for columns that do not exist.
-///
-/// # Errors
-/// [`OutputError::Read`].
 pub(crate) fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
     let text = std::fs::read_to_string(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     let mut lines = text.lines();
@@ -153,9 +150,6 @@ impl Table {
     }
 
     /// Returns the text of the table.
-    ///
-    /// # Errors
-    /// [`ShapeError::Row`] if the length of a row differs from the number of columns.
     pub(crate) fn to_csv(&self) -> Result<String, ShapeError> {
         let mut text = self.header.join(",");
         text.push('\n');

@@ -67,9 +67,6 @@ fn numbers<'a>(lists: impl Iterator<Item = &'a [usize]>) -> VertexNumbers {
 ///
 /// Point arrays: `curvature`, `theta` (2 components), one for each edge of the cell named like its column in the table
 /// (`fold_i_j_n1_n2`), and, if they were computed, `energy` and `self_intersecting`.
-///
-/// # Errors
-/// [`OutputError::Shape`] if the arrays are inconsistent, [`OutputError::Write`].
 pub(crate) fn vtp(path: &Path, surface: &StrainSurface) -> Result<Vec<u8>, OutputError> {
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let lines = numbers(surface.segments.iter().map(|segment| segment.as_slice()));
@@ -92,9 +89,6 @@ pub(crate) fn vtp(path: &Path, surface: &StrainSurface) -> Result<Vec<u8>, Outpu
 }
 
 /// Returns a VTP file of triangles and curves between common points, with arrays of numbers at the points.
-///
-/// # Errors
-/// [`OutputError::Shape`] if the length of an array is not the number of points, [`OutputError::Write`].
 pub(crate) fn vtp_of_surface(
     path: &Path,
     points: &[Vec3],
@@ -114,9 +108,6 @@ pub(crate) fn vtp_of_surface(
 }
 
 /// Returns a VTP file of curves in the plane z = 0, with arrays of one number for each curve.
-///
-/// # Errors
-/// [`OutputError::Shape`] if the length of an array is not the number of curves, [`OutputError::Write`].
 pub(crate) fn vtp_of_curves(
     path: &Path,
     curves: &[Vec<[f64; 2]>],
@@ -141,9 +132,6 @@ pub(crate) fn vtp_of_curves(
 
 /// Returns a VTI file of a map: values at the points `origin + (k1, k2) * spacing`, in the order in which `k1` runs
 /// faster.
-///
-/// # Errors
-/// [`OutputError::Shape`] if the length of an array is not the number of points, [`OutputError::Write`].
 pub(crate) fn vti(
     path: &Path,
     size: [usize; 2],

@@ -47,9 +47,6 @@ impl Belongings {
 
     /// Removes the files that an earlier run wrote for a study of this name and this run did not write, and the study's
     /// folder if it is then empty.
-    ///
-    /// # Errors
-    /// [`OutputError::Write`] if a file cannot be removed, since it would be taken for one of this run.
     pub(crate) fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let old = self.present(name).into_iter().map(|file| self.out.join(file));
         let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
@@ -62,9 +59,6 @@ impl Belongings {
     }
 
     /// Returns the record of the files of a study, which changes if any of them is missing, truncated or changed.
-    ///
-    /// # Errors
-    /// [`OutputError::Read`] if one of the files cannot be read.
     pub(crate) fn record(&self, name: &str) -> Result<Files, OutputError> {
         let (mut digest, mut files) = (Fingerprint::default(), Files::default());
         for file in self.present(name) {

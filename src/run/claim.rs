@@ -16,10 +16,6 @@ const WAITING: &str = "waiting for another run";
 
 /// Claims the folder of one run. It waits for another run into this folder if that is one of this process, which may
 /// have been broken off and end after its step; with `patient` also if it is one of another process.
-///
-/// # Errors
-/// [`OutputError::Claimed`] if another run has the folder, also if the observer ends the waiting;
-/// [`OutputError::Write`] if the folder cannot be written.
 pub(super) fn of_run(folder: &Path, patient: bool, observer: Observer) -> Result<Claim, OutputError> {
     let waiting = Progress { study: WAITING.to_owned(), step: 0, of: None, residual: f64::NAN, part: f64::NAN };
     let waits = |process: u32| (patient || process == std::process::id()) && observer(&waiting).is_continue();
@@ -32,9 +28,6 @@ pub(super) fn of_run(folder: &Path, patient: bool, observer: Observer) -> Result
 }
 
 /// Claims the folder of a sweep, which the runs of this sweep share: shards, and the workers that compute its points.
-///
-/// # Errors
-/// [`RunError`] if the folder has another run or cannot be written, or if a file that the scene names cannot be read.
 pub(super) fn of_sweep(folder: &Path, sweep: &Sweep) -> Result<Claim, RunError> {
     Ok(Claim::on(folder, Some(&digest(sweep.file())?))?)
 }

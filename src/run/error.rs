@@ -12,137 +12,58 @@ use thiserror::Error;
 
 /// The reasons for which a run, a conversion or a generator has no result.
 #[derive(Debug, Error, Diagnostic)]
+#[allow(missing_docs)] // the messages say it
 pub enum RunError {
-    /// The scene is wrong.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Scene(#[from] SceneError),
-    /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A mesh was given as the scene.
     #[error("{}: this is a mesh, not a scene", path.display())]
     #[diagnostic(help("name it in a scene, a .toml file: under [sheet], mesh = \"{}\"", path.display()))]
-    NoScene {
-        /// The mesh.
-        path: PathBuf,
-    },
-    /// A mesh is wrong.
+    NoScene { path: PathBuf },
     #[error(transparent)]
     Mesh(#[from] SheetError),
-    /// The triangles of a VTU file do not form a sheet.
     #[error("{}: {defect}", path.display())]
-    NoSheet {
-        /// The file.
-        path: PathBuf,
-        /// The defect.
-        defect: Defect,
-    },
-    /// A pattern does not exist for its parameters.
+    NoSheet { path: PathBuf, defect: Defect },
     #[error(transparent)]
     #[diagnostic(help("{}", .0.help()))]
     Pattern(#[from] GenerateError),
-    /// A folder is not that of a run.
     #[error("{}: not the folder of a run: {why}", path.display())]
     #[diagnostic(help("name the folder that `foldwell run` wrote, the one with `summary.json`"))]
-    NoRun {
-        /// The folder.
-        path: PathBuf,
-        /// Description of the error.
-        why: String,
-    },
-    /// The page of a run would replace the page of one of its studies.
+    NoRun { path: PathBuf, why: String },
     #[error("{}: this is the page of study `{study}`", path.display())]
     #[diagnostic(help("name another file: -o FILE.html"))]
-    PageOfStudy {
-        /// The page.
-        path: PathBuf,
-        /// The study.
-        study: String,
-    },
-    /// A frame is asked for of a file that has none.
+    PageOfStudy { path: PathBuf, study: String },
     #[error("{}: frame {frame} is asked for, but this file has no frames", path.display())]
     #[diagnostic(help("frames are those of FOLD files; leave out the frame"))]
-    NoFrames {
-        /// The file.
-        path: PathBuf,
-        /// The frame.
-        frame: usize,
-    },
-    /// A sheet is to be written as a crease pattern and is not flat.
+    NoFrames { path: PathBuf, frame: usize },
     #[error("{}: {reason}", path.display())]
     #[diagnostic(help("write another format, .fold, .obj or .vtu, or unfold the sheet, as `convert --flatten` does"))]
-    NotFlat {
-        /// The file.
-        path: PathBuf,
-        /// The reason for which it is not flat.
-        reason: NotFlat,
-    },
-    /// A sheet is to be unfolded and cannot be.
+    NotFlat { path: PathBuf, reason: NotFlat },
     #[error("{}: {reason}", path.display())]
     #[diagnostic(help("`foldwell info` says whether a sheet is developable"))]
-    NotDevelopable {
-        /// The file.
-        path: PathBuf,
-        /// The reason for which it cannot be unfolded.
-        reason: NotDevelopable,
-    },
-    /// A sheet is to be written as a solid without a thickness.
+    NotDevelopable { path: PathBuf, reason: NotDevelopable },
     #[error("{}: the thickness is {thickness}, expected a number above 0", path.display())]
-    Thickness {
-        /// The file.
-        path: PathBuf,
-        /// The thickness.
-        thickness: f64,
-    },
-    /// A study has no states of which a film could be made.
+    Thickness { path: PathBuf, thickness: f64 },
     #[error("{}: no study with two states or more to film", path.display())]
     #[diagnostic(help("states are the files NAME/NAME_0000.vtu, ...: draw = [\"vtk\"] in a study writes them"))]
-    NothingToFilm {
-        /// The folder or the series.
-        path: PathBuf,
-    },
-    /// A study has no states on a branch.
+    NothingToFilm { path: PathBuf },
     #[error("{}: there is no branch {branch}", path.display())]
     #[diagnostic(help("{}", match &known[..] {
         [] => "this study has no branches; leave out --branch".to_owned(),
         known => format!("the branches are {}", known.iter().map(i64::to_string).collect::<Vec<_>>().join(", ")),
     }))]
-    NoBranch {
-        /// The series.
-        path: PathBuf,
-        /// Number of the branch.
-        branch: i64,
-        /// Numbers of the branches that there are.
-        known: Vec<i64>,
-    },
-    /// One file cannot be the film of several studies.
+    NoBranch { path: PathBuf, branch: i64, known: Vec<i64> },
     #[error("{}: one file for the films of {}", path.display(), studies.join(", "))]
     #[diagnostic(help("name one of them: {}.pvd", studies[0]))]
-    SeveralFilms {
-        /// The file.
-        path: PathBuf,
-        /// The studies.
-        studies: Vec<String>,
-    },
-    /// There is no program that writes films of this kind.
+    SeveralFilms { path: PathBuf, studies: Vec<String> },
     #[error("{}: MP4 is written by ffmpeg, which is not on the PATH", path.display())]
     #[diagnostic(help("install ffmpeg, or name a file that ends in .gif"))]
-    NoFfmpeg {
-        /// The film.
-        path: PathBuf,
-    },
-    /// The kind of a file is unknown.
+    NoFfmpeg { path: PathBuf },
     #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]
-    Ending {
-        /// The file.
-        path: PathBuf,
-        /// Its ending; empty if it has none.
-        ending: String,
-        /// The endings that are known.
-        expected: &'static str,
-    },
+    Ending { path: PathBuf, ending: String, expected: &'static str },
 }
 
 impl From<StudyError> for RunError {

@@ -11,9 +11,6 @@ use crate::output::{OutputError, vtk};
 use crate::scene::outputs::{is_one_of, owned};
 
 /// Returns the summary of the run that wrote into a folder.
-///
-/// # Errors
-/// [`RunError::NoRun`] if there is none, [`RunError::Output`] if it must not be read.
 pub(super) fn summary(folder: &Path) -> Result<Map<String, Value>, RunError> {
     let path = folder.join("summary.json");
     let no_run = |why: String| RunError::NoRun { path: folder.into(), why };
@@ -40,9 +37,6 @@ pub(super) fn study_name(study: &Map<String, Value>) -> Option<&str> {
 }
 
 /// Returns the files of a study that can be shown.
-///
-/// # Errors
-/// [`OutputError`] if one of them cannot be read.
 pub(super) fn contents(folder: &Path, name: &str) -> Result<Vec<(String, Content<'static>)>, OutputError> {
     let own = owned(name);
     let entries = fs::read_dir(folder.join(name)).into_iter().flatten().flatten();

@@ -52,9 +52,6 @@ pub(crate) fn real_paths(file: &SceneFile) -> HashSet<PathBuf> {
 }
 
 /// Checks that a run into the folder `out` would not overwrite a file that the scene reads.
-///
-/// # Errors
-/// [`SceneError::At`] with the place of the study that would overwrite it.
 pub(crate) fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
     if !out.exists() {
         return Ok(());

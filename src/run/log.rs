@@ -23,9 +23,6 @@ pub(super) struct Log {
 impl Log {
     /// Begins a log and returns the lines with which it begins: if `resumed`, the good lines of an earlier run with
     /// this digest.
-    ///
-    /// # Errors
-    /// [`OutputError::Write`] if the log cannot be written.
     pub(super) fn begin(path: PathBuf, digest: &str, resumed: bool) -> Result<(Self, Vec<String>), OutputError> {
         let old = if resumed { fs::read(&path).unwrap_or_default() } else { Vec::new() };
         let old = String::from_utf8_lossy(&old);
@@ -49,9 +46,6 @@ impl Log {
     }
 
     /// Appends a line.
-    ///
-    /// # Errors
-    /// [`OutputError::Write`] if the log cannot be written.
     pub(super) fn append(&mut self, line: &str) -> Result<(), OutputError> {
         let summed = self.summed(line);
         let written =

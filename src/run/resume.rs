@@ -71,9 +71,6 @@ pub(crate) fn is_start(file: &SceneFile, name: &str) -> bool {
 
 /// Returns the trajectories that a study of an earlier run followed, in the space of lattice strains, read from its
 /// table; `None` for studies that follow no trajectories.
-///
-/// # Errors
-/// [`OutputError`] if the table cannot be read.
 pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<PathPoint>>>, OutputError> {
     const COLUMNS: [&str; 8] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12", "theta1", "theta2"];
     if !matches!(*study.kind, StudyKind::Trace(_)) {

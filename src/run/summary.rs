@@ -73,9 +73,6 @@ impl Summary {
     }
 
     /// Writes `summary.json`.
-    ///
-    /// # Errors
-    /// [`OutputError::Write`].
     pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         files::write(path, self.to_json())
     }

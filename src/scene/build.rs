@@ -62,9 +62,6 @@ pub fn drive(file: &SceneFile, assembly: &Assembly, name: &str) -> Result<Drive,
 }
 
 /// Returns the vertices of a set.
-///
-/// # Errors
-/// [`SceneError`] if there are none.
 pub(crate) fn vertices(
     file: &SceneFile,
     assembly: &Assembly,
@@ -79,9 +76,6 @@ pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
 }
 
 /// Returns the rates of a mode from its table, for every edge of the tiling; NaN if the table has none.
-///
-/// # Errors
-/// [`SceneError`] if the table cannot be read, names an edge that does not fold, or lacks a crease.
 pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
     Reader::new(file, assembly).rates(name, (ElementKind::Creases, ElementKind::Facets))
 }
@@ -117,9 +111,6 @@ fn no_mesh(file: &SceneFile, span: Range<usize>, path: &Path) -> SceneError {
 }
 
 /// Returns another sheet that a study names, from its mesh.
-///
-/// # Errors
-/// [`SceneError`] if the mesh cannot be read.
 pub(crate) fn other_sheet(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
     let path = file.resolve(path);
     Ok(fold::read_frame(&path, None)?)

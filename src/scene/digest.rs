@@ -15,9 +15,6 @@ use crate::sheet::text::read_bytes;
 /// their place.
 ///
 /// The digest detects edited input, by the 64-bit hash FNV-1a; it does not protect against forgery.
-///
-/// # Errors
-/// [`SceneError::Read`] if one of the files cannot be read.
 pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     let mut hash = Fingerprint::default();
     hash.add(env!("CARGO_PKG_VERSION").as_bytes());

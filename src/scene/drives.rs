@@ -50,17 +50,11 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
 }
 
 /// Checks all drives of a scene with its sheet.
-///
-/// # Errors
-/// [`SceneError`] if a drive names something that does not exist, or drives nothing.
 pub(super) fn check_all(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
     file.scene.drives.iter().try_for_each(|spec| resolve(file, assembly, spec).map(|_| ()))
 }
 
 /// Returns the directions along which drives move vertices or parts, and so support loads.
-///
-/// # Errors
-/// [`SceneError`] as [`check_all`].
 pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec3>, SceneError> {
     let mut directions = Vec::new();
     for spec in &file.scene.drives {
@@ -74,9 +68,6 @@ pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec
 }
 
 /// Returns the drive that a table of the scene describes.
-///
-/// # Errors
-/// [`SceneError`] if it names something that does not exist, or drives nothing.
 pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -> Result<Drive, SceneError> {
     let terms = assembly.terms();
     let nothing = |span: Range<usize>, message: &str, help: &str| Err(file.error_at(span, message, help));
@@ -106,9 +97,6 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
 }
 
 /// Returns the rest angles as a driven quantity, for the drive or study at this place of the scene.
-///
-/// # Errors
-/// [`SceneError`] if there are none.
 pub(crate) fn rest(file: &SceneFile, assembly: &Assembly, span: Range<usize>) -> Result<Driven, SceneError> {
     let terms = assembly.terms();
     let soft_facets = terms.facets.is_some() && !terms.has_rigid_facets();

@@ -32,9 +32,6 @@ type ReadLaw = (Arc<dyn Law>, Option<f64>);
 type LawReader<T> = fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneError>;
 
 /// Returns the laws that bars, creases and facets are given.
-///
-/// # Errors
-/// [`SceneError`] if a curve or a formula is none.
 pub(super) fn given(file: &SceneFile, values: &ElementValues) -> Result<[Option<GivenLaw>; 3], SceneError> {
     let EnergySpec { bars, creases, facets, membrane: _ } = &file.scene.energy;
     let [in_creases, in_facets] =
@@ -69,9 +66,6 @@ fn of_elements<T>(
 }
 
 /// Returns the laws of the elements of bars, creases and facets, from those that are given and from where they yield.
-///
-/// # Errors
-/// [`SceneError`] if a term has both, or none of its elements can yield.
 pub(super) fn of_terms(
     file: &SceneFile,
     [of_bars, of_creases, of_facets]: [Option<GivenLaw>; 3],
@@ -89,9 +83,6 @@ pub(super) fn of_terms(
 }
 
 /// Returns the law of the bars.
-///
-/// # Errors
-/// [`SceneError`] if a curve or a formula is none.
 fn of_bars(file: &SceneFile, (spec, span): (&BarLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
     match spec {
         BarLawSpec::Ogden { exponents } => Ok(alone(Ogden { exponents: exponents.0 })),
@@ -103,9 +94,6 @@ fn of_bars(file: &SceneFile, (spec, span): (&BarLawSpec, Range<usize>)) -> Resul
 }
 
 /// Returns the law of creases or facets.
-///
-/// # Errors
-/// [`SceneError`] if a curve or a formula is none.
 fn of_hinges(file: &SceneFile, (spec, span): (&HingeLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
     match spec {
         HingeLawSpec::Stiffening { limits } => Ok(alone(Stiffening { limits: limits.0 })),
@@ -154,9 +142,6 @@ impl Yield {
 }
 
 /// Returns the laws of the elements of a term, given its law and where it yields, which may be left out.
-///
-/// # Errors
-/// [`SceneError`] if the term has both, or none of its elements can yield.
 fn of_term<L: Law + 'static>(
     file: &SceneFile,
     law: Option<GivenLaw>,

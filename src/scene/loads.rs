@@ -34,10 +34,6 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
 }
 
 /// Returns the assembly with the loads of the scene.
-///
-/// # Errors
-/// [`SceneError`] if a load acts on a vertex or a face that does not exist, or on another domain than a patch, if there
-/// is weight without mass, if faces under pressure enclose nothing, or if nothing holds the sheet against the loads.
 pub(super) fn loaded(file: &SceneFile, assembly: &Assembly) -> Result<Assembly, SceneError> {
     let mut terms = assembly.terms().clone();
     terms.loads = forces(file, assembly)?;

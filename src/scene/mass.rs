@@ -24,9 +24,6 @@ pub(super) fn mass(file: &SceneFile) -> Option<Mass> {
 }
 
 /// Checks that a study of the scene reads its mass.
-///
-/// # Errors
-/// [`SceneError`] at the mass if none does.
 pub(crate) fn is_read(file: &SceneFile) -> Result<(), SceneError> {
     let span = file.scene.mass.as_ref().map(Located::span);
     let weighs = file.scene.loads.iter().any(|load| load.weight.is_some());

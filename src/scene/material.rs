@@ -34,9 +34,6 @@ pub(super) fn material(file: &SceneFile) -> Option<Material> {
 }
 
 /// Returns the sheet with a vertex at the centre of every quadrilateral, if the scene asks for it.
-///
-/// # Errors
-/// [`SceneError`] if no face is a quadrilateral, or a centre is where another vertex is.
 pub(super) fn with_panels(file: &SceneFile, sheet: Sheet) -> Result<Sheet, SceneError> {
     let facets = file.scene.energy.facets.as_ref().filter(|facets| facets.model == Some(FacetModel::N5B8));
     let Some(facets) = facets else { return Ok(sheet) };
@@ -52,9 +49,6 @@ pub(super) fn with_panels(file: &SceneFile, sheet: Sheet) -> Result<Sheet, Scene
 }
 
 /// Returns the stiffness of the bars that follows from the material.
-///
-/// # Errors
-/// [`SceneError`] if a bar has no face, or the material has no stiffness for it.
 pub(super) fn bars(file: &SceneFile, assembly: &Assembly, material: &Material) -> Result<Stiffness, SceneError> {
     let span = file.scene.material.as_ref().map(Located::span).unwrap_or_default();
     let sheet = assembly.sheet();

@@ -9,9 +9,6 @@ use crate::model::{Assembly, Boundary, Roll};
 use crate::sheet::Sheet;
 
 /// Returns the start of the tube of a scene; `None` for other domains.
-///
-/// # Errors
-/// [`SceneError`] if the sheet cannot be rolled up until it closes along its seam.
 pub(super) fn roll(file: &SceneFile, sheet: &Sheet) -> Result<Option<Roll>, SceneError> {
     let spec = &file.scene.sheet;
     let (DomainSpec::Tube, Some(seam)) = (spec.domain(), &spec.seam) else { return Ok(None) };

@@ -71,9 +71,6 @@ pub(crate) struct TableRow {
 }
 
 /// Reads a table with this last column.
-///
-/// # Errors
-/// [`SceneError::Read`], or [`SceneError::Table`] with the line.
 pub(crate) fn read(path: &Path, value: Column) -> Result<Vec<TableRow>, SceneError> {
     let text = crate::sheet::text::read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text, value).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })

@@ -29,30 +29,14 @@ pub struct Setting {
 
 /// The reasons for which a key of a scene cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum SettingError {
-    /// There is no `=`, or no key before it, or it is none of TOML.
     #[error("`{0}` sets no key of the scene; write KEY=VALUE, as in energy.bars.stiffness=1e4")]
     Form(String),
-    /// A part of the path is a value, which has no keys.
     #[error("`{setting}`: `{part}` is a value, which has no keys")]
-    NoTable {
-        /// The setting.
-        setting: String,
-        /// The part of the path.
-        part: String,
-    },
-    /// No element of a list has this name or number.
+    NoTable { setting: String, part: String },
     #[error("`{setting}`: `{list}` has no element `{element}`; {}", elements(element, names))]
-    NoElement {
-        /// The setting.
-        setting: String,
-        /// The key of the list.
-        list: String,
-        /// The name or number.
-        element: String,
-        /// The names of the elements, or their numbers.
-        names: Vec<String>,
-    },
+    NoElement { setting: String, list: String, element: String, names: Vec<String> },
 }
 
 fn elements(element: &str, names: &[String]) -> String {
@@ -61,9 +45,6 @@ fn elements(element: &str, names: &[String]) -> String {
 
 impl Setting {
     /// Returns the setting of the key with this path; the value is written as in TOML, a text needs no quotes.
-    ///
-    /// # Errors
-    /// [`SettingError::Form`] if the path is none of TOML.
     pub(super) fn new(path: &str, value: &str) -> Result<Self, SettingError> {
         let text = format!("{path}={value}");
         let Ok(keys) = Key::parse(path.trim()) else { return Err(SettingError::Form(text)) };

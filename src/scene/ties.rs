@@ -13,10 +13,6 @@ const COINCIDENT: &str = "coincident";
 
 /// Adds the ties of a scene to its parts. Axes along which one of the tied vertices is pinned are no motions of the tie,
 /// and its pins are left out.
-///
-/// # Errors
-/// [`SceneError`] if no two vertices of a set stand in one place, or one belongs to another part or tie, or is held along a
-/// normal.
 pub(super) fn add(
     (file, assembly): (&SceneFile, &Assembly),
     held: &mut Held,

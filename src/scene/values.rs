@@ -18,64 +18,46 @@ fn counted(count: &usize) -> String {
 
 /// The reasons for which a value of a scene is refused.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum ValueError {
-    /// A list is too short or too long.
     #[error("the list has {count}, expected {1} values", count = counted(.0))]
     Length(usize, usize),
-    /// A stiffness is zero, negative or NaN.
     #[error("the stiffness is {0}, expected a positive number or `inf` (exactly rigid)")]
     Stiffness(f64),
-    /// A number that must be finite is infinite or NaN.
     #[error("the number is {0}, expected a finite number")]
     NotFinite(f64),
-    /// A number that must be positive and finite is not.
     #[error("the number is {0}, expected a finite number above 0")]
     NotPositive(f64),
-    /// A fraction of rest angles is outside its range.
     #[error("the fraction is {0}, expected a number from -1 (folded to the other side) to 1 (folded)")]
     NoFraction(f64),
-    /// A Poisson's ratio is that of no elastic material.
     #[error("Poisson's ratio is {0}, expected a number above -1, and at most 0.5")]
     NoPoissonRatio(f64),
-    /// A count is zero, negative or too large.
     #[error("the number is {0}, expected a whole number from 1 to {max}", max = u32::MAX)]
     NoCount(i64),
-    /// A number of cells is less than one.
     #[error("there are {0} x {1} cells, expected at least 1 in either direction")]
     NoCells(i64, i64),
-    /// A seam goes nowhere, or too far.
     #[error("there is no tube with the seam [{0}, {1}], expected whole numbers of at most 1000, not both 0")]
     NoSeam(i64, i64),
-    /// There are more cells than can be numbered.
     #[error("{0} x {1} cells are more than can be numbered, expected at most {max} in all", max = Cells::MOST)]
     TooManyCells(i64, i64),
-    /// A name contains characters that some systems do not allow in file names.
     #[error("`{0}` is not a name for a study, expected letters, digits, `_` and `-` only")]
     Name(String),
-    /// A name of a part or a drive has characters that are not allowed.
     #[error("`{0}` is not a name, expected letters, digits, `_` and `-` only")]
     Label(String),
-    /// A list of motions of a rigid body has other words than their names, or one of them twice.
     #[error(
         "`{0}` is no motion, or is listed twice, expected a list of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\", each once; []: held"
     )]
     Motion(String),
-    /// A name has another meaning in a scene.
     #[error("`{0}` cannot name a study because `start = \"{0}\"` means the drawn state, expected another name")]
     ReservedName(String),
-    /// A text is not a list of axes: it is empty, or has letters other than x, y, z, or one of them twice.
     #[error("`{0}` names no axes, expected one or more of the letters x, y, z, each once, as in \"xz\"")]
     Axes(String),
-    /// A vertex number in the name of an edge is negative.
     #[error("an edge cannot start or end at vertex {0}, expected [i, j, n1, n2] with i and j counted from 0")]
     Vertex(i64),
-    /// The shift in the name of an edge is out of range.
     #[error("cell {0} of an edge is out of range, expected n1 and n2 of [i, j, n1, n2] to be small whole numbers")]
     Shift(i64),
-    /// A barrier is between a well and itself.
     #[error("the barrier is sought from well {0} to itself, expected two different wells in [a, b]")]
     OneWell(usize),
-    /// An edge runs from a vertex to itself.
     #[error("the edge runs from vertex {0} to itself, expected two different ends in [i, j, n1, n2]")]
     Loop(usize),
 }

@@ -27,42 +27,28 @@ const UNFOLDED_RAD: f64 = 1e-6;
 
 /// The reason why a sheet has no crease pattern.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum NotDevelopable {
-    /// The angles at an inner vertex do not sum to a full turn.
     #[error(
         "the sheet cannot be unfolded: the angles at vertex {vertex} sum to {:.6} rad, {defect:.2e} less than a full turn",
         TAU - defect
     )]
     Defect {
-        /// The inner vertex with the largest defect.
         vertex: usize,
         /// Full turn less the sum of the angles, in radians.
         defect: f64,
     },
-    /// The faces go round an opening, as those of a tube do, and do not meet again in the plane.
     #[error(
         "the sheet cannot be unfolded: its faces close round an opening, and in the plane vertex {vertex} comes to lie at two \
          places, {distance:.2e} apart"
     )]
-    Tube {
-        /// A vertex that would have two places.
-        vertex: usize,
-        /// The distance between them.
-        distance: f64,
-    },
-    /// The sheet consists of pieces, whose places beside each other are open.
+    Tube { vertex: usize, distance: f64 },
     #[error("the sheet cannot be unfolded: it consists of {pieces} pieces; unfold each alone")]
-    Pieces {
-        /// The number of pieces.
-        pieces: usize,
-    },
-    /// The sheet is cut along lines.
+    Pieces { pieces: usize },
     #[error("the sheet cannot be unfolded: it is cut along lines, whose two sides may come apart in the plane")]
     Cut,
-    /// The sheet is an assembly of several, has bars alone, or has one side.
     #[error("the sheet cannot be unfolded: an edge has more than two faces or none, or the faces have one side")]
     NoSurface,
-    /// The sheet is periodic.
     #[error("the sheet cannot be unfolded: it is periodic; unfold a finite patch of it")]
     Periodic,
 }

@@ -6,44 +6,35 @@ use super::drawn_edge::DrawnEdge;
 /// A fold angle that contradicts the letter of its edge, another copy of the edge, or the range of angles; the message
 /// says how to correct it.
 #[derive(Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum FoldAngleFault {
-    /// The angle is larger than that of a flat fold.
     #[error(
         "edge {edge} of the list, {ends}, has the fold angle {given} degrees; a target angle should be between -180 and \
          180 degrees, valley positive"
     )]
     Range {
-        /// Index of the edge in the list of edges.
         edge: usize,
-        /// Its ends.
         ends: DrawnEdge,
         /// The fold angle, in degrees.
         given: f64,
     },
-    /// A mountain has a positive angle, or a valley a negative one.
     #[error(
         "edge {edge} of the list, {ends}, is assigned {letter} and has the fold angle {given} degrees; mountains have \
          negative angles and valleys positive ones: change the sign or the letter"
     )]
     OtherSide {
-        /// Index of the edge in the list of edges.
         edge: usize,
-        /// Its ends.
         ends: DrawnEdge,
-        /// Assignment of the edge.
         letter: Assignment,
         /// The fold angle, in degrees.
         given: f64,
     },
-    /// Two drawn copies of an edge have different angles.
     #[error(
         "edge {edge} of the list, {ends}, has the fold angle {given} degrees, and another copy of it in the drawing has \
          {before} degrees; give both the same, or one of them null"
     )]
     Copies {
-        /// Index of the edge in the list of edges.
         edge: usize,
-        /// Its ends.
         ends: DrawnEdge,
         /// Fold angle of this copy, in degrees.
         given: f64,

@@ -3,31 +3,14 @@
 /// A frame that does not exist, or whose parents do not lead to the file's first frame; the message says how to correct
 /// it. Frame 0 is the top of the file, and those of `file_frames` are numbered from 1.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum FrameFault {
-    /// The file has no frame of this number.
     #[error("there is no frame {frame}; {}", numbering(*last))]
-    NoFrame {
-        /// The number.
-        frame: usize,
-        /// Number of the last frame.
-        last: usize,
-    },
-    /// A frame names a parent that does not exist.
+    NoFrame { frame: usize, last: usize },
     #[error("`frame_parent` of frame {frame} is {parent}; {}", numbering(*last))]
-    NoParent {
-        /// The frame.
-        frame: usize,
-        /// Number of the parent.
-        parent: usize,
-        /// Number of the last frame.
-        last: usize,
-    },
-    /// A frame inherits from itself by way of its parents.
+    NoParent { frame: usize, parent: usize, last: usize },
     #[error("frame {frame} inherits from itself by way of `frame_parent`; parents should lead to frame 0")]
-    Cycle {
-        /// The frame.
-        frame: usize,
-    },
+    Cycle { frame: usize },
 }
 
 fn numbering(last: usize) -> String {

@@ -11,9 +11,6 @@ use super::error::{Defect, DrawnEdge, MeshPart, Problem};
 /// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces
 /// are turned over if the letters are those of the other side. Also returns the corner of the cell that each drawn
 /// vertex represents.
-///
-/// # Errors
-/// As [`build`]; also if an edge of the list is no side of a face.
 pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sheet, Identified), Defect> {
     let turned = turned_over(drawn);
     let drawn = turned.as_ref().unwrap_or(drawn);

@@ -8,10 +8,6 @@ use std::path::Path;
 const MOST_BYTES: u64 = 1 << 30;
 
 /// Returns the bytes of a regular file or of standard input (`/dev/stdin`).
-///
-/// # Errors
-/// The error of the operating system; [`ErrorKind::InvalidData`] for devices and pipes, which may never end, and for
-/// files of more than 1 GiB.
 pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let standard_input = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
     let named = path.to_string_lossy();
@@ -33,9 +29,6 @@ pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// Returns the text of a file.
-///
-/// # Errors
-/// As [`read_bytes`], and [`ErrorKind::InvalidData`] with the line number if the file is not UTF-8.
 pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read_bytes(path)?).map_err(|error| {
         let good = error.utf8_error().valid_up_to();

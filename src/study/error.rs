@@ -6,11 +6,10 @@ use thiserror::Error;
 
 /// The reasons for which a study cannot be computed.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum StudyError {
-    /// The scene asks for something that its sheet does not allow.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A file from which the study starts cannot be read, or a checkpoint cannot be kept.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

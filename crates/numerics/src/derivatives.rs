@@ -30,45 +30,14 @@ const HIGHEST_ORDER: usize = 7;
 
 /// The reason for which a derivative did not pass.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum DerivativeError {
-    /// The hand-written entry and the difference quotient disagree.
     #[error("entry ({row}, {column}) is {found:e}, differences give {expected:e}: off by more than {allowed:e}")]
-    Entry {
-        /// Component of the function; 0 for a gradient.
-        row: usize,
-        /// Variable.
-        column: usize,
-        /// The difference quotient.
-        expected: f64,
-        /// The hand-written entry.
-        found: f64,
-        /// The largest difference that would have passed.
-        allowed: f64,
-    },
-    /// The differences are too rough here: the function is not smooth, too noisy or not defined nearby.
+    Entry { row: usize, column: usize, expected: f64, found: f64, allowed: f64 },
     #[error("differences give entry ({row}, {column}) only to {error:e}; {allowed:e} is needed to judge it")]
-    Unresolved {
-        /// Component of the function; 0 for a gradient.
-        row: usize,
-        /// Variable.
-        column: usize,
-        /// Estimated error of the difference quotient.
-        error: f64,
-        /// The largest error with which the entry could be judged.
-        allowed: f64,
-    },
-    /// The derivative has another shape than the function.
+    Unresolved { row: usize, column: usize, error: f64, allowed: f64 },
     #[error("a derivative of {rows} x {columns} entries for {components} functions of {variables} variables")]
-    Shape {
-        /// Rows of the derivative.
-        rows: usize,
-        /// Columns of the derivative.
-        columns: usize,
-        /// Values of the function.
-        components: usize,
-        /// Variables of the function.
-        variables: usize,
-    },
+    Shape { rows: usize, columns: usize, components: usize, variables: usize },
 }
 
 /// A derivative by extrapolated differences, with its estimated error.

@@ -17,11 +17,10 @@ const RELATIVE_RESIDUAL: f64 = 1e-13;
 
 /// The reason for which no eigenpairs were found.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum EigenError {
-    /// The iteration did not find them all, or its memory is too large.
     #[error(transparent)]
     Factor(#[from] FactorError),
-    /// The operator asked to stop.
     #[error("stopped on request")]
     Stopped,
 }

@@ -61,9 +61,6 @@ impl Factor {
     }
 
     /// Makes room for a factorization of a pattern that was analysed.
-    ///
-    /// # Errors
-    /// [`FactorError::TooLarge`] where there is not enough memory.
     pub(crate) fn of(symbolic: &Symbolic) -> Result<Self, FactorError> {
         let kind = match &symbolic.sparse {
             None => Kind::Dense(None),
@@ -112,9 +109,6 @@ impl Factor {
 
 impl Symbolic {
     /// Analyses a pattern. `node` groups unknowns into blocks for the ordering, see [`super::order`].
-    ///
-    /// # Errors
-    /// [`FactorError::TooLarge`] where memory or indices run out.
     pub(crate) fn new(pattern: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if pattern.size() <= DENSE_LIMIT {
             return Ok(Self { size: pattern.size(), sparse: None });

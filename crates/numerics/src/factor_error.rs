@@ -4,34 +4,16 @@ use thiserror::Error;
 
 /// The reason for which a factorization cannot be used.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum FactorError {
-    /// An entry of the matrix is infinite or not a number.
     #[error("the matrix has an entry that is not finite")]
     NotFinite,
-    /// A pivot vanished.
     #[error("the matrix is singular to working precision (smallest over largest pivot {ratio:.1e})")]
-    Singular {
-        /// Smallest pivot over largest pivot, in magnitude.
-        ratio: f64,
-    },
-    /// The factorization does not solve the system.
+    Singular { ratio: f64 },
     #[error("the factorization does not solve its system (relative residual {residual:.1e})")]
-    Inaccurate {
-        /// Norm of the residual over norm of the right-hand side.
-        residual: f64,
-    },
-    /// An iteration for eigenpairs ended early.
+    Inaccurate { residual: f64 },
     #[error("{found} of {wanted} eigenpairs were found")]
-    Eigenpairs {
-        /// Number asked for.
-        wanted: usize,
-        /// Number found.
-        found: usize,
-    },
-    /// The symbolic analysis ran out of memory or indices.
+    Eigenpairs { wanted: usize, found: usize },
     #[error("the matrix of {size} unknowns is too large to factor")]
-    TooLarge {
-        /// Number of unknowns.
-        size: usize,
-    },
+    TooLarge { size: usize },
 }

@@ -69,9 +69,6 @@ const SEED: u64 = 1;
 
 /// Number of negative eigenvalues of the Hessian at a linearization, on what the rigid measures leave free; `None`
 /// where the bounds of this module do not meet. The system is left factored with a multiple of the identity added.
-///
-/// # Errors
-/// [`FactorError`] where an entry is not finite, or a pivot vanishes.
 pub(super) fn negative_eigenvalues(
     system: &mut KktSystem,
     at: &Linearization,
@@ -139,9 +136,6 @@ fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usiz
 
 /// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns
 /// of length 1; `None` where none is found. The system is left factored with a multiple of the identity added.
-///
-/// # Errors
-/// As [`negative_eigenvalues`].
 pub(super) fn falling_motion(
     system: &mut KktSystem,
     at: &Linearization,

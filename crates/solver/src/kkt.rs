@@ -138,9 +138,6 @@ impl KktSystem {
     }
 
     /// Factors `S` with a multiple of the identity instead of the Hessian: solves then give the shortest motion.
-    ///
-    /// # Errors
-    /// As [`KktSystem::factor`].
     pub(crate) fn factor_shortest(&mut self, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
         self.values.fill(0.0);
         at.pattern().add_to_diagonal(&mut self.values, hessian_size(at));
@@ -151,9 +148,6 @@ impl KktSystem {
 
     /// Factors `S` with `zero` times the identity added to the Hessian, and largest weights of stiff measures that are
     /// `heavier` times the usual ones. Returns the number of its negative eigenvalues.
-    ///
-    /// # Errors
-    /// As [`KktSystem::factor`].
     pub(super) fn count_negative(
         &mut self,
         at: &Linearization,

@@ -83,9 +83,6 @@ impl Rigidity {
 
     /// The bars of a state of one cell, periodic or screw-periodic as its domain says, with all coordinates of the
     /// state in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
-    ///
-    /// # Errors
-    /// [`BlochError`] on a patch and on a domain of one's own.
     pub(crate) fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
         let place = |Corner { vertex, shift }| domain.point(x, Site { vertex, shift });
         if matches!(domain, Domain::Patch | Domain::Own(_)) {
@@ -128,9 +125,6 @@ impl Rigidity {
     }
 
     /// Refuses what has no determinant.
-    ///
-    /// # Errors
-    /// [`BlochError`] where the matrix is not square.
     pub(crate) fn require_square(&self) -> Result<(), BlochError> {
         let (rows, columns) = (self.rows.len(), self.columns());
         if rows == columns { Ok(()) } else { Err(BlochError::NotSquare { rows, columns }) }

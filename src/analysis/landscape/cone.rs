@@ -85,9 +85,6 @@ impl<'a> Cone<'a> {
 
 /// The zero of the energy across the cone near a point of the unit sphere: the square root of the energy is taken with
 /// opposite signs on both sides, where it is smooth, and its zero found in ever smaller windows.
-///
-/// # Errors
-/// [`SampleError`] where a sample beside the point does not converge.
 pub(crate) fn zero_of_energy(
     held: &mut HeldSheet,
     courses: &TaylorPaths,

@@ -74,9 +74,6 @@ impl Expansion {
 }
 
 /// The second, third and fourth powers of all measures, soft ones and stiff ones, along a path of all coordinates.
-///
-/// # Errors
-/// [`LandscapeError::NotLinear`] for a measure without series.
 fn powers(model: &Model, path: &[&[f64]; 3]) -> Result<[TermValues; 3], LandscapeError> {
     let no_series = |element: &Element<'_>| LandscapeError::NotLinear { term: element.name().to_owned() };
     let series = model.elements().map(|element| element.along(path).ok_or_else(|| no_series(&element)));

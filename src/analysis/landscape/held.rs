@@ -38,9 +38,6 @@ pub struct HeldSheet {
 impl HeldSheet {
     /// The sheet of an assembly held along its folding modes, at rest as drawn: those of a cell on a patch, all that
     /// stretch no bar on a torus.
-    ///
-    /// # Errors
-    /// [`LandscapeError`] where the modes are not known, a term has more than one stiffness, or bars are not at rest.
     pub(crate) fn new(assembly: &Assembly) -> Result<Self, LandscapeError> {
         if let Some(term) = assembly.terms().uneven_term() {
             return Err(LandscapeError::Uneven { term });
@@ -84,9 +81,6 @@ impl HeldSheet {
     }
 
     /// The mode that has these rates on the edges of the repeating piece; NaN: not known there.
-    ///
-    /// # Errors
-    /// [`LandscapeError`] where no mode comes near them, where several have them, and where all are zero.
     pub(crate) fn with_rates(&self, rates: &[f64]) -> Result<Vec<f64>, LandscapeError> {
         let known: Vec<usize> = (0..rates.len()).filter(|&edge| !rates[edge].is_nan()).collect();
         let right = DenseMatrix::from_fn(known.len(), 1, |row, _| rates[known[row]]);

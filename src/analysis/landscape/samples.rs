@@ -62,20 +62,14 @@ impl Sample {
 
 /// Why a sample is missing.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum SampleError {
-    /// A relaxation failed.
     #[error("a relaxation failed: {0}")]
     Relaxation(Failure),
-    /// The response of the patch is not known.
     #[error(transparent)]
     Landscape(#[from] LandscapeError),
-    /// The rest angles do not settle.
     #[error("the rest angles do not settle: a torque of {torque:.2e} of the largest is left")]
-    Restless {
-        /// What is left.
-        torque: f64,
-    },
-    /// Where the energy should rise on both sides of its zero there is none.
+    Restless { torque: f64 },
     #[error("there is no energy beside the exact cone: its zero cannot be found")]
     NoEnergy,
 }

@@ -86,9 +86,6 @@ impl Net {
 }
 
 /// The sample in a direction, relaxed from where third order says it is: nothing of other samples enters.
-///
-/// # Errors
-/// [`SampleError`] where the relaxation does not converge.
 pub(crate) fn sample(
     held: &mut HeldSheet,
     courses: &TaylorPaths,

@@ -72,9 +72,6 @@ impl Vibrations {
 }
 
 /// Returns the mass of every unknown of a model, given those of the vertices.
-///
-/// # Errors
-/// [`ModesError::CoupledMotions`] where the motions of a rigid part are coupled by its mass, or one has none.
 fn of_unknowns(model: &Model, masses: &[f64]) -> Result<Vec<f64>, ModesError> {
     let of_coordinates: Vec<f64> = masses.iter().flat_map(|mass| [*mass; 3]).collect();
     let mut found = model.unknowns(&of_coordinates);

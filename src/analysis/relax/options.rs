@@ -43,29 +43,19 @@ impl From<Options> for RelaxOptions {
 
 /// Why a relaxation that was to be made in fold angles was made in positions alone.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum IntrinsicFailure {
-    /// The model has no form in fold angles.
     #[error(transparent)]
     Unsupported(#[from] Unsupported),
-    /// The iteration in fold angles did not converge.
     #[error(transparent)]
     Solver(#[from] ConstrainedFailure),
-    /// Some edge is folded beyond a half turn.
     #[error("an edge is folded by {angle:.3} rad: faces have passed through each other")]
     FoldedThrough {
         /// The largest fold angle, in radians.
         angle: f64,
     },
-    /// The state that was found is no minimum.
     #[error("the state found in fold angles is no minimum: {} negative eigenvalues", in_words(*negative))]
-    Saddle {
-        /// Number of negative eigenvalues, `None` where it is not known.
-        negative: Option<usize>,
-    },
-    /// Newton's method in positions did not converge from the state that was found.
+    Saddle { negative: Option<usize> },
     #[error("the state found in fold angles was not confirmed in positions: {failure}")]
-    NotConfirmed {
-        /// Its reason.
-        failure: Failure,
-    },
+    NotConfirmed { failure: Failure },
 }

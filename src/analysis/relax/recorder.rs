@@ -58,9 +58,6 @@ impl<'a> Recorder<'a> {
     }
 
     /// Minimises a model under this observer.
-    ///
-    /// # Errors
-    /// [`NewtonError`] as [`minimize`](crate::solver::minimize).
     pub(super) fn minimize(
         &mut self,
         model: &mut Model,

@@ -95,9 +95,6 @@ impl<'a> Run<'a> {
     }
 
     /// Minimises from a start, to the tolerance that was asked for.
-    ///
-    /// # Errors
-    /// [`NewtonError`] as [`minimize`](crate::solver::minimize).
     pub(super) fn minimize(&mut self, start: impl Into<Start>) -> Ending {
         self.recorder.minimize(&mut self.model, start, self.options)
     }

@@ -41,10 +41,6 @@ pub(super) struct CellElement<'a> {
 
 impl PeriodicCell {
     /// Makes the cell of a state with a model of the assembly; `None` if the state is rolled up to a cylinder.
-    ///
-    /// # Errors
-    /// [`ResponseError`] for a patch, for a domain of one's own, for several cells in another state than the drawn one,
-    /// and for cells that differ.
     pub(super) fn of_state(assembly: &Assembly, x: &[f64], model: Model) -> Result<Option<Self>, ResponseError> {
         let (drawn, cells) = (assembly.drawn(), assembly.tiling().cells);
         if matches!(drawn.domain, Domain::Patch | Domain::Own(_)) {

@@ -137,9 +137,6 @@ pub(super) struct Condensed {
 
 impl Condensed {
     /// Minimises the energy of springs over the motions of the vertices.
-    ///
-    /// # Errors
-    /// [`ResponseError::Decomposition`] where a rank is not clear.
     pub(super) fn new(springs: &Springs) -> Result<Self, ResponseError> {
         let allowed = null_space_of_sums(&springs.rigid.rates, springs.terms)?.basis;
         let lattice = allowed.rows(allowed.nrows() - MACROSCOPIC, MACROSCOPIC).into_owned();
@@ -210,18 +207,12 @@ impl Condensed {
     }
 
     /// Returns the principal strains and bendings of the rigid modes with rigid bars, by rising stiffness.
-    ///
-    /// # Errors
-    /// [`ResponseError::Decomposition`].
     pub(super) fn rigid_modes(&self) -> Result<Vec<Principal>, ResponseError> {
         self.principal(&self.limit, &self.rigid, |value| value)
     }
 
     /// Returns the softest principal strains and bendings of all, as many as there are rigid modes, by rising
     /// stiffness. They are the largest eigenvalues of the compliance, which keeps their digits beside stiff bars.
-    ///
-    /// # Errors
-    /// [`ResponseError::Decomposition`].
     pub(super) fn softest(&self) -> Result<Vec<Principal>, ResponseError> {
         let frame = joined(&[&self.rigid, &self.others]);
         let count = self.rigid.ncols();

@@ -18,9 +18,6 @@ use nalgebra::{DVector, Matrix2};
 use std::f64::consts::TAU;
 
 /// Computes the response of a rolled up state; `self_stresses` is left to be counted. `assembly` has rigid terms alone.
-///
-/// # Errors
-/// [`ResponseError`] as [`super::response_at`].
 pub(super) fn response(assembly: &Assembly, coordinates: &[f64]) -> Result<Response, ResponseError> {
     let mut model = assembly.model(Gauge::Held);
     let x = model.start_from(coordinates.to_vec());

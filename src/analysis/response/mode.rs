@@ -93,9 +93,6 @@ impl RawTable {
     }
 
     /// Returns the ranks.
-    ///
-    /// # Errors
-    /// [`ResponseError::UnclearRank`].
     pub(super) fn ranks(&self) -> Result<ModeTable, ResponseError> {
         let (strains, curvatures) = (Self::matrix(&self.strains, 1.0), Self::matrix(&self.curvatures, self.length));
         let whole = DenseMatrix::from_fn(6, self.strains.len(), |row, k| {
@@ -120,9 +117,6 @@ impl RawTable {
     /// 1 if it has no strain. Then modes with curvature, orthogonal to those: of three, those with one component 1 and
     /// the others 0; of two, the same for two of the components, `k11` and `k12` unless these hardly differ; a single
     /// one has 1 as its largest component.
-    ///
-    /// # Errors
-    /// [`ResponseError::UnclearRank`].
     pub(super) fn arranged(&self, error: f64) -> Result<Arranged, ResponseError> {
         let bends = Span::new(&Self::matrix(&self.curvatures, self.length), "curvatures")?;
         let (bending, count) = (bends.rank, self.curvatures.len());

@@ -72,9 +72,6 @@ impl ModuliOf {
 }
 
 /// Finds the moduli of a state.
-///
-/// # Errors
-/// [`ResponseError`] where the cells differ, or a rank is not clear.
 pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
     if assembly.terms().bars.is_none() {
         return Ok(ModuliOf::NoBars);

@@ -15,9 +15,6 @@ use crate::numerics::larger;
 use nalgebra::DVector;
 
 /// Computes the response of a spatially periodic state; `self_stresses` is left to be counted.
-///
-/// # Errors
-/// [`ResponseError`] as [`super::response_at`].
 pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
     let CellModes { modes, table, poisson, error } = modes_of(cell)?;
     let lattice = LatticeMotions { chords: cell.lattice.map(Into::into), theta: [0.0; 2], axis: None, curvature: 0.0 };
@@ -36,9 +33,6 @@ pub(super) struct CellModes {
 }
 
 /// Computes the modes of a cell and their Poisson's ratios.
-///
-/// # Errors
-/// [`ResponseError`] as [`super::response_at`].
 pub(super) fn modes_of(cell: &PeriodicCell) -> Result<CellModes, ResponseError> {
     let found = folding_modes_with_locked(&cell.sheet, &cell.locked)?;
     let embedding = Embedding::new(&cell.sheet)?;

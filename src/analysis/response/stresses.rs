@@ -32,9 +32,6 @@ pub struct SelfStress {
 
 /// Returns an orthonormal basis of the self stresses, by falling [work](ordered_by_work); `assembly` is the one of the
 /// cell, with rigid terms alone.
-///
-/// # Errors
-/// [`ResponseError::Decomposition`] where their number is not clear.
 pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<SelfStress>, ResponseError> {
     let elements = cell.elements(assembly);
     let rates = rates(cell, &elements);

@@ -56,10 +56,6 @@ pub(super) struct Span {
 
 impl Span {
     /// Decomposes the matrix that has one of these lists of components for each column.
-    ///
-    /// # Errors
-    /// [`ResponseError::UnclearRank`] where no clear gap separates zero from the other singular values; `half` names
-    /// what the columns are.
     pub(super) fn new(columns: &DenseMatrix, half: &'static str) -> Result<Self, ResponseError> {
         let svd = full_svd(columns)?;
         let rank = svd.singular_values.iter().filter(|value| **value > ZERO).count();

@@ -57,9 +57,6 @@ pub fn surface(
 }
 
 /// Covers the surface as [`surface`] does.
-///
-/// # Errors
-/// [`SurfaceError::Curve`] where the folded states are a curve, and as [`surface`].
 pub(super) fn on_surface(
     assembly: &Assembly,
     options: &SurfaceOptions,

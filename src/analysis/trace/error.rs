@@ -6,39 +6,22 @@ use thiserror::Error;
 
 /// Why there are no trajectories.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum TraceError {
-    /// The rays are not known.
     #[error(transparent)]
     Branches(#[from] BranchesError),
-    /// The sheet cannot be put together.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// The scene asks for a branch that does not exist.
     #[error("there is no branch {branch}: this state has {count}")]
-    NoSuchBranch {
-        /// Asked for.
-        branch: usize,
-        /// Found.
-        count: usize,
-    },
-    /// TracedClosure leaves along infinitely many directions, none of which stands alone: there is no single trajectory
-    /// to follow.
+    NoSuchBranch { branch: usize, count: usize },
     #[error(
         "folding leaves the drawn state along infinitely many directions: lock a crease to choose among them, or ask for a surface"
     )]
     Continuum,
-    /// Where faces pass through each other from the beginning, nothing can end where they first do.
     #[error("faces of the first state pass through each other already: leave out the stop at self-intersection")]
     CrossesAlready,
-    /// A tube has several motions, or one although both closing conditions are kept.
     #[error("{}", motions_of_tube(*.motions, *.closed))]
-    MotionsOfTube {
-        /// Number of its linear motions, without rigid ones.
-        motions: usize,
-        /// Whether both closing conditions are kept.
-        closed: bool,
-    },
-    /// No ray was found, and none was excluded.
+    MotionsOfTube { motions: usize, closed: bool },
     #[error("no direction of folding was found, but none was excluded either: lock a crease")]
     NotEstablished,
 }

@@ -53,77 +53,32 @@ const SHORTEST: f64 = 1.05;
 
 /// Why there is no pass.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum BarrierError {
-    /// A term is not made of linear springs along edges, by whose rest angles states are held near others.
     #[error("barriers need linear bars and hinges and no other terms, and here is another: {term}")]
-    NotLinear {
-        /// Name of the term.
-        term: String,
-    },
-    /// A well is none with the bars in which paths were sought.
+    NotLinear { term: String },
     #[error("with bars of {stiffness:e} the wells are no longer these two")]
-    OneWell {
-        /// Stiffness of those bars.
-        stiffness: f64,
-    },
-    /// A relaxation on the way failed.
+    OneWell { stiffness: f64 },
     #[error("the path could not be followed with bars of {stiffness:e}: {failure}")]
-    Path {
-        /// Stiffness of the bars.
-        stiffness: f64,
-        /// Why.
-        failure: Failure,
-    },
-    /// Newton's method does not find the pass.
+    Path { stiffness: f64, failure: Failure },
     #[error("no pass was found with bars of {stiffness:e}: {failure}")]
-    NoPass {
-        /// Stiffness of the bars.
-        stiffness: f64,
-        /// Why.
-        failure: Failure,
-    },
-    /// The equilibrium near the highest state is no pass.
+    NoPass { stiffness: f64, failure: Failure },
     #[error(
         "with bars of {stiffness:e} the equilibrium near the highest state has {} negative eigenvalues, not one",
         in_words(*found)
     )]
-    Index {
-        /// Stiffness of the bars.
-        stiffness: f64,
-        /// Negative eigenvalues, `None` where their number is not known.
-        found: Option<usize>,
-    },
-    /// It is no barrier between the wells, one of which lies higher.
+    Index { stiffness: f64, found: Option<usize> },
     #[error("the pass that was found, of energy {pass}, lies below a well that it should lead to, of energy {well}")]
-    TooLow {
-        /// Energy of the pass.
-        pass: f64,
-        /// Energy of the higher of the wells.
-        well: f64,
-    },
-    /// The sheet descends from it into a minimum that is none of the wells.
+    TooLow { pass: f64, well: f64 },
     #[error(
         "the pass that was found, of energy {pass}, leads into a minimum of energy {minimum} that is none of the wells: more starts \
          may find it"
     )]
-    UnknownWell {
-        /// Energy of the pass.
-        pass: f64,
-        /// Energy of the minimum.
-        minimum: f64,
-    },
-    /// The sheet descends from it into one well on both sides.
+    UnknownWell { pass: f64, minimum: f64 },
     #[error("the pass that was found, of energy {pass}, leads into well {well} on both sides")]
-    OneSided {
-        /// Energy of the pass.
-        pass: f64,
-        /// The well.
-        well: usize,
-    },
-    /// The wells differ in their place on the pins only, not in their fold angles.
+    OneSided { pass: f64, well: usize },
     #[error("the wells have the same fold angles, and paths are sought between different ones")]
     SameShape,
-    /// The observer asked to stop before a path was tried, or there is no stiffness at which one could be.
     #[error("no path was tried")]
     NotTried,
 }

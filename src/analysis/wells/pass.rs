@@ -72,9 +72,6 @@ impl Descent {
 }
 
 /// The equilibrium near a place.
-///
-/// # Errors
-/// [`Failure`] where Newton's method does not converge, or its linear systems cannot be solved.
 pub(crate) fn equilibrium(assembly: &Assembly, from: &Configuration, options: Options) -> Result<Pass, Failure> {
     let mut model = assembly.model(Gauge::Held);
     let tension = model.enter(from).tension;
@@ -103,9 +100,6 @@ fn pass(model: &Model, found: StationaryPoint, work: &Work) -> Pass {
 /// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
 /// one state, both are held more strongly; where that does not help, with steps that are short against the way from the
 /// pass.
-///
-/// # Errors
-/// [`Failure`] of the relaxation that ends the descent.
 pub(crate) fn sides(
     assembly: &Assembly,
     pass: &Pass,

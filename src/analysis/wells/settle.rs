@@ -61,9 +61,6 @@ impl MinimumTracker {
     }
 
     /// Relaxes from a place, next to its equilibrium where its tensions are known.
-    ///
-    /// # Errors
-    /// [`RelaxError`] where the relaxation does not converge.
     pub(crate) fn free(
         &self,
         from: &Configuration,

@@ -27,9 +27,6 @@ const STRING_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number
 /// but zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
-///
-/// # Errors
-/// [`Failure`] of a relaxation on the way, or [`Failure::Interrupted`].
 pub(crate) fn string(
     settler: &MinimumTracker,
     [from, to]: [&Settled; 2],
@@ -48,9 +45,6 @@ pub(crate) fn string(
 }
 
 /// Three states of a row around its highest one, twice as near to each other. The given ones are neighbours in the row.
-///
-/// # Errors
-/// [`Failure`] of a relaxation between them, or [`Failure::Interrupted`].
 pub(crate) fn refined(
     settler: &MinimumTracker,
     [before, top, after]: [Settled; 3],

@@ -74,9 +74,6 @@ impl Rim {
 impl Topology {
     /// Collects edges and triangles: the ends of every edge, and the four vertices of every hinge (ends, left and right
     /// opposite vertex), which are those of two triangles.
-    ///
-    /// # Errors
-    /// [`Unsupported::Topology`] if two edges join the same vertices, or three triangles meet at an edge.
     pub(super) fn new(vertices: usize, edges: &[[usize; 2]], hinges: &[[usize; 4]]) -> Result<Self, Unsupported> {
         let mut directed = HashMap::with_capacity(2 * edges.len());
         for (edge, &[i, j]) in edges.iter().enumerate() {
@@ -170,9 +167,6 @@ impl Topology {
     }
 
     /// Returns the loops round all interior vertices.
-    ///
-    /// # Errors
-    /// [`Unsupported::Topology`] if the triangles at a vertex do not form one round.
     pub(super) fn rounds(&self) -> Result<Vec<Vec<Step>>, Unsupported> {
         let interior = |v: &usize| {
             let mut around = self.neighbours[*v].iter();
@@ -200,9 +194,6 @@ impl Topology {
     }
 
     /// Returns all rims.
-    ///
-    /// # Errors
-    /// [`Unsupported::Topology`] if a rim does not close.
     pub(super) fn rims(&self) -> Result<Vec<Rim>, Unsupported> {
         let mut starts: Vec<[usize; 2]> = self.directed.keys().copied().filter(|ends| self.is_rim(*ends)).collect();
         starts.sort_unstable();
@@ -228,9 +219,6 @@ impl Topology {
 
     /// Returns the ways along a rim from one end to the other of the edges without face that join two vertices of
     /// triangles. Other edges without face have to hold a vertex of no triangle, alone or in pairs.
-    ///
-    /// # Errors
-    /// [`Unsupported::Topology`] if they do anything else.
     pub(super) fn bridges(&self, rims: &[Rim]) -> Result<Vec<Bridge>, Unsupported> {
         let (mut bridges, mut held) = (vec![], vec![0; self.vertices()]);
         for &[i, j] in &self.loose {

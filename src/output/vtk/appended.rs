@@ -31,9 +31,6 @@ struct Arrays<'b> {
 }
 
 /// Returns a file with its raw arrays and those compressed with LZMA as base64 in their elements; other files remain.
-///
-/// # Errors
-/// [`VtuFault::Format`] if an array is beyond the end of the file, or is not what its compression says.
 pub(super) fn inlined(bytes: &[u8]) -> Result<Cow<'_, [u8]>, VtuFault> {
     let start = position(bytes, b"<AppendedData").unwrap_or(bytes.len());
     let appended = tag(&bytes[start..]);

@@ -50,9 +50,6 @@ pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
 /// 0 for marks and displacements; edges are numbered by their lines where the file has no numbers.
 ///
 /// Without letters in the file, lines without a fold angle are boundaries and all others creases.
-///
-/// # Errors
-/// [`OutputError::Read`] if the file cannot be read, [`OutputError::Vtu`] if its content is not valid.
 pub(crate) fn read_picture(path: &Path) -> Result<Picture, OutputError> {
     let bytes = text::read_bytes(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     parse_picture(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })

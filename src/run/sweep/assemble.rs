@@ -63,9 +63,6 @@ impl<'a> Board<'a> {
     }
 
     /// Looks up what became of a point.
-    ///
-    /// # Errors
-    /// [`RunError`] if its scene is refused.
     pub(super) fn look_up(&self, index: usize) -> Result<(), RunError> {
         let folder = point_folder(self.out, index);
         // most points of a long sweep that was just begun have no folder, and their scenes need not be read
@@ -79,9 +76,6 @@ impl<'a> Board<'a> {
     ///
     /// Several runs may do this at once. Each looks again after it has written, and writes once more if a point was
     /// finished meanwhile: so the table that is written last has all points.
-    ///
-    /// # Errors
-    /// [`RunError`] if the scene of a point is refused, or if a file cannot be written.
     pub(super) fn write(&self) -> Result<SweepSummary, RunError> {
         let mut written = None;
         loop {
@@ -99,9 +93,6 @@ impl<'a> Board<'a> {
     }
 
     /// Returns the summary.
-    ///
-    /// # Errors
-    /// [`RunError`] if a file that the scene names cannot be read.
     pub(super) fn summary(&self) -> Result<SweepSummary, RunError> {
         summary(self.sweep, &self.rows())
     }

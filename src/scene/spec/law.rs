@@ -16,31 +16,24 @@ use crate::sheet::angle::Angle;
 
 /// The reasons for which a number of a law is refused.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum LawFault {
-    /// Two exponents of a law are equal, or none.
     #[error("the exponents are {0} and {1}, expected two finite numbers that differ")]
     Exponents(f64, f64),
-    /// An exponent of a torque leaves no state without force, or is none.
     #[error("the exponent is {0}, expected a number from 1 to 100")]
     Exponent(f64),
-    /// A ratio of stiffnesses is negative, infinite or NaN.
     #[error("the ratio is {0}, expected a finite number that is not negative")]
     Ratio(f64),
-    /// The values at which the stiffness of a law changes do not lie on both sides of rest.
     #[error(
         "the stiffness changes at {0} and {1} off rest, expected one at most 0, one at least 0, and one of them finite"
     )]
     Yields(f64, f64),
-    /// A force or moment at which elements yield is none.
     #[error("it yields at {0}, expected a positive number")]
     Bound(f64),
-    /// A part of one is none.
     #[error("the part is {0}, expected a number from 0 to 1")]
     Share(f64),
-    /// A hardening does not lie between that without and that of an element that does not yield.
     #[error("the hardening is {0}, expected a number from 0 to below 1: the slope beyond the bound over the stiffness")]
     Slope(f64),
-    /// Two limits of a law are not on both sides of flat.
     #[error("the limits are {0} and {1} rad, expected one between -pi and 0, and one between 0 and pi")]
     Limits(f64, f64),
 }

@@ -20,9 +20,6 @@ pub(super) struct Rows {
 }
 
 /// Reads a table of points.
-///
-/// # Errors
-/// [`SceneError::Read`], or [`SceneError::Table`] with the line.
 pub(super) fn read(path: &Path) -> Result<Rows, SceneError> {
     let text = crate::sheet::text::read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })

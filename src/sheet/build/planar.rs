@@ -56,9 +56,6 @@ fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
 /// Every edge is walked once in both directions, turning as far left as possible; a walk that runs clockwise is the
 /// outer boundary of a piece. Edges must not cross, must separate two faces (or a face from the outside), and those of
 /// one piece must not lie inside another one.
-///
-/// # Errors
-/// [`Defect`] that names the edge.
 pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, Defect> {
     let x = &drawn.coords;
     let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, MeshPart::Edge(e))).collect();

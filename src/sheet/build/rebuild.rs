@@ -18,9 +18,6 @@ const UPRIGHT: f64 = 0.5;
 
 /// Gives `drawn` the faces that `edges` bound in the plane, without those that are listed as openings and those that
 /// the assignments show to be holes; returns the number of these.
-///
-/// # Errors
-/// [`Defect`] if two vertices stand at one place, if edges cross or are loose, or if they are not connected.
 pub(crate) fn rebuild_faces(drawn: &mut Drawing, edges: &[[usize; 2]]) -> Result<usize, Defect> {
     drawn.faces = match laid_down(&drawn.coords) {
         Some(coords) => faces_of(&Drawing { coords, ..drawn.clone() }, edges)?,

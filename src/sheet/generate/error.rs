@@ -4,68 +4,29 @@ use crate::sheet::error::Defect;
 
 /// The reason why a pattern has no sheet for its parameters.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum GenerateError {
-    /// A pattern or a parameter is unknown, or the value of a parameter has another type.
     #[error("{message}")]
-    Unknown {
-        /// Description of the error.
-        message: String,
-        /// Advice: the names or values that are allowed, and the one that is probably meant.
-        help: String,
-    },
-    /// A number is outside its range.
+    Unknown { message: String, help: String },
     #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
-    Number {
-        /// The parameter.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Lower end of the range.
-        low: f64,
-        /// Whether the lower end belongs to the range.
-        closed: bool,
-        /// Upper end of the range, which does not belong to it.
-        high: f64,
-    },
-    /// An angle is outside its range.
+    Number { name: &'static str, value: f64, low: f64, closed: bool, high: f64 },
     #[error(
         "`{name}` is {value} rad; it should be {} {} and below {}{}", if *closed { "at least" } else { "above" },
         short(*low), short(*high),
         perhaps_degrees(*value, *high)
     )]
     Angle {
-        /// The parameter.
         name: &'static str,
         /// Its value in radians.
         value: f64,
-        /// Lower end of the range.
         low: f64,
-        /// Whether the lower end belongs to the range.
         closed: bool,
-        /// Upper end of the range, which does not belong to it.
         high: f64,
     },
-    /// A count is outside its range.
     #[error("`{name}` is {value}; it should be from {low} to {high}")]
-    Count {
-        /// The parameter.
-        name: &'static str,
-        /// Its value.
-        value: usize,
-        /// Least count.
-        low: usize,
-        /// Smallest count.
-        high: usize,
-    },
-    /// A count is odd, where half of it is needed.
+    Count { name: &'static str, value: usize, low: usize, high: usize },
     #[error("`{name}` is {value}; it should be even for this symmetry")]
-    Odd {
-        /// The parameter.
-        name: &'static str,
-        /// Its value.
-        value: usize,
-    },
-    /// No state has these angles of parallelograms.
+    Odd { name: &'static str, value: usize },
     #[error(
         "no cell has these angles `ac`, `ad`, `bc` and `bd`: `fold` should be above {} rad and below {} rad",
         short(*low), short(*high)
@@ -73,10 +34,8 @@ pub enum GenerateError {
     NoFold {
         /// Lower end of the range of `fold` in radians, not below the upper one.
         low: f64,
-        /// Upper end of the range.
         high: f64,
     },
-    /// The parameters are in their ranges, but together they give a degenerate mesh.
     #[error("these parameters together give no sheet: {0}")]
     Mesh(#[from] Defect),
 }

@@ -67,9 +67,6 @@ pub(crate) struct Arrangement {
 
 /// Returns the arrangement of `segments`, whose points are merged within the length `tolerance`; without `split` they
 /// are only merged. Adds the number of pairs of pieces that were compared to `compared`.
-///
-/// # Errors
-/// [`Disorder`] if there are too many points, or points in a chain.
 pub(crate) fn arrange(
     segments: &[[Vec2; 2]],
     tolerance: f64,

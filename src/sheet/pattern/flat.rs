@@ -9,19 +9,12 @@ const FLAT: f64 = 1e-9;
 
 /// The reason why a sheet is not a crease pattern that lines can draw.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum NotFlat {
-    /// The sheet is folded, or not parallel to the plane of x and y.
     #[error("a crease pattern is flat, and the vertices of this sheet lie between z = {low} and z = {high}")]
-    Raised {
-        /// Least z of all vertices.
-        low: f64,
-        /// Largest z of all vertices.
-        high: f64,
-    },
-    /// The sheet is periodic.
+    Raised { low: f64, high: f64 },
     #[error("the sheet is periodic, and files of lines have no lattice vectors")]
     Periodic,
-    /// Faces lie upside down: the sheet is folded flat.
     #[error("the sheet is folded flat: some of its faces lie upside down")]
     FoldedFlat,
 }

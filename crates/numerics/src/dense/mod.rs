@@ -21,58 +21,21 @@ pub(crate) const SMALLEST_GAP: f64 = 1e3;
 
 /// The reason for which a matrix was not decomposed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum DenseError {
-    /// An entry is infinite or not a number.
     #[error("entry ({row}, {column}) of the matrix is {value}")]
-    NotFinite {
-        /// Row of the entry.
-        row: usize,
-        /// Column of the entry.
-        column: usize,
-        /// Value of the entry.
-        value: f64,
-    },
-    /// Eigenvalues were asked of a matrix that is not square.
+    NotFinite { row: usize, column: usize, value: f64 },
     #[error("a matrix of {rows} rows and {columns} columns has no eigenvalues")]
-    NotSquare {
-        /// Number of rows.
-        rows: usize,
-        /// Number of columns.
-        columns: usize,
-    },
-    /// The right-hand sides do not fit the matrix.
+    NotSquare { rows: usize, columns: usize },
     #[error("right-hand sides of {found} entries for a matrix of {rows} rows")]
-    RightHandSide {
-        /// Number of rows of the matrix.
-        rows: usize,
-        /// Number of entries of a right-hand side.
-        found: usize,
-    },
-    /// The iteration inside the decomposition did not end.
+    RightHandSide { rows: usize, found: usize },
     #[error("the decomposition of a {rows} x {columns} matrix did not converge")]
-    NoConvergence {
-        /// Number of rows.
-        rows: usize,
-        /// Number of columns.
-        columns: usize,
-    },
-    /// The singular values fall so evenly that no rank stands out.
+    NoConvergence { rows: usize, columns: usize },
     #[error(
         "no rank stands out: the largest gap between singular values is {gap:.3e}, from {kept:.3e} to {dropped:.3e} \
          after {rank} of them, less than {SMALLEST_GAP:e}"
     )]
-    NoGap {
-        /// Number of singular values before the largest gap.
-        rank: usize,
-        /// The last value before the gap.
-        kept: f64,
-        /// The first value after the gap, at least the rounding error of the largest.
-        dropped: f64,
-        /// `kept / dropped`.
-        gap: f64,
-        /// All singular values, descending.
-        singular_values: Vec<f64>,
-    },
+    NoGap { rank: usize, kept: f64, dropped: f64, gap: f64, singular_values: Vec<f64> },
 }
 
 /// `matrix = u * diag(singular_values) * v^T` with square orthogonal `u` and `v`.

@@ -19,10 +19,6 @@ const FIRST_STEP: f64 = 0.05;
 ///
 /// The symmetric part of each matrix counts. The same matrices give the same solutions: the random numbers have fixed
 /// seeds.
-///
-/// # Errors
-/// [`HomotopyError`] on matrices that are zero, not finite or of the wrong size or number, and where after several
-/// attempts paths and multiplicities still do not agree.
 pub(super) fn solve_square(quadrics: &Quadrics) -> Result<Solutions, HomotopyError> {
     let count = quadrics.count();
     if quadrics.unknowns != count + 1 {

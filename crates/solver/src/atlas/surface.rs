@@ -125,22 +125,12 @@ impl Atlas {
 
 /// The reason for which a surface was not covered.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum AtlasError {
-    /// A start is not on the surface.
     #[error("start {start} is not on the surface, or the surface bends too sharply there")]
-    Start {
-        /// Number of the start.
-        start: usize,
-    },
-    /// The equations leave more or fewer tangents than two at a start.
+    Start { start: usize },
     #[error("at start {start} the equations leave {tangents} tangents; a surface has two")]
-    Singular {
-        /// Number of the start.
-        start: usize,
-        /// Dimension of the null space of the Jacobian.
-        tangents: usize,
-    },
-    /// The linear algebra at a start failed.
+    Singular { start: usize, tangents: usize },
     #[error(transparent)]
     Dense(#[from] DenseError),
 }

@@ -64,26 +64,16 @@ pub struct Minimum {
 
 /// Why the iteration did not converge.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum ConstrainedFailure {
-    /// No fraction of a step shrinks the simplified correction.
     #[error("no step shrinks the correction, which changes a variable by {correction:.1e}")]
-    Stuck {
-        /// Largest change of a variable.
-        correction: f64,
-    },
-    /// The allowed number of steps was taken.
+    Stuck { correction: f64 },
     #[error("no convergence within {iterations} steps")]
-    TooManySteps {
-        /// Steps taken.
-        iterations: usize,
-    },
-    /// A constraint is not defined at a state.
+    TooManySteps { iterations: usize },
     #[error("a constraint is not finite")]
     NotFinite,
-    /// The constraints depend on each other, or the linear algebra failed otherwise.
     #[error("constraints that depend on each other: {0}")]
     Factor(#[from] FactorError),
-    /// The observer asked to stop.
     #[error("stopped on request")]
     Interrupted,
 }

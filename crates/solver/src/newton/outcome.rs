@@ -60,63 +60,43 @@ pub struct Equilibrium {
 
 /// Why a minimisation did not converge.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum Failure {
-    /// The rigid measures cannot all be met near the start.
     #[error("the rigid measures cannot be met: largest scaled gap {gap:.2e}")]
-    Infeasible {
-        /// Largest scaled gap reached.
-        gap: f64,
-    },
-    /// The force does not vanish, but to first order the rigid measures leave no motion that relieves it.
+    Infeasible { gap: f64 },
     #[error("singular start: to first order the rigid measures leave no motion that relieves the force")]
     SingularStart,
-    /// No step along the Newton direction lowers the merit, or the last ones lowered it by next to nothing.
     #[error("no step lowers the energy: residual force {force:.2e}, residual length {length:.2e}")]
     Stuck {
-        /// Scaled residual force.
         force: f64,
         /// Scaled residual length.
         length: f64,
     },
-    /// The allowed number of steps was taken.
     #[error(
         "no convergence within {iterations} steps in a row: residual force {force:.2e}, residual length {length:.2e}"
     )]
     TooManySteps {
-        /// Steps taken.
         iterations: usize,
-        /// Scaled residual force.
         force: f64,
         /// Scaled residual length.
         length: f64,
     },
-    /// The forces balance, but rounding errors or a direction that costs next to nothing leave the state open.
     #[error("{}", uncertain(*angle, *force, *tolerance))]
     Uncertain {
         /// Largest change of an angle that one more Newton step would make, in radians.
         angle: f64,
-        /// Scaled residual force.
         force: f64,
-        /// The tolerance of that.
         tolerance: f64,
     },
-    /// The stiffer the rigid measures are made that are soft for a while, the nearer comes a state that meets them, but
-    /// no tensions of theirs balance the other forces there.
     #[error(
         "with rigid bars the forces cannot balance: the stiffer the bars, the nearer the sheet comes to a rigid state, but \
          for bars ten times as stiff the largest force in them grows by a factor of {growth:.2}, without bound"
     )]
-    Unbounded {
-        /// Factor by which the largest tension grows for measures ten times as stiff.
-        growth: f64,
-    },
-    /// A state was reached in which derivatives tell nothing.
+    Unbounded { growth: f64 },
     #[error(transparent)]
     Collapsed(#[from] Collapse),
-    /// The linear algebra failed.
     #[error(transparent)]
     Factor(#[from] FactorError),
-    /// The observer asked to stop.
     #[error("stopped on request")]
     Interrupted,
 }

@@ -109,9 +109,6 @@ impl<P: Problem> Newton<'_, P> {
     }
 
     /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted`, or at the level of rounding error.
-    ///
-    /// # Errors
-    /// The gap reached, where at the rate seen `most` corrections are not enough.
     pub(super) fn retract(
         &mut self,
         mut x: Vec<f64>,

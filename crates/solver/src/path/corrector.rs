@@ -47,9 +47,6 @@ pub(super) struct Corrected {
 
 /// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge,
 /// or leads to a state in which derivatives tell nothing.
-///
-/// # Errors
-/// [`FactorError`] where a system cannot be factored.
 pub(super) fn correct<P: ParametrizedProblem>(
     problem: &mut P,
     bordered: &mut Bordered,
@@ -137,9 +134,6 @@ fn relieved<P: ParametrizedProblem>(
 
 /// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
 /// inertia.
-///
-/// # Errors
-/// [`FactorError`] where the system cannot be factored.
 pub(super) fn complete<P: ParametrizedProblem>(
     problem: &mut P,
     bordered: &mut Bordered,

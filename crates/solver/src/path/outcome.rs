@@ -124,11 +124,10 @@ pub struct MarkedState {
 
 /// The reason for which a path cannot be followed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages say it
 pub enum PathError {
-    /// The start is not near an equilibrium.
     #[error("the start is not an equilibrium, and none is found next to it")]
     NoStart,
-    /// The linear algebra failed.
     #[error(transparent)]
     Factor(#[from] FactorError),
 }

@@ -30,10 +30,6 @@ pub(super) fn is_at_apex(run: &Run<'_>, ending: &Ending) -> bool {
 }
 
 /// The lowest equilibrium that relaxations from slightly bent states reach, or the one before where none is lower.
-///
-/// # Errors
-/// [`Failure::Interrupted`](crate::solver::Failure::Interrupted) where the observer asks to stop. A relaxation that
-/// fails otherwise is passed over.
 pub(super) fn lowest(run: &mut Run<'_>, ending: Ending) -> Ending {
     let mut found = ending?;
     let (start, flat) = (run.model.clone(), run.model.coordinates(&found.x));

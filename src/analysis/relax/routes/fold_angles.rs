@@ -67,9 +67,6 @@ pub(super) fn from_the_start(run: &mut Run<'_>, ending: Ending) -> Ending {
 }
 
 /// Minimises in fold angles, and confirms the result in positions. Where there is none the model is again as it was.
-///
-/// # Errors
-/// The reason for which there is none.
 fn solved_and_confirmed(
     intrinsic: &IntrinsicModel,
     run: &mut Run<'_>,

@@ -22,9 +22,6 @@ fn is_saddle(found: &Equilibrium) -> bool {
 }
 
 /// The minimum below a saddle, or the last saddle from which nothing lower is reached.
-///
-/// # Errors
-/// [`Failure::Interrupted`](crate::solver::Failure::Interrupted) where the observer asks to stop.
 pub(super) fn leave(run: &mut Run<'_>, ending: Ending) -> Ending {
     let mut found = ending?;
     for _ in 0..MOST_SADDLES {

@@ -119,10 +119,6 @@ pub(super) fn leave_if_better(run: &mut Run<'_>, ending: Ending) -> Ending {
 }
 
 /// Leaves a singular start by soft bars.
-///
-/// # Errors
-/// [`NewtonError`] of the model with rigid bars, [`Failure::Unbounded`] where its forces cannot balance, or
-/// [`Failure::Interrupted`].
 pub(super) fn leave(run: &mut Run<'_>, _: Ending) -> Ending {
     run.soft_steps = 0..run.recorder.steps();
     from_the_start(run, &RATIOS)

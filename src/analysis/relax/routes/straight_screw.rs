@@ -38,9 +38,6 @@ pub(super) fn is_nearly_straight(run: &Run<'_>, ending: &Ending) -> bool {
 }
 
 /// The equilibrium that a nearly straight screw reaches by way of straight ones.
-///
-/// # Errors
-/// [`NewtonError`](crate::solver::NewtonError) of the relaxation that fails.
 pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
     let last = ending.as_ref().map_or_else(|error| &error.x, |found| &found.x);
     let mut coordinates = run.model.coordinates(last);
@@ -56,9 +53,6 @@ pub(crate) fn begins_straight(run: &Run<'_>) -> bool {
 }
 
 /// The equilibrium next to a straight start, about an axis that keeps its direction unless the sheet bends.
-///
-/// # Errors
-/// As [`relaxed`].
 pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
     let start = Start { x: run.model.hold_axis(1, run.start.coordinates.clone()), ..start };
     with_axis_held(run, start, &[0])
@@ -88,9 +82,6 @@ fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending
 
 /// The equilibrium of a straight screw with residuals within the tolerance about an axis that keeps its direction, which
 /// is how it starts again. Others, and those that do not meet it so, are returned as they are.
-///
-/// # Errors
-/// [`Failure::Interrupted`](crate::solver::Failure::Interrupted) where the observer asks to stop.
 pub(super) fn about_one_axis(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     let place = run.model.coordinates(&found.x);
     if !curvature(&run.model, &place).is_some_and(|curvature| curvature <= ROUNDING) {

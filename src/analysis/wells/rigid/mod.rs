@@ -95,35 +95,22 @@ pub struct RigidLandscape {
 
 /// Why there is no landscape of this kind.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages say it
 pub enum RigidError {
-    /// Neither a curve nor a surface.
     #[error("the rigid states have {dimension} dimensions: wells are counted on curves and surfaces only")]
-    Dimension {
-        /// What second order says.
-        dimension: i64,
-    },
-    /// The energy is not one of hinges alone.
+    Dimension { dimension: i64 },
     #[error("the rigid landscape is that of one cell, or of a small sheet, with creases and nothing else")]
     NotOfHinges,
-    /// What leaves the drawn state is not known.
     #[error(transparent)]
     Branches(#[from] BranchesError),
-    /// The sheet cannot be put together.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// The surface is not known.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Nothing folds.
     #[error("{0}")]
     NoFolding(Negative),
-    /// Only a part of the surface was covered.
     #[error("only {states} states of the rigid surface were covered: wells and passes may lie on the rest of it")]
-    Partial {
-        /// States covered.
-        states: usize,
-    },
-    /// The observer asked to stop.
+    Partial { states: usize },
     #[error("interrupted")]
     Interrupted,
 }
