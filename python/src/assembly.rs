@@ -9,7 +9,7 @@ use crate::sheet::Sheet;
 use crate::term::CalledTerm;
 use crate::values::{scene_of, text};
 use crate::watch::watched;
-use foldwell::model::Boundary;
+use foldwell::model::Domain;
 use foldwell::run::{self, RunError};
 use foldwell::scene::{Arrays, SceneFile, build, parse};
 use foldwell::study::PreviousAnswers;
@@ -72,8 +72,8 @@ impl Assembly {
 /// Whether the coordinates of a state of one assembly are those of a state of the other: the same vertices, joined in
 /// the same way.
 fn has_same_coordinates(one: &foldwell::Assembly, other: &foldwell::Assembly) -> bool {
-    let seam = |assembly: &foldwell::Assembly| match assembly.boundary() {
-        Boundary::Tube { seam, .. } => Some(seam),
+    let seam = |assembly: &foldwell::Assembly| match assembly.domain() {
+        Domain::Tube { seam, .. } => Some(*seam),
         _ => None,
     };
     let joined = |assembly: &foldwell::Assembly| (assembly.drawn().coordinates.len(), seam(assembly));

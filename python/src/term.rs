@@ -2,7 +2,7 @@
 
 use crate::errors::refused;
 use foldwell::math::Vec3;
-use foldwell::model::{Boundary, Law, Measure, OwnTerm, Site, Spring};
+use foldwell::model::{Domain, Law, Measure, OwnTerm, Site, Spring};
 use foldwell::numerics::derivatives::{DerivativeError, check_gradient};
 use nalgebra::{SMatrix, SVector};
 use numpy::PyReadonlyArray1;
@@ -46,7 +46,7 @@ impl CalledTerm {
         if is_taken || ["bars", "creases", "facets", "total"].contains(&name.as_str()) {
             return Err(refused(py, format!("there is a term `{name}` already"), "give another name"));
         }
-        if assembly.boundary() != Boundary::Patch {
+        if *assembly.domain() != Domain::Patch {
             return Err(refused(py, "terms of one's own are on patches".to_owned(), "use `Assembly.patch`"));
         }
         let points = assembly.tiling().positions.len();

@@ -235,7 +235,7 @@ impl Track<'_> {
         terms.locks.push((crease, state.angles[crease]));
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
         let last = self.known.last().map(|(_, at)| at.clone());
-        let coordinates = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
+        let coordinates = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.domain(), state));
         let angles = model.angles_among(&self.angles);
         let (here, is_held_as_drawn) = model.enter_well_held(&Configuration::new(coordinates, angles, None));
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);

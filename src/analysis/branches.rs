@@ -4,7 +4,7 @@
 //! angle.
 
 use crate::kinematics::{Closure, FoldingModes, KinematicsError, Ray, Rays, SecondOrder, folding_modes, signature};
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 use crate::sheet::Sheet;
 use nalgebra::DVector;
 
@@ -56,11 +56,11 @@ pub struct Branches {
 /// [`BranchesError`] for a torus, for a domain of one's own, for periodic sheets with openings, for too many edges, and
 /// where ranks are not clear or the solutions do not add up.
 pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
-    let (sheet, boundary) = (assembly.sheet(), assembly.boundary());
-    if matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
+    let (sheet, domain) = (assembly.sheet(), assembly.domain());
+    if domain.is_torus() {
         return Err(BranchesError::Torus);
     }
-    if boundary == Boundary::Own {
+    if matches!(domain, Domain::Own(_)) {
         return Err(BranchesError::OwnDomain);
     }
     let closure = Closure::of_tiling(sheet, assembly.tiling())?.with_locked(&assembly.locked_edges());
@@ -76,14 +76,14 @@ pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
         [quadric] => Some(signature(quadric)?),
         _ => None,
     };
-    let curvature_signs = if boundary == Boundary::Screw {
+    let curvature_signs = if *domain == Domain::Screw {
         let modes = folding_modes(sheet)?;
         rays.rays.iter().map(|ray| Some(curvature_sign(sheet, &modes, ray))).collect()
     } else {
         vec![None; rays.rays.len()]
     };
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
-    let planar = boundary == Boundary::Screw && second_order.one_direction_is_real()?;
+    let planar = *domain == Domain::Screw && second_order.one_direction_is_real()?;
     Ok(Branches { modes, quadrics, signature, rays, planar, curvature_signs })
 }
 

@@ -8,7 +8,7 @@ use super::trace::Folded;
 use super::tube;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
-use crate::model::Boundary;
+use crate::model::Domain;
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
@@ -21,12 +21,12 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
     }
 }
 
-/// Coordinates of a state in the domain with these boundary conditions: those of a tube are about its axis.
-pub(crate) fn coordinates_in(boundary: Boundary, state: &Folded) -> Vec<f64> {
-    match (boundary, &state.shape) {
-        (Boundary::Tube { seam, kept }, Some(shape)) => {
+/// Coordinates of a state in this domain: those of a tube are about its axis.
+pub(crate) fn coordinates_in(domain: &Domain, state: &Folded) -> Vec<f64> {
+    match (domain, &state.shape) {
+        (Domain::Tube { seam, kept, .. }, Some(shape)) => {
             let axis = state.seam.map_or_else(Vec3::zeros, |place| place.axis);
-            tube::coordinates(shape, &axis, &seam, kept)
+            tube::coordinates(shape, &axis, seam, *kept)
         }
         _ => coordinates(state),
     }

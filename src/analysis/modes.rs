@@ -15,7 +15,7 @@ mod vibrations;
 
 use super::restored::{self, Forces};
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::{Assembly, Bars, Boundary, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
+use crate::model::{Assembly, Bars, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
 use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::{Problem, Start};
 pub use buckling::{Buckling, buckling};
@@ -131,9 +131,9 @@ pub fn modes_at(
 /// Checks that the number of motions or of stresses of the bars is the one that closure predicts.
 fn agree(assembly: &Assembly, closure: usize, [motions, stresses]: [usize; 2]) -> Result<(), ModesError> {
     let terms = assembly.terms();
-    let predicted = match assembly.boundary() {
-        Boundary::Patch if terms.pins.is_empty() => Some(motions),
-        Boundary::FixedTorus if terms.pins.is_empty() && !terms.has_rigid_facets() => Some(stresses),
+    let predicted = match assembly.domain() {
+        Domain::Patch if terms.pins.is_empty() => Some(motions),
+        Domain::FixedTorus(_) if terms.pins.is_empty() && !terms.has_rigid_facets() => Some(stresses),
         _ => None,
     };
     match predicted {
@@ -195,7 +195,7 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let at =
         |corner: Corner| state.domain.point(&state.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
     let closure = Closure::of_edges(&hinged, at)?;
-    let tube = matches!(assembly.boundary(), Boundary::Tube { .. } | Boundary::Own);
+    let tube = matches!(assembly.domain(), Domain::Tube { .. } | Domain::Own(_));
     let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);

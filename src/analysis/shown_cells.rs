@@ -3,7 +3,7 @@
 mod strip;
 
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary, Domain, Drawn, Site};
+use crate::model::{Assembly, Domain, Drawn, Site};
 use crate::sheet::tiling::{TiledEdge, TiledTriangle};
 use crate::sheet::{Assignment, EdgeKind, Sheet, Tiling, tile};
 use std::collections::HashMap;
@@ -65,10 +65,10 @@ impl ShownCells {
     /// The view of the cells that pictures of an assembly show.
     pub fn new(assembly: &Assembly) -> Self {
         let (sheet, cells) = (assembly.sheet(), assembly.shown());
-        match assembly.boundary() {
-            Boundary::Tube { seam, kept } => {
+        match assembly.domain() {
+            Domain::Tube { seam, kept, .. } => {
                 let basis = seam.basis();
-                Self::of_patch(sheet, assembly.tiling(), strip(sheet, &seam, kept, cells), ([0, 0], basis))
+                Self::of_patch(sheet, assembly.tiling(), strip(sheet, seam, *kept, cells), ([0, 0], basis))
             }
             _ => Self::of_cells(sheet, assembly.tiling(), cells, [0, 0]),
         }

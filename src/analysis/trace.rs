@@ -96,7 +96,7 @@ pub fn trace(
     let mut folding = TracedClosure {
         closing,
         embedding: &embedding,
-        periodic: assembly.boundary().is_one_cell(),
+        periodic: assembly.domain().is_one_cell(),
         starts_straight: condition.is_none(),
         tube: found.tube.as_ref().map(|(tube, kept)| (tube.seam(), *kept)),
         drawn: found

@@ -3,7 +3,7 @@
 use super::assemble::assemble;
 use super::assembly_error::AssemblyError;
 use super::boundary::{Boundary, Drawn};
-use super::domain::OwnDomain;
+use super::domain::{Domain, OwnDomain};
 use super::own_term::OwnTerm;
 use super::problem::{Gauge, Model};
 use super::roll::Roll;
@@ -42,12 +42,11 @@ pub struct Assembly {
     terms: Arc<Terms>,
 }
 
-/// The sheet, its tiling and its boundary conditions, which do not depend on the terms.
+/// The sheet and its tiling, which do not depend on the terms.
 #[derive(Clone, Debug)]
 struct Geometry {
     sheet: Sheet,
     tiling: Tiling,
-    boundary: Boundary,
     /// Numbers of cells along the two lattice vectors that pictures show.
     shown: [usize; 2],
     /// Fold angles of the drawn state, one for each edge of the tiling, in radians; NaN where there is no hinge.
@@ -66,24 +65,20 @@ impl Assembly {
     /// [`AssemblyError::DrawnAsTube`] for them on a cell that screw motions repeat, and
     /// [`AssemblyError::NoCells`] if a number of cells is zero.
     pub fn without_terms(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Result<Self, AssemblyError> {
-        if boundary.is_periodic() && sheet.lattice.is_none() {
+        let periodic = boundary != Boundary::Patch;
+        if periodic && sheet.lattice.is_none() {
             let drawn_as_tube = sheet.screws.is_some();
             return Err(if drawn_as_tube { AssemblyError::DrawnAsTube } else { AssemblyError::NoLattice });
         }
         if cells.contains(&0) {
             return Err(AssemblyError::NoCells);
         }
-        match boundary {
-            Boundary::Tube { .. } => return Err(AssemblyError::NotRolled),
-            Boundary::Own => return Err(AssemblyError::NoDomain),
-            _ => {}
-        }
         let repeated = if boundary == Boundary::Screw { [1, 1] } else { cells };
-        let tiling = tile(&sheet, repeated, boundary.is_periodic());
+        let tiling = tile(&sheet, repeated, periodic);
         let drawn = Drawn::new(&sheet, &tiling, boundary, 0.0);
         let angles = on_sides_of_sheet(drawn.fold_angles(&tiling), &sheet, &tiling);
         let start_angles = angles.clone();
-        let geometry = Geometry { sheet, tiling, boundary, shown: cells, angles, start_angles };
+        let geometry = Geometry { sheet, tiling, shown: cells, angles, start_angles };
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
@@ -98,7 +93,7 @@ impl Assembly {
         let of_file = |tiled: &TiledEdge| sheet.drawn_angle(&sheet.edges[tiled.edge]).unwrap_or(f64::NAN);
         let angles = tiling.edges.iter().map(of_file).collect();
         let start_angles = tiling.edges.iter().map(|tiled| roll.angles[tiled.edge]).collect();
-        let geometry = Geometry { sheet, tiling, boundary: roll.boundary(), shown: cells, angles, start_angles };
+        let geometry = Geometry { sheet, tiling, shown: cells, angles, start_angles };
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
@@ -121,7 +116,7 @@ impl Assembly {
         }
         let angles = drawn.fold_angles(&tiling);
         let start_angles = angles.clone();
-        let geometry = Geometry { sheet, tiling, boundary: Boundary::Own, shown: cells, angles, start_angles };
+        let geometry = Geometry { sheet, tiling, shown: cells, angles, start_angles };
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
@@ -180,24 +175,21 @@ impl Assembly {
     /// Returns the same assembly with the axis of its screw motions at `angle` (radians) from the first lattice
     /// vector. Other boundary conditions have no axis and are returned unchanged.
     pub fn with_axis(&self, angle: f64) -> Self {
-        let Geometry { sheet, tiling, boundary, .. } = &*self.geometry;
-        let drawn = match boundary {
-            Boundary::Screw => Arc::new(Drawn::new(sheet, tiling, *boundary, angle)),
-            _ => Arc::clone(&self.drawn),
-        };
-        Self { drawn, ..self.clone() }
+        if *self.domain() != Domain::Screw {
+            return self.clone();
+        }
+        self.with_drawn(Drawn::new(self.sheet(), self.tiling(), Boundary::Screw, angle))
     }
 
-    /// Returns the same assembly in another drawn state, with its boundary conditions.
-    pub(super) fn with_drawn(&self, drawn: Drawn, boundary: Boundary) -> Self {
-        let geometry = Geometry { boundary, ..Geometry::clone(&self.geometry) };
-        Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), ..self.clone() }
+    /// Returns the same assembly in another drawn state, with its domain.
+    pub(super) fn with_drawn(&self, drawn: Drawn) -> Self {
+        Self { drawn: Arc::new(drawn), ..self.clone() }
     }
 
     /// Returns the same assembly without the coordinates that screw boundary conditions hold against drift, so that
     /// its models have all rigid motions.
     pub fn with_free_coordinates(&self) -> Self {
-        Self { drawn: Arc::new(Drawn { held: vec![], ..Drawn::clone(&self.drawn) }), ..self.clone() }
+        self.with_drawn(Drawn { held: vec![], ..Drawn::clone(&self.drawn) })
     }
 
     /// Returns the cell of the sheet.
@@ -210,15 +202,15 @@ impl Assembly {
         &self.geometry.tiling
     }
 
-    /// Returns the boundary conditions.
-    pub fn boundary(&self) -> Boundary {
-        self.geometry.boundary
+    /// Returns the domain: the boundary conditions, and where points come from.
+    pub fn domain(&self) -> &Domain {
+        &self.drawn.domain
     }
 
     /// Returns the numbers of cells that pictures show along the two lattice vectors: those of the tiling, or, for
     /// screw boundary conditions and tubes, those given to the builder; of a tube strands and rows of cells.
     pub fn shown(&self) -> [usize; 2] {
-        if self.boundary().is_one_cell() { self.geometry.shown } else { self.tiling().cells }
+        if self.domain().is_one_cell() { self.geometry.shown } else { self.tiling().cells }
     }
 
     /// Returns the terms: stiffnesses and rest angles, locks, pins, loads and mass.

@@ -9,10 +9,6 @@ use thiserror::Error;
 pub enum AssemblyError {
     #[error("the sheet has no lattice: it can only be a patch")]
     NoLattice,
-    #[error("the sheet is not drawn as a tube: roll it up first")]
-    NotRolled,
-    #[error("the boundary conditions are those of a domain of one's own, which is not given")]
-    NoDomain,
     #[error("{given} coordinates were given: the vertices and the domain have {needed}")]
     Coordinates { given: usize, needed: usize },
     #[error("the sheet is drawn as a tube: it is a tube or a patch")]

@@ -8,7 +8,7 @@
 //! the start.
 
 use super::assembly::Assembly;
-use super::boundary::Boundary;
+use super::domain::Domain;
 use super::problem::Gauge;
 use crate::numerics::vector::dot;
 use crate::solver::{HessianKind, Problem, Tangent};
@@ -38,7 +38,7 @@ impl Assembly {
     /// Returns the same assembly with the axis of its screw motions in the direction that promises the largest
     /// decrease of the energy. Other boundary conditions are returned unchanged.
     pub fn with_best_axis(&self) -> Self {
-        if self.boundary() != Boundary::Screw {
+        if *self.domain() != Domain::Screw {
             return self.clone();
         }
         let fall = |angle: f64, shift: f64| promised_fall(&self.with_axis(angle), shift).unwrap_or(UNKNOWN);

@@ -2,15 +2,16 @@
 
 use super::domain::{Domain, OwnDomain};
 use crate::math::{Vec3, fold_angle::fold_angle};
+use crate::sheet::Sheet;
 use crate::sheet::tiling::{Site, Tiling};
-use crate::sheet::{Seam, SeamKept, Sheet};
 use nalgebra::Matrix3;
 
 /// Largest distance of the first vertex from the file's origin, relative to the size of the sheet, at which the
 /// file's origin is kept; beyond it the first vertex becomes the origin.
 const FAR: f64 = 4.0;
 
-/// The boundary conditions of a tiling.
+/// The boundary conditions that a drawn tiling can have as it is. They and its lattice make its [`Domain`]; that of a
+/// tube follows from how it is [rolled up](super::Roll), and domains of one's own bring their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// A finite piece with free edges.
@@ -21,27 +22,6 @@ pub enum Boundary {
     FreeTorus,
     /// One cell repeated by two screw motions about a common axis: a cylinder of any curvature.
     Screw,
-    /// One cell repeated about an axis, closed along a seam.
-    Tube {
-        /// The seam.
-        seam: Seam,
-        /// The closing conditions that are kept.
-        kept: SeamKept,
-    },
-    /// One cell on a [domain of one's own](super::OwnDomain).
-    Own,
-}
-
-impl Boundary {
-    /// Whether opposite sides of the tiling are joined.
-    pub fn is_periodic(self) -> bool {
-        self != Self::Patch
-    }
-
-    /// Whether the model is one cell, whose copies are moved by motions other than translations.
-    pub fn is_one_cell(self) -> bool {
-        matches!(self, Self::Screw | Self::Tube { .. } | Self::Own)
-    }
 }
 
 /// The drawn state in the coordinates of its domain.

@@ -97,6 +97,21 @@ impl Motion {
 }
 
 impl Domain {
+    /// Whether opposite sides of the tiling are joined.
+    pub fn is_periodic(&self) -> bool {
+        *self != Self::Patch
+    }
+
+    /// Whether opposite sides of the tiling are joined by translations.
+    pub fn is_torus(&self) -> bool {
+        matches!(self, Self::FixedTorus(_) | Self::FreeTorus)
+    }
+
+    /// Whether the model is one cell, whose copies are moved by motions other than translations.
+    pub fn is_one_cell(&self) -> bool {
+        matches!(self, Self::Screw | Self::Tube { .. } | Self::Own(_))
+    }
+
     /// Returns the number of shared coordinates.
     pub fn shared(&self) -> usize {
         match self {

@@ -8,7 +8,7 @@
 
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
-use super::boundary::Boundary;
+use super::domain::Domain;
 use super::element::{Term, TermKind};
 use super::law::{Law, Spring, Stored};
 use super::measure::Measure;
@@ -96,7 +96,7 @@ impl OwnTerm {
     /// no volume is enclosed. [`AssemblyError::NoPatch`] for other boundary conditions.
     pub fn pressure(assembly: &Assembly, value: f64, on: impl Fn(usize) -> bool) -> Result<Self, AssemblyError> {
         let tiling = assembly.tiling();
-        if assembly.boundary() != Boundary::Patch {
+        if *assembly.domain() != Domain::Patch {
             return Err(AssemblyError::NoPatch);
         }
         let polygon = |triangle: usize| assembly.sheet().triangles[triangle].polygon;

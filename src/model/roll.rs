@@ -1,6 +1,6 @@
 //! The start of a tube: where its vertices are about the axis, and how it goes on from cell to cell.
 
-use super::boundary::{Boundary, Drawn};
+use super::boundary::Drawn;
 use super::domain::Domain;
 use crate::math::Vec3;
 use crate::sheet::{Seam, SeamKept, Sheet};
@@ -90,11 +90,6 @@ impl Roll {
         }
         let angles = sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap_or(f64::NAN)).collect();
         Ok(Self { seam, kept, coordinates, angles, frame: Matrix3::identity(), origin: Vec3::zeros() })
-    }
-
-    /// Returns the boundary conditions of the tube.
-    pub fn boundary(&self) -> Boundary {
-        Boundary::Tube { seam: self.seam, kept: self.kept }
     }
 
     /// Returns the start in the coordinates of the tube's domain.

@@ -1,7 +1,7 @@
 //! Tubes with other closing conditions.
 
 use super::assembly::Assembly;
-use super::boundary::{Boundary, Drawn};
+use super::boundary::Drawn;
 use super::domain::Domain;
 use crate::sheet::SeamKept;
 use std::f64::consts::TAU;
@@ -25,6 +25,6 @@ impl Assembly {
         moved.extend([kept.rise, kept.turn].into_iter().zip(of_strand).filter(|(kept, _)| !kept).map(|(_, x)| x));
         let domain = Domain::Tube { seam: *seam, kept, counterclockwise: *counterclockwise };
         let place = Drawn { domain, coordinates: moved.clone(), ..drawn.clone() };
-        Some((self.with_drawn(place, Boundary::Tube { seam: *seam, kept }), moved))
+        Some((self.with_drawn(place), moved))
     }
 }

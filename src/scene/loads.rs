@@ -7,7 +7,7 @@ use super::spec::{LoadSpec, PressureSpec};
 use super::values::Triple;
 use super::{Located, SceneError, SceneFile, drives};
 use crate::math::Vec3;
-use crate::model::{Assembly, AssemblyError, Boundary, OwnTerm};
+use crate::model::{Assembly, AssemblyError, Domain, OwnTerm};
 
 /// Name of an array with the forces on all vertices.
 const LOADS: &str = "loads";
@@ -66,7 +66,7 @@ fn forces(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, S
 
 /// Returns the weight of every vertex.
 fn weights(file: &SceneFile, assembly: &Assembly, gravity: &Located<Triple>) -> Result<Vec<(usize, Vec3)>, SceneError> {
-    if assembly.boundary() != Boundary::Patch {
+    if *assembly.domain() != Domain::Patch {
         return Err(file.error_at(gravity.span(), "only a patch has weight", "give domain = \"patch\""));
     }
     let Some(masses) = assembly.masses() else {

@@ -5,7 +5,7 @@ use super::values::SeamCell;
 use super::{Located, SceneError, SceneFile};
 use crate::analysis::tube::rolled_up;
 use crate::kinematics::KinematicsError;
-use crate::model::{Assembly, Boundary, Roll};
+use crate::model::{Assembly, Domain, Roll};
 use crate::sheet::Sheet;
 
 /// Returns the start of the tube of a scene; `None` for other domains.
@@ -36,7 +36,7 @@ fn drawn(file: &SceneFile, sheet: &Sheet, seam: &Located<SeamCell>) -> Result<Ro
 
 /// Checks that no polygon of a sheet that is rolled up is rigid: rolling it up bends them all.
 pub(super) fn polygons_bend(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
-    let rolled_up = matches!(assembly.boundary(), Boundary::Tube { .. }) && assembly.sheet().screws.is_none();
+    let rolled_up = matches!(assembly.domain(), Domain::Tube { .. }) && assembly.sheet().screws.is_none();
     if !rolled_up || assembly.rigid_facets_of_cell().is_empty() {
         return Ok(());
     }

@@ -9,7 +9,7 @@ use super::summary::StudyResult;
 use super::supported;
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 use crate::output::table::{Table, Value};
 pub use summary::{BranchesSummary, RaySummary};
 
@@ -20,7 +20,7 @@ const AS_DRAWN: f64 = 1e-9;
 /// the drawn angles.
 pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let assembly = context.assembly;
-    if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {
+    if assembly.domain().is_torus() {
         let message = "branches of a torus are not known: its lattice has conditions of its own";
         return Err(context.refuse(message, "use domain = \"screw\" or \"patch\"").into());
     }
@@ -46,7 +46,7 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
 /// The second value tells whether all real directions are known; `None` if they were not computed.
 pub(crate) fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
     let rigid = assembly.terms().has_rigid_bars() && assembly.has_drawn_lengths();
-    if !rigid || assembly.boundary() != Boundary::Screw || assembly.terms().locks.is_empty() {
+    if !rigid || *assembly.domain() != Domain::Screw || assembly.terms().locks.is_empty() {
         return (None, None);
     }
     match branches(assembly) {

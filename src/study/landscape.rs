@@ -11,7 +11,7 @@ use super::relax;
 use super::summary::StudyResult;
 use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
@@ -26,10 +26,10 @@ pub use summary::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     let (file, assembly, terms) = (context.file, context.assembly, context.assembly.terms());
-    let torus = match assembly.boundary() {
-        Boundary::Patch => false,
-        Boundary::FixedTorus | Boundary::FreeTorus => true,
-        Boundary::Screw | Boundary::Tube { .. } | Boundary::Own => {
+    let torus = match assembly.domain() {
+        Domain::Patch => false,
+        Domain::FixedTorus(_) | Domain::FreeTorus => true,
+        Domain::Screw | Domain::Tube { .. } | Domain::Own(_) => {
             return refuse("a landscape needs cells around its own", "use domain = \"patch\"");
         }
     };

@@ -115,7 +115,7 @@ fn probes<'a>(context: &Context<'_>, spec: &'a PathSpec) -> Result<Vec<(&'a str,
         if found.iter().any(|(name, _)| *name == probe.name.0) {
             return refused("two probes have this name", "give each probe a name of its own");
         }
-        if context.assembly.boundary().is_periodic() {
+        if context.assembly.domain().is_periodic() {
             return refused(
                 "a periodic sheet has no vertex that can be told from its copies",
                 "probes are for patches",

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::error::StudyError;
 use crate::analysis::response::ratios_at;
-use crate::model::{Assembly, Boundary, Domain};
+use crate::model::{Assembly, Domain};
 use crate::scene::Located;
 use crate::scene::spec::RatioColumns;
 
@@ -16,7 +16,7 @@ pub(crate) fn check(context: &Context<'_>, columns: Option<&Located<RatioColumns
         let help = "give domain = \"screw\", or domain = \"torus\" with cells = [1, 1]";
         return refuse("Poisson's ratios are those of one cell of a periodic sheet", help);
     }
-    if matches!(assembly.boundary(), Boundary::Tube { .. }) {
+    if matches!(assembly.domain(), Domain::Tube { .. }) {
         return refuse("Poisson's ratios of a sheet that is rolled up are not known", "leave out `response`");
     }
     if !assembly.sheet().holes.is_empty() {

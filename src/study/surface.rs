@@ -14,7 +14,7 @@ use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary, Configuration, Gauge, Terms};
+use crate::model::{Assembly, Configuration, Domain, Gauge, Terms};
 use crate::numerics::{larger, worst};
 use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
@@ -46,7 +46,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), Stu
     if let Some(resolution) = &spec.resolution {
         check_resolution(context.file, resolution)?;
     }
-    if context.assembly.boundary() == Boundary::Screw {
+    if *context.assembly.domain() == Domain::Screw {
         supported::one_stiffness_each(context, "surfaces of folded states")?;
         return supported::drawn_lengths(context, "surfaces of folded states");
     }

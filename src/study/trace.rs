@@ -16,7 +16,7 @@ use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary, Configuration, Gauge, Model};
+use crate::model::{Assembly, Configuration, Domain, Gauge, Model};
 use crate::numerics::{larger, worst};
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
@@ -41,7 +41,7 @@ const STATES_ON_PAGE: usize = 200;
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
     branches::check(context)?;
     let assembly = context.assembly;
-    if assembly.boundary() == Boundary::Patch && assembly.sheet().is_repeated() {
+    if *assembly.domain() == Domain::Patch && assembly.sheet().is_repeated() {
         let message = "trajectories of a patch of a periodic sheet are not known";
         let help = "use domain = \"screw\", of a cell that is drawn rolled up \"tube\", or a mesh without lattice";
         return Err(context.refuse(message, help).into());
@@ -120,7 +120,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     let mut finder = asked.then(|| SelfIntersection::new(assembly));
     let model = assembly.model(Gauge::Held);
     let mut crosses = |state: &Folded| {
-        let shown = state_at(&model, coordinates_in(assembly.boundary(), state), &state.angles);
+        let shown = state_at(&model, coordinates_in(assembly.domain(), state), &state.angles);
         finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any)
     };
     let mut step = 0;
@@ -209,7 +209,7 @@ fn closed_tubes(assembly: &Assembly, model: &mut Model, paths: &[Path<'_>]) -> V
 
 /// Returns the state of a model with the fold angles of a state on a trajectory.
 fn folded_state(assembly: &Assembly, model: &mut Model, folded: &Folded) -> State {
-    enter_folded(model, coordinates_in(assembly.boundary(), folded), &folded.angles)
+    enter_folded(model, coordinates_in(assembly.domain(), folded), &folded.angles)
 }
 
 /// Adds the trajectories in the space of lattice strains, as a picture and for later surface studies, which draw them.
@@ -243,7 +243,7 @@ fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option
     let along = path.relaxed.and_then(|relaxed| relaxed.states.last());
     let (coordinates, angles) = match (along, path.traced.states.last()) {
         (Some(along), _) => (along.relaxed.state.coordinates.clone(), &along.angles),
-        (None, Some(folded)) => (coordinates_in(assembly.boundary(), folded), &folded.angles),
+        (None, Some(folded)) => (coordinates_in(assembly.domain(), folded), &folded.angles),
         (None, None) => return None,
     };
     Some(Configuration::new(coordinates, model.angles_among(angles), None))

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::error::StudyError;
-use crate::model::Boundary;
+use crate::model::Domain;
 use crate::scene::spec::StudyKind;
 
 /// Advice for a study of the ways in which a tube folds.
@@ -10,7 +10,7 @@ const COUNTED: &str = "use domain = \"screw\"; `modes` counts the motions of a t
 
 /// Checks that the study is one of those that a tube has.
 pub(super) fn check(context: &Context<'_>) -> Result<(), StudyError> {
-    let Boundary::Tube { .. } = context.assembly.boundary() else { return Ok(()) };
+    let Domain::Tube { .. } = context.assembly.domain() else { return Ok(()) };
     let refused = match &*context.study.kind {
         StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Trace(_) => None,
         StudyKind::Wells(wells) if wells.rigid => {

@@ -18,7 +18,7 @@
 use super::Finder;
 use crate::analysis::shown_cells::ShownCells;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Boundary, Drawn};
+use crate::model::{Assembly, Drawn};
 use crate::sheet::{Sheet, Tiling};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -54,7 +54,7 @@ impl SelfIntersection {
     pub fn new(assembly: &Assembly) -> Self {
         let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
         let drawn = ShownCells::new(assembly);
-        let around = if is_torus(assembly.boundary()) { NEIGHBOURS } else { 0 };
+        let around = if assembly.domain().is_torus() { NEIGHBOURS } else { 0 };
         let view = if around == 0 {
             ShownCells::new(assembly)
         } else {
@@ -85,10 +85,6 @@ impl SelfIntersection {
         }
         Marks { any: found.contains(&true), faces: self.drawn.iter().map(|&face| found[face]).collect() }
     }
-}
-
-fn is_torus(boundary: Boundary) -> bool {
-    matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus)
 }
 
 fn hinges(view: &ShownCells) -> Vec<(usize, [usize; 2])> {

@@ -2,7 +2,7 @@
 
 use super::{HeldState, LandscapeError};
 use crate::kinematics::FoldingModes;
-use crate::model::{Assembly, Boundary, Configuration, Element, Model};
+use crate::model::{Assembly, Configuration, Domain, Element, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
 use crate::solver::Problem;
@@ -48,9 +48,9 @@ impl HeldSheet {
         if !assembly.has_drawn_lengths() {
             return Err(LandscapeError::OffRest { bars: assembly.bars_off_rest() });
         }
-        match assembly.boundary() {
-            Boundary::Patch => Self::patch(assembly),
-            Boundary::Own => Err(LandscapeError::OwnDomain),
+        match assembly.domain() {
+            Domain::Patch => Self::patch(assembly),
+            Domain::Own(_) => Err(LandscapeError::OwnDomain),
             _ => Self::torus(assembly),
         }
     }

@@ -6,7 +6,7 @@
 use super::error::ModesError;
 use super::rank::{rank_of, rigid_part};
 use super::spectrum::Observer;
-use crate::model::{Assembly, Boundary, Gauge};
+use crate::model::{Assembly, Domain, Gauge};
 use crate::sheet::SeamKept;
 use crate::solver::Problem;
 use schemars::JsonSchema;
@@ -39,7 +39,7 @@ pub(super) fn seam_motions(
     coordinates: &[f64],
     observe: &mut Observer<'_>,
 ) -> Result<Option<SeamMotions>, ModesError> {
-    let Boundary::Tube { seam, .. } = assembly.boundary() else { return Ok(None) };
+    let Domain::Tube { seam, .. } = assembly.domain() else { return Ok(None) };
     let (mut counts, mut least) = ([0; 4], None::<f64>);
     for (count, (turn, rise)) in counts.iter_mut().zip([(false, false), (true, false), (false, true), (true, true)]) {
         let Some((other, place)) = assembly.tube_keeping(SeamKept { turn, rise }, coordinates) else { return Ok(None) };

@@ -7,7 +7,7 @@
 
 use super::error::ModesError;
 use super::spectrum::{Observer, Spectrum, lowest};
-use crate::model::{Assembly, Boundary, Model};
+use crate::model::{Assembly, Domain, Model};
 
 /// Largest product of two motions of a rigid part with the mass, over those of each with itself, that is rounding error.
 const COUPLED: f64 = 1e-12;
@@ -97,11 +97,11 @@ fn of_unknowns(model: &Model, masses: &[f64]) -> Result<Vec<f64>, ModesError> {
 /// [`ModesError::NoMassMatrix`] where lattice vectors or the turns of a cylinder are coordinates, and
 /// [`ModesError::Massless`] where a vertex has no mass.
 pub fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
-    let of = match assembly.boundary() {
-        Boundary::Patch | Boundary::FixedTorus => None,
-        Boundary::FreeTorus => Some("the vectors of a free lattice"),
-        Boundary::Screw | Boundary::Tube { .. } => Some("the turns of a cylinder"),
-        Boundary::Own => Some("the shared coordinates of a domain of one's own"),
+    let of = match assembly.domain() {
+        Domain::Patch | Domain::FixedTorus(_) => None,
+        Domain::FreeTorus => Some("the vectors of a free lattice"),
+        Domain::Screw | Domain::Tube { .. } => Some("the turns of a cylinder"),
+        Domain::Own(_) => Some("the shared coordinates of a domain of one's own"),
     };
     if let Some(of) = of {
         return Err(ModesError::NoMassMatrix { of });

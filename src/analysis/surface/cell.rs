@@ -2,12 +2,12 @@
 
 use super::error::SurfaceError;
 use crate::kinematics::{Closure, Embedding, SecondOrder};
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 
 /// The cell of a sheet, and what second order says of its drawn state.
 pub(super) fn of(assembly: &Assembly) -> Result<(Closure, Embedding, SecondOrder), SurfaceError> {
     let sheet = assembly.sheet();
-    if assembly.boundary() != Boundary::Screw {
+    if *assembly.domain() != Domain::Screw {
         return Err(SurfaceError::NotScrew);
     }
     let closure = Closure::of_cell(sheet)?.with_locked(&assembly.locked_edges());

@@ -4,7 +4,7 @@ use super::error::TraceError;
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::tube::{BOTH, Condition};
 use crate::kinematics::{Ray, RealDirections, Tube};
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 use crate::sheet::{Seam, SeamKept};
 
 /// The first state of trajectories, with its rays.
@@ -24,8 +24,8 @@ pub(super) struct Start<'a> {
 /// Finds the rays of the drawn state, or of the tube from which the assembly starts.
 pub(super) fn start(assembly: &Assembly) -> Result<Start<'_>, TraceError> {
     let angles = assembly.start_angles().iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
-    if let Boundary::Tube { seam, kept } = assembly.boundary() {
-        return of_tube(assembly, angles, (seam, kept));
+    if let Domain::Tube { seam, kept, .. } = assembly.domain() {
+        return of_tube(assembly, angles, (*seam, *kept));
     }
     let Branches { rays: found, planar, .. } = branches(assembly)?;
     match found.directions {

@@ -13,7 +13,7 @@
 use super::placement::holds_shape;
 use super::settle::{MinimumTracker, Settled};
 use crate::analysis::state::State;
-use crate::model::{Assembly, Boundary, Configuration, Gauge};
+use crate::model::{Assembly, Configuration, Domain, Gauge};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
 use crate::solver::{Failure, Options, Problem};
@@ -150,7 +150,7 @@ fn one(
     let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
     numbers.set_stream(number as u64);
     let mut within = |size: f64| size * symmetric(&mut numbers);
-    let turned = (assembly.boundary() == Boundary::Screw && centre.is_none()).then(|| {
+    let turned = (*assembly.domain() == Domain::Screw && centre.is_none()).then(|| {
         let turned = assembly.with_axis(within(0.5 * PI));
         (MinimumTracker::new(&turned, 1.0), turned)
     });

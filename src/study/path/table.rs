@@ -25,7 +25,7 @@ pub(crate) fn table(
         .chain(solution.iter().map(String::as_str))
         .chain(["negative_eigenvalues", "event"])
         .chain(asked(marks.is_some(), &["self_intersecting"]))
-        .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))
+        .chain(asked(context.assembly.domain().is_periodic(), &CYLINDER))
         .chain(asked(spec.response.is_some(), &RATIOS))
         .chain(asked(yields(context), &["dissipated"]))
         .chain(displacements.iter().map(String::as_str))

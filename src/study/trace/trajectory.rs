@@ -5,7 +5,7 @@ use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylind
 use crate::analysis::relax::Relaxed;
 use crate::analysis::trace::{Folded, TURNING, Traced};
 use crate::kinematics::RealDirections;
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
 use crate::scene::spec::Engine;
@@ -94,7 +94,7 @@ impl Path<'_> {
 
 /// Whether a sheet is rolled up and closed along a seam.
 pub(super) fn is_tube(assembly: &Assembly) -> bool {
-    matches!(assembly.boundary(), Boundary::Tube { .. })
+    matches!(assembly.domain(), Domain::Tube { .. })
 }
 
 /// Returns the summary of these trajectories; `asked` says whether self-intersections were looked for.

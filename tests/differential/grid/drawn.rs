@@ -4,8 +4,8 @@ use crate::common::Numbers;
 use crate::redrawn::{Redrawn, redrawn, renumbered, two_pieces};
 use foldwell::analysis::tube::rolled_up;
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, Boundary, Roll, Terms};
-use foldwell::sheet::{ScrewLattice, Seam, Sheet};
+use foldwell::model::{Assembly, Boundary, Domain, Roll, Terms};
+use foldwell::sheet::{ScrewLattice, Seam, SeamKept, Sheet};
 use nalgebra::{Matrix3, Rotation3};
 use std::fmt;
 
@@ -45,7 +45,7 @@ impl Drawn {
     /// has no lattice of its own, other domains are of one piece, and diagonals of parallelograms may be drawn
     /// otherwise.
     pub fn of(self, given: &Assembly, numbers: &mut Numbers) -> Option<(Assembly, f64)> {
-        let (sheet, is_patch) = (given.sheet(), given.boundary() == Boundary::Patch);
+        let (sheet, is_patch) = (given.sheet(), *given.domain() == Domain::Patch);
         match self {
             Self::Turned => Some((turned(given, numbers), 1.0)),
             Self::Unit => Some((in_unit(given), UNIT)),
@@ -71,10 +71,19 @@ fn assembled(given: &Assembly, other: Redrawn) -> Option<Assembly> {
 /// Returns a sheet with the boundary conditions of an assembly, whose lattice vectors have this basis, without terms.
 fn bare(given: &Assembly, sheet: Sheet, basis: [[i32; 2]; 2]) -> Assembly {
     let cells = given.shown();
-    let Boundary::Tube { seam, kept } = given.boundary() else {
-        return Assembly::without_terms(sheet, cells, given.boundary()).unwrap();
+    let boundary = match given.domain() {
+        Domain::Patch => Boundary::Patch,
+        Domain::FixedTorus(_) => Boundary::FixedTorus,
+        Domain::FreeTorus => Boundary::FreeTorus,
+        Domain::Screw => Boundary::Screw,
+        Domain::Tube { seam, kept, .. } => return bare_tube(sheet, in_basis(*seam, basis), *kept, cells),
+        Domain::Own(_) => panic!("no scene has a domain of its own"),
     };
-    let seam = in_basis(seam, basis).lattice_vector();
+    Assembly::without_terms(sheet, cells, boundary).unwrap()
+}
+
+fn bare_tube(sheet: Sheet, seam: Seam, kept: SeamKept, cells: [usize; 2]) -> Assembly {
+    let seam = seam.lattice_vector();
     let roll = if sheet.screws.is_some() {
         Roll::as_drawn(&sheet, seam, kept).unwrap()
     } else {

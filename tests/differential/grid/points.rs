@@ -74,7 +74,7 @@ fn same_problem(one: &Whole, other: &Whole) -> bool {
     let [a, b] = [one, other].map(|whole| &whole.assembly);
     let same_sheet = a.sheet().vertices == b.sheet().vertices && a.sheet().polygons == b.sheet().polygons;
     same_sheet
-        && a.boundary() == b.boundary()
+        && a.domain() == b.domain()
         && a.tiling().cells == b.tiling().cells
         && a.with_bars(1.0).terms() == b.with_bars(1.0).terms()
 }

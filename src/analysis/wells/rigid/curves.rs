@@ -7,7 +7,7 @@ use super::{Net, RigidError, Sampling};
 use crate::kinematics::{
     Closing, Closure, Embedding, KinematicsError, Rays, RealDirections, SecondOrder, SpatiallyPeriodic,
 };
-use crate::model::{Assembly, Boundary};
+use crate::model::{Assembly, Domain};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
 use crate::solver::Implicit;
@@ -28,7 +28,7 @@ pub(super) fn net(
     let drawn = assembly.drawn_angles_or_zero();
     let second_order = SecondOrder::new(&closure, &drawn)?;
     let dimension = second_order.count() as i64 - second_order.quadrics.len() as i64;
-    let planar = assembly.boundary() == Boundary::Screw && second_order.one_direction_is_real()?;
+    let planar = *assembly.domain() == Domain::Screw && second_order.one_direction_is_real()?;
     if dimension != 1 && !planar {
         return Err(RigidError::Dimension { dimension });
     }

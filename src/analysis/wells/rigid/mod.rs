@@ -19,7 +19,7 @@ use crate::analysis::branches::BranchesError;
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
-use crate::model::{Assembly, Boundary, Gauge};
+use crate::model::{Assembly, Domain, Gauge};
 use crate::numerics::vector::distance;
 use extent::{Extent, SAME_STATE_ANGLE_RAD};
 use flood::Merge;
@@ -128,8 +128,8 @@ pub fn landscape(
     let model = assembly.model(Gauge::Held);
     let springs = Springs::new(sheet, tiling, &model, assembly.drawn_angles()).ok_or(RigidError::NotOfHinges)?;
     let extent = Extent::new(&springs);
-    let net = match assembly.boundary() {
-        Boundary::Screw => match surface::net(assembly, (sampling, &extent), go_on) {
+    let net = match assembly.domain() {
+        Domain::Screw => match surface::net(assembly, (sampling, &extent), go_on) {
             Err(RigidError::Surface(SurfaceError::Curve)) => curves::net(assembly, (sampling, &extent), go_on)?,
             net => net?,
         },
