@@ -164,8 +164,10 @@ impl CurveError {
 /// which rise and fall only where the points do, and straight beyond the first and the last point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Angle or strain off rest, force, slope and energy at every point; the last three over the slope at rest.
-    knots: Vec<[f64; 4]>,
+    /// Angle or strain off rest, force, slope and energy at every point, outwards from rest; the last three over the
+    /// slope at rest. Above rest, and below it with the signs of angle and force changed: so the energy of a state near
+    /// rest is no difference of large numbers.
+    sides: [Vec<[f64; 4]>; 2],
     slope: f64,
 }
 
@@ -191,18 +193,11 @@ impl Measured {
         if slope <= 0.0 {
             return Err(CurveError::NotStable);
         }
-        let mut energy = 0.0;
-        let mut knots: Vec<[f64; 4]> = Vec::with_capacity(points.len());
-        for (k, (point, unit)) in points.iter().zip(&slopes).enumerate() {
-            let knot = [point[0], point[1] / slope, unit / slope, 0.0];
-            if k > 0 {
-                energy += piece(&knots[k - 1], &knot, knot[0])[0];
-            }
-            knots.push([knot[0], knot[1], knot[2], energy]);
-        }
-        let at_rest = knots[rest][3];
-        knots.iter_mut().for_each(|knot| knot[3] -= at_rest);
-        Ok(Self { knots, slope })
+        let knots = points.iter().zip(&slopes).map(|(point, unit)| [point[0], point[1] / slope, unit / slope]);
+        let knots: Vec<[f64; 3]> = knots.collect();
+        let below: Vec<[f64; 3]> =
+            knots[..=rest].iter().rev().map(|&[off, force, slope]| [-off, -force, slope]).collect();
+        Ok(Self { sides: [with_energies(&knots[rest..]), with_energies(&below)], slope })
     }
 
     /// The slope at rest in the units of the points: the stiffness of a hinge, the EA of a bar.
@@ -213,16 +208,34 @@ impl Measured {
 
 impl ForceCurve for Measured {
     fn at(&self, off: f64) -> [f64; 3] {
-        let after = self.knots.partition_point(|knot| knot[0] <= off);
-        if after == 0 || after == self.knots.len() {
-            let [from, force, slope, energy] = self.knots[after.saturating_sub(1)];
-            let beyond = off - from;
-            return [energy + beyond * (force + 0.5 * slope * beyond), force + slope * beyond, slope];
-        }
-        let (left, right) = (&self.knots[after - 1], &self.knots[after]);
-        let [energy, force, slope] = piece(left, right, off);
-        [left[3] + energy, force, slope]
+        let (knots, size) = (&self.sides[usize::from(off < 0.0)], off.abs());
+        let after = knots.partition_point(|knot| knot[0] <= size);
+        let from = &knots[after - 1];
+        let [energy, force, slope] = match knots.get(after) {
+            Some(next) => piece(from, next, size),
+            None => straight(from, size),
+        };
+        [from[3] + energy, if off < 0.0 { -force } else { force }, slope]
     }
+}
+
+/// The straight line beyond the last knot: the energy from it, force and slope.
+fn straight(&[from, force, slope, _]: &[f64; 4], at: f64) -> [f64; 3] {
+    let beyond = at - from;
+    [beyond * (force + 0.5 * slope * beyond), force + slope * beyond, slope]
+}
+
+/// Gives every point the energy of the curve from the first one to it.
+fn with_energies(points: &[[f64; 3]]) -> Vec<[f64; 4]> {
+    let mut energy = 0.0;
+    let mut knots: Vec<[f64; 4]> = Vec::with_capacity(points.len());
+    for &[off, force, slope] in points {
+        if let Some(before) = knots.last() {
+            energy += piece(before, &[off, force, slope, 0.0], off)[0];
+        }
+        knots.push([off, force, slope, energy]);
+    }
+    knots
 }
 
 /// The cubic between two knots: the energy from the left one, force and slope.
@@ -287,6 +300,16 @@ mod tests {
             assert!((energy - 0.5 * off * off).abs() < 1e-14 && (force - off).abs() < 1e-14 && slope == 1.0, "{off}");
         }
         assert_eq!(line.slope(), 2.0);
+    }
+
+    /// Claim: next to rest the energy has the digits of a spring's, on both sides, where a curve has long pieces.
+    /// Tolerance: what the curve's third derivative makes of the energy, of the order of the strain.
+    #[test]
+    fn energies_next_to_rest_keep_their_digits() {
+        let curve = Measured::new(&[[-0.1, -2.0], [0.0, 0.0], [0.1, 1.0]]).unwrap();
+        for off in [-1e-6, -1e-10, 1e-10, 1e-6] {
+            assert!((curve.at(off)[0] / (0.5 * off * off) - 1.0).abs() < 20.0 * off.abs(), "{off}");
+        }
     }
 
     /// Claim: points that are no curve are refused with the point.

@@ -1,10 +1,16 @@
 //! The iteration: steps of Gauss and Newton, damped so that the simplified correction shrinks.
 
-use super::outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Minimum, Settings};
+use super::outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, Minimum};
 use super::problem::{ConstrainedProblem, Derivatives};
 use super::reduced::{Correction, Reduced, energy_norm};
+use crate::newton::Step;
 use foldwell_numerics::vector::{dot_blocked, larger, max_abs, moved};
 
+/// Largest change of a variable by a Gauss-Newton step at a converged state, relative to the largest variable where that
+/// is above 1.
+const TOLERANCE: f64 = 1e-10;
+/// Largest number of steps.
+const MOST_STEPS: usize = 100;
 /// Least fraction of a step that is tried.
 const LEAST_FRACTION: f64 = 1e-4;
 /// Factor by which a whole Gauss-Newton step has to shrink the correction before the full Hessian is used.
@@ -36,7 +42,7 @@ pub(super) struct Iteration<'a, P: ConstrainedProblem> {
     fraction: f64,
     /// Size of the last Gauss-Newton step, and the simplified correction after it.
     last: Option<(f64, Vec<f64>)>,
-    history: Vec<ConstrainedStep>,
+    history: Vec<Step>,
 }
 
 /// A state that is tried, its derivatives, and the correction there by the factorization of the state before.
@@ -63,35 +69,30 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// Iterates until convergence.
     pub(super) fn run(
         mut self,
-        settings: Settings,
         observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
     ) -> Result<Minimum, ConstrainedError> {
-        match self.converge(settings, observe) {
+        match self.converge(observe) {
             Ok(()) => Ok(Minimum { z: self.z, multipliers: self.multipliers, history: self.history }),
             Err(failure) => Err(ConstrainedError { failure, z: self.z, history: self.history }),
         }
     }
 
-    fn converge(
-        &mut self,
-        settings: Settings,
-        observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
-    ) -> Result<(), ConstrainedFailure> {
+    fn converge(&mut self, observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool) -> Result<(), ConstrainedFailure> {
         let (mut taken, largest) = (0.0, max_abs(&self.z).max(1.0));
         loop {
             self.system.factor(self.problem, &self.at)?;
             let pull = self.pull(&self.z, &self.multipliers, &self.at);
             let gauss = self.system.gauss_newton(self.problem, &self.at, &pull, &self.at.values);
             let correction = max_abs(&gauss.dz);
-            self.record(&pull, correction, taken, observe)?;
+            self.record(&pull, taken, observe)?;
             if !correction.is_finite() {
                 return Err(ConstrainedFailure::NotFinite);
             }
-            if correction <= settings.tolerance * largest {
+            if correction <= TOLERANCE * largest {
                 return Ok(());
             }
-            if self.history.len() > settings.iterations {
-                return Err(ConstrainedFailure::TooManySteps { iterations: settings.iterations });
+            if self.history.len() > MOST_STEPS {
+                return Err(ConstrainedFailure::TooManySteps { iterations: MOST_STEPS });
             }
             let Some(next) = self.advance(&gauss) else {
                 // a correction of rounding error does not shrink
@@ -99,9 +100,9 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
                 return if rounding { Ok(()) } else { Err(ConstrainedFailure::Stuck { correction }) };
             };
             taken = self.fraction;
-            if next <= settings.tolerance * largest {
+            if next <= TOLERANCE * largest {
                 let pull = self.pull(&self.z, &self.multipliers, &self.at);
-                return self.record(&pull, next, taken, observe);
+                return self.record(&pull, taken, observe);
             }
         }
     }
@@ -242,26 +243,25 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     fn record(
         &mut self,
         pull: &[f64],
-        correction: f64,
         fraction: f64,
         observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
     ) -> Result<(), ConstrainedFailure> {
-        let before = |count: fn(&ConstrainedStep) -> usize| self.history.iter().map(count).sum::<usize>();
+        let before = |count: fn(&Step) -> usize| self.history.iter().map(count).sum::<usize>();
         // forces of the terms, those of the constraints, and what is left of them together
         let own = self.z.iter().zip(self.problem.target()).map(|(z, a)| z - a);
         let forces = pull.iter().zip(own).zip(self.problem.compliance());
         let (left, largest) = forces.fold((0.0, 0.0), |(left, largest), ((pull, own), c)| {
             (larger(left, (pull / c).abs()), larger(largest, (own / c).abs().max(((pull - own) / c).abs())))
         });
-        let step = ConstrainedStep {
-            imbalance: if left > 0.0 { left / largest } else { left },
-            value: self.value(&self.z),
-            violation: max_abs(&self.at.values),
-            correction,
+        let step = Step {
+            energy: self.value(&self.z),
+            residual_force: if left > 0.0 { left / largest } else { left },
+            residual_length: max_abs(&self.at.values),
             fraction,
-            full: self.full,
+            shift: 0.0,
             factorizations: self.system.factorizations - before(|step| step.factorizations),
             solves: self.system.solves - before(|step| step.solves),
+            intrinsic: true,
         };
         self.history.push(step);
         let iterate = ConstrainedIterate { z: &self.z, multipliers: &self.multipliers, step: &step };

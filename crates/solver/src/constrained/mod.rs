@@ -14,7 +14,7 @@
 //! The point of the unit circle that is closest to `(2, 1)`:
 //!
 //! ```
-//! use foldwell_solver::constrained::{Block, Blocks, ConstrainedProblem, Settings, minimize_constrained};
+//! use foldwell_solver::constrained::{Block, Blocks, ConstrainedProblem, minimize_constrained};
 //!
 //! struct Circle(Blocks);
 //!
@@ -39,7 +39,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mut blocks = Blocks::default();
 //! blocks.push(1, &[0, 1]); // one constraint on the variables 0 and 1
-//! let found = minimize_constrained(&Circle(blocks), vec![0.6, 0.9], Settings::default(), &mut |_| true)?;
+//! let found = minimize_constrained(&Circle(blocks), vec![0.6, 0.9], &mut |_| true)?;
 //! assert!((found.z[0] - 2.0 / f64::sqrt(5.0)).abs() < 1e-12);
 //! # Ok(())
 //! # }
@@ -53,7 +53,7 @@ mod reduced;
 mod tests;
 
 use iteration::Iteration;
-pub use outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Minimum, Settings};
+pub use outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, Minimum};
 pub use problem::{Block, Blocks, ConstrainedProblem};
 
 /// Minimises from a start. `observe` sees every state, the start first, and returns false to stop.
@@ -66,21 +66,7 @@ pub use problem::{Block, Blocks, ConstrainedProblem};
 pub fn minimize_constrained<P: ConstrainedProblem>(
     problem: &P,
     start: Vec<f64>,
-    settings: Settings,
-    observe: &mut dyn FnMut(&ConstrainedStep) -> bool,
-) -> Result<Minimum, ConstrainedError> {
-    minimize_constrained_iterates(problem, start, settings, &mut |iterate| observe(iterate.step))
-}
-
-/// Minimises as [`minimize_constrained`] does, with an observer that sees the states too.
-///
-/// # Errors
-/// [`ConstrainedError`] with the reason and the last state.
-pub fn minimize_constrained_iterates<P: ConstrainedProblem>(
-    problem: &P,
-    start: Vec<f64>,
-    settings: Settings,
     observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
 ) -> Result<Minimum, ConstrainedError> {
-    Iteration::new(problem, start)?.run(settings, observe)
+    Iteration::new(problem, start)?.run(observe)
 }

@@ -1,44 +1,8 @@
-//! Where the iteration stops, what it finds, and why it finds nothing.
+//! What the iteration finds, and why it finds nothing.
 
+use crate::newton::Step;
 use foldwell_numerics::factor::FactorError;
 use thiserror::Error;
-
-/// Tolerance and number of steps.
-#[derive(Clone, Copy, Debug)]
-pub struct Settings {
-    /// Largest change of a variable by a Gauss-Newton step at a converged state, relative to the largest variable
-    /// where that is above 1.
-    pub tolerance: f64,
-    /// Largest number of steps.
-    pub iterations: usize,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { tolerance: 1e-10, iterations: 100 }
-    }
-}
-
-/// One state of the iteration, the start first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConstrainedStep {
-    /// The function that is minimised.
-    pub value: f64,
-    /// Largest unbalanced force, `(z - a)/c + J^T l`, over the largest force `(z - a)/c`.
-    pub imbalance: f64,
-    /// Largest value of a constraint.
-    pub violation: f64,
-    /// Largest change of a variable by the Gauss-Newton step from here.
-    pub correction: f64,
-    /// Fraction of the step taken to get here; 0 for the start.
-    pub fraction: f64,
-    /// Whether the step from here uses the full Hessian.
-    pub full: bool,
-    /// Number of factorizations made to get here.
-    pub factorizations: usize,
-    /// Number of linear solves made to get here.
-    pub solves: usize,
-}
 
 /// A state of the iteration with its record, as an observer sees it.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +12,7 @@ pub struct ConstrainedIterate<'a> {
     /// Multipliers of the constraints.
     pub multipliers: &'a [f64],
     /// The record.
-    pub step: &'a ConstrainedStep,
+    pub step: &'a Step,
 }
 
 /// A converged state.
@@ -59,7 +23,7 @@ pub struct Minimum {
     /// Multipliers of the constraints.
     pub multipliers: Vec<f64>,
     /// All states, the start first.
-    pub history: Vec<ConstrainedStep>,
+    pub history: Vec<Step>,
 }
 
 /// Why the iteration did not converge.
@@ -87,5 +51,5 @@ pub struct ConstrainedError {
     /// Variables of the last state.
     pub z: Vec<f64>,
     /// All states, the start first.
-    pub history: Vec<ConstrainedStep>,
+    pub history: Vec<Step>,
 }

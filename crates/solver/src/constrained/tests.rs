@@ -46,7 +46,7 @@ fn solve<F: Fn(usize, &[f64]) -> Value + Sync>(
     problem: &Textbook<F>,
     start: Vec<f64>,
 ) -> Result<Minimum, ConstrainedError> {
-    minimize_constrained(problem, start, Settings::default(), &mut |_| true)
+    minimize_constrained(problem, start, &mut |_| true)
 }
 
 /// `x^2 + y^2 - 1`.
@@ -65,9 +65,9 @@ fn closest_point_of_a_circle() {
         assert!((found.z[0] - 2.0 / length).abs() <= 1e-14 && (found.z[1] - 1.0 / length).abs() <= 1e-14);
         let multiplier = (length - 1.0) / (2.0 * compliance);
         assert!((found.multipliers[0] / multiplier - 1.0).abs() <= 1e-12, "{}", found.multipliers[0]);
-        let corrections: Vec<f64> = found.history.iter().map(|step| step.correction).collect();
-        let quadratic = corrections.windows(2).any(|pair| pair[0] < 1e-2 && pair[1] < pair[0].powf(1.7));
-        assert!(quadratic && found.history.len() <= 9, "{corrections:?}");
+        let forces: Vec<f64> = found.history.iter().map(|step| step.residual_force).collect();
+        let quadratic = forces.windows(2).any(|pair| pair[0] < 1e-2 && pair[1] < pair[0].powf(1.7));
+        assert!(quadratic && found.history.len() <= 9, "{forces:?}");
     }
 }
 
@@ -135,7 +135,7 @@ fn failures_have_their_reasons() {
     let nothing = of_lists(&[vec![0]], vec![2.0], vec![1.0], undefined);
     assert_eq!(failure(&nothing, vec![0.7]), ConstrainedFailure::NotFinite);
     let one = of_lists(&[vec![0, 1]], vec![2.0, 1.0], vec![1.0; 2], circle);
-    let stopped = minimize_constrained(&one, vec![0.6, 0.9], Settings::default(), &mut |_| false).unwrap_err();
+    let stopped = minimize_constrained(&one, vec![0.6, 0.9], &mut |_| false).unwrap_err();
     assert!(stopped.failure == ConstrainedFailure::Interrupted && stopped.history.len() == 1);
 }
 

@@ -13,10 +13,8 @@ use crate::model::intrinsic::{FoldedUp, IntrinsicModel, Unsupported};
 use crate::model::{Element, Model};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
-use crate::solver::constrained::{
-    ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Settings, minimize_constrained_iterates,
-};
-use crate::solver::{Failure, Iterate, NewtonError, Problem, Start, Step, minimize_iterates};
+use crate::solver::constrained::{ConstrainedFailure, ConstrainedIterate, minimize_constrained};
+use crate::solver::{Failure, Iterate, NewtonError, Problem, Start, minimize_iterates};
 
 /// Fewest interior vertices of a patch that [`Method::Auto`] relaxes in fold angles: smaller ones take next to no time
 /// either way.
@@ -126,12 +124,12 @@ fn form(run: &Run<'_>, start: &Start) -> Result<Option<IntrinsicModel>, Unsuppor
 /// Solves in fold angles, and moves the model to the state found. Returns it as a start.
 fn solve(intrinsic: &IntrinsicModel, run: &mut Run<'_>, start: &Start) -> Result<Start, IntrinsicFailure> {
     let (shown, recorder) = (&run.model, &mut run.recorder);
-    let mut seen = |at: &ConstrainedIterate<'_>| recorder.see(&step_of(at.step), || state_of(intrinsic, shown, at));
+    let mut seen = |at: &ConstrainedIterate<'_>| recorder.see(at.step, || state_of(intrinsic, shown, at));
     let z = intrinsic.variables(shown, &start.x);
     // what confirms the result in positions needs the analysis of their couplings
     let analyse = || _ = shown.layout().tearing();
     let large = shown.compliance().len() >= parallel::FEWEST_SHARED_ELEMENTS;
-    let minimize = || minimize_constrained_iterates(intrinsic, z, Settings::default(), &mut seen);
+    let minimize = || minimize_constrained(intrinsic, z, &mut seen);
     let found = parallel::meanwhile(large, analyse, minimize).map_err(|error| error.failure)?;
     let angle = max_abs(&intrinsic.fold_angles(&found.z));
     if !(angle <= LARGEST_ANGLE_RAD) {
@@ -151,17 +149,4 @@ fn state_of(intrinsic: &IntrinsicModel, model: &Model, at: &ConstrainedIterate<'
         compliance => (value(element) - element.spring.rest) / compliance,
     };
     State { coordinates, ..State::of_measures(model, value, tension) }
-}
-
-fn step_of(step: &ConstrainedStep) -> Step {
-    Step {
-        energy: step.value,
-        residual_force: step.imbalance,
-        residual_length: step.violation,
-        fraction: step.fraction,
-        shift: 0.0,
-        factorizations: step.factorizations,
-        solves: step.solves,
-        intrinsic: true,
-    }
 }
