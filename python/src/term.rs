@@ -74,6 +74,13 @@ impl CalledTerm {
         let elements = self.elements.iter().map(|vertices| (sites(vertices), Spring { stiffness: 1.0, rest: 0.0 }));
         let coordinates = &assembly.drawn().coordinates;
         let all: Vec<Vec3> = coordinates.chunks_exact(3).map(Vec3::from_column_slice).collect();
+        let drawn = |vertices: &Vec<usize>| array::from_fn::<_, N, _>(|k| all[vertices[k]]);
+        if let Some(element) = self.elements.iter().find(|each| Measure::<N, D>::value(&measure, &drawn(each)).is_nan())
+        {
+            self.raise()?;
+            let message = format!("the energy of `{}` at the vertices {element:?} is not a number as drawn", self.name);
+            return Err(refused(py, message, "a term has a finite energy, gradient and Hessian in the drawn state"));
+        }
         let checked = measure.checked::<N, D>(&all, &self.elements[0]);
         self.raise()?;
         checked.map_err(|(what, error)| {

@@ -53,7 +53,7 @@ pub enum AssemblyError {
     #[error("the sheet has weight and no mass")]
     WeightWithoutMass,
     #[error(
-        "faces are under pressure and do not close: the side between vertices {} and {} belongs to one of them only",
+        "faces are under pressure and enclose no volume: at the side between vertices {} and {} they do not close",
         vertices[0],
         vertices[1]
     )]

@@ -92,8 +92,8 @@ impl OwnTerm {
     /// ```
     ///
     /// # Errors
-    /// [`AssemblyError::Open`] if a side of these faces belongs to one of them only, and its ends are not both pinned:
-    /// no volume is enclosed. [`AssemblyError::NoPatch`] for other boundary conditions.
+    /// [`AssemblyError::Open`] if these faces enclose no volume: at a side that is not pinned more of them have it in one
+    /// direction than in the other. [`AssemblyError::NoPatch`] for other boundary conditions.
     pub fn pressure(assembly: &Assembly, value: f64, on: impl Fn(usize) -> bool) -> Result<Self, AssemblyError> {
         let tiling = assembly.tiling();
         if *assembly.domain() != Domain::Patch {

@@ -39,6 +39,14 @@ pub enum BlochError {
     #[error("lines of zero modes could not be followed: {}", contradiction(*edges))]
     ZeroLines { edges: usize },
     #[error(
+        "the determinant touches zero along a line, at q = ({:.4}, {:.4}), without a change of sign: such lines are not \
+         followed", q[0], q[1]
+    )]
+    Touched {
+        /// A point of the line, wavenumbers in radians.
+        q: [f64; 2],
+    },
+    #[error(
         "at q1 = {q1} the zero modes of the strip do not stand out: the singular values next to them are only {gap:.1e} \
          times as large; modes of opposite sides meet, which more cells part"
     )]

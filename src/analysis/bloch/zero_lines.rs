@@ -14,7 +14,7 @@ mod arc;
 mod line;
 mod region;
 
-use super::extrema::{Hidden, hidden};
+use super::extrema::{Hidden, hidden, touched};
 use super::laurent::wavenumber;
 use super::singular::Search;
 use super::zone::{Zone, reduced};
@@ -65,8 +65,12 @@ impl ZeroLines {
     /// Follows all lines.
     ///
     /// # Errors
-    /// [`BlochError::ZeroLines`] where the lines contradict the signs of the determinant.
+    /// [`BlochError::ZeroLines`] where the lines contradict the signs of the determinant, and [`BlochError::Touched`] where
+    /// there is one without a change of sign.
     pub fn new(zone: &Zone) -> Result<Self, BlochError> {
+        if let Some(q) = touched(zone, GRID) {
+            return Err(BlochError::Touched { q });
+        }
         let mut longest = 0.6 * TAU / GRID as f64;
         let mut last = Err(BlochError::ZeroLines { edges: 0 });
         for _ in 0..ATTEMPTS {

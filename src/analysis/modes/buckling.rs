@@ -33,6 +33,8 @@ const DEPENDENT: f64 = 1e-12;
 const FAR: f64 = 1e3;
 /// Part of the largest `1 / l` that may be rounding error.
 const NOISE: f64 = 1e-10;
+/// Part of the work of the loads on motions up to which that of a self stress is rounding error.
+const INDIFFERENT: f64 = 1e-6;
 /// Relative difference of factors up to which they are one factor of several motions.
 const SAME_FACTOR: f64 = 1e-6;
 
@@ -51,6 +53,7 @@ pub struct Buckling {
 /// # Errors
 /// [`ModesError::Loads`] where there are no loads, or they can turn the sheet; [`ModesError::NotStable`] where the state is
 /// no equilibrium, or not a stable one; [`ModesError::FactorsUncertain`] where the count of negative eigenvalues disagrees;
+/// [`ModesError::SelfStressed`] where they depend on a self stress;
 /// others where a factorization fails or `observe` returned false.
 pub fn buckling(
     assembly: &Assembly,
@@ -68,9 +71,15 @@ pub fn buckling(
     go_on(observe)?;
     let mut tangent = Tangent::at_state(&driven, &x, &tension, HessianKind::Full)?;
     check_stable(&driven, &mut tangent, &tension)?;
-    let growth = driven.geometric_rate(&mut tangent, &x, &tension).hessian;
+    let (growth, of_stress) = driven.geometric_rate(&mut tangent, &x, &tension);
+    let growth = growth.hessian;
     let (values, vectors) = critical(&mut tangent, &growth, wanted, observe)?;
     let count = first(&values, wanted);
+    if let Some(of_stress) = of_stress
+        && !is_indifferent(&tangent.at, [&growth, &of_stress.hessian], &vectors.columns(0, count).into())
+    {
+        return Err(ModesError::SelfStressed);
+    }
     if let Some(beyond) = beyond(&values, count, wanted) {
         agrees(&mut tangent, &growth, (count, beyond))?;
     }
@@ -157,6 +166,12 @@ fn critical(
         known = values;
     }
     Err(FactorError::Eigenpairs { wanted, found: 0 }.into())
+}
+
+/// Whether the geometric stiffness of a self stress, beside that of the loads, changes nothing for these motions.
+fn is_indifferent(at: &Linearization, [of_loads, of_stress]: [&[f64]; 2], motions: &DenseMatrix) -> bool {
+    let largest = |geometric: &[f64]| motions.tr_mul(&grown(at, geometric, motions)).amax();
+    largest(of_stress) <= INDIFFERENT * largest(of_loads)
 }
 
 /// The products of the geometric stiffness with vectors.

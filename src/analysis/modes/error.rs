@@ -53,6 +53,10 @@ pub enum ModesError {
     NotStable { unbalanced: f64, softest: f64, negative: Option<usize> },
     #[error("critical factors found: {count}; negative eigenvalues beyond them: {}", said(*negative))]
     FactorsUncertain { count: usize, negative: Option<usize> },
+    #[error(
+        "rigid bars are redundant, and the critical factors depend on which self stress they have: give bars a stiffness"
+    )]
+    SelfStressed,
     #[error("the rank of the rigidity matrix is {by_values} by singular values and {by_inertia} by counting signs")]
     RankDisagrees { by_values: usize, by_inertia: usize },
     #[error("{bars} motions or stresses of the bars, but {closure} by the closure of the vertices")]

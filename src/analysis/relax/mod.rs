@@ -189,6 +189,7 @@ fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
 fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
     let Run { mut model, start, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
     let branch_choice = BranchChoice::of(&model, &found.x, &start.angles, !soft_steps.is_empty());
+    let found = with_least_tensions(&model, found);
     let found = straight_screw::counted(&mut model, found);
     let settled = tension::settle(&model, &found);
     let state = State::new(&model, &found.x, &settled.tension);
@@ -211,6 +212,17 @@ fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
         kept,
     };
     (relaxed, model, found.x)
+}
+
+/// The equilibrium with tensions of least norm where self stresses leave a choice, and its negative eigenvalues with
+/// them.
+fn with_least_tensions(model: &Model, found: Equilibrium) -> Equilibrium {
+    let settled = tension::settle(model, &found);
+    if settled.self_stresses.unwrap_or(0) == 0 {
+        return found;
+    }
+    let negative_eigenvalues = tension::negative_eigenvalues(model, &found.x, &settled.tension);
+    Equilibrium { tension: settled.tension, negative_eigenvalues, ..found }
 }
 
 /// The failure of a relaxation with its last state.

@@ -7,12 +7,16 @@
 //! hundred and ten times by turns. From there it relaxes with its own bars and rest angles. Where that ends in no well
 //! the start is made anew, a few times. Its random numbers depend on the seed and its own number alone.
 //!
+//! One more start is no random one: the drawn patch turned inside out, which a stiff dome snaps to and crumpled sheets miss.
+//! It counts where it leads to a well.
+//!
 //! Random angles are those around another state if one is given. The first start then is that state itself, so that it
 //! is among the wells if it is one, and a screw keeps the axis that it has there.
 
 use super::placement::holds_shape;
 use super::settle::{MinimumTracker, Settled};
 use crate::analysis::state::State;
+use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
@@ -30,6 +34,8 @@ const SOFT_ON_PINS: [f64; 3] = [1e3, 1e2, 1e1];
 const MOVED: f64 = 0.05;
 /// When a crumpled state is good enough to be released.
 const CRUMPLED: Options = Options { tolerance: 1e-4, iterations: 60 };
+/// Least length of the sum of the normals of all faces, over their area, with which a sheet has a mean normal.
+const LEAST_MEAN_NORMAL: f64 = 1e-3;
 /// How often a start that ends in no well is crumpled anew.
 const TRIES: usize = 4;
 
@@ -75,7 +81,7 @@ pub fn relax_around(
 ) -> Vec<Outcome> {
     let centre = state.map(|state| Centre::new(assembly, state));
     let settler = MinimumTracker::new(assembly, 1.0);
-    parallel::map_with_state(
+    let mut outcomes = parallel::map_with_state(
         starts.count,
         || true,
         |going, number| {
@@ -86,7 +92,39 @@ pub fn relax_around(
             *going = go_on();
             found
         },
-    )
+    );
+    let is_complete = !outcomes.iter().any(|outcome| matches!(outcome, Outcome::Interrupted));
+    if let Some(place) = inside_out(assembly).filter(|_| is_complete) {
+        let angles: Vec<f64> = assembly.drawn_angles().iter().map(|angle| -angle).collect();
+        let found = released(&settler, &settler.at(place, &angles).without_tension(), starts.options);
+        outcomes.extend(Some(found).filter(|found| matches!(found, Outcome::Well(_))));
+    }
+    outcomes
+}
+
+/// The coordinates of a drawn patch turned inside out: mirrored at the plane across its mean normal through its pins, or
+/// through its centre, but for what is pinned. `None` for other domains, and for sheets without a mean normal.
+fn inside_out(assembly: &Assembly) -> Option<Vec<f64>> {
+    if *assembly.domain() != Domain::Patch {
+        return None;
+    }
+    let (drawn, pins) = (&assembly.drawn().coordinates, &assembly.terms().pins);
+    let point = |vertex: usize| Vec3::from_column_slice(&drawn[3 * vertex..3 * vertex + 3]);
+    let across = assembly.tiling().triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.corners.map(|site| point(site.vertex));
+        (b - a).cross(&(c - a))
+    });
+    let (sum, size) = across.fold((Vec3::zeros(), 0.0), |(sum, size), normal| (sum + normal, size + normal.norm()));
+    let normal = (sum.norm() > LEAST_MEAN_NORMAL * size).then(|| sum.normalize())?;
+    let held: Vec<usize> = pins.iter().map(|(vertex, _)| *vertex).collect();
+    let on_plane = if held.is_empty() { (0..drawn.len() / 3).collect() } else { held };
+    let centre = on_plane.iter().map(|&vertex| point(vertex)).sum::<Vec3>() / on_plane.len() as f64;
+    let mirrored = (0..drawn.len() / 3).map(point).map(|p| p - 2.0 * normal.dot(&(p - centre)) * normal);
+    let mut mirrored: Vec<f64> = mirrored.flat_map(<[f64; 3]>::from).collect();
+    for (vertex, axes) in pins {
+        (0..3).filter(|&axis| axes[axis]).for_each(|axis| mirrored[3 * vertex + axis] = drawn[3 * vertex + axis]);
+    }
+    Some(mirrored)
 }
 
 /// Why starts failed, and how many for each reason, the most frequent first.
@@ -108,6 +146,7 @@ fn reason_of(failure: &Failure) -> &'static str {
     match failure {
         Failure::Infeasible { .. } => "the rigid measures cannot be met",
         Failure::SingularStart => "singular start",
+        Failure::NotFinite => "the energy is not a finite number",
         Failure::Collapsed(_) => "a triangle collapsed",
         Failure::Unbounded { .. } => "the forces cannot balance with rigid bars",
         Failure::Stuck { .. } => "no step lowers the energy",

@@ -313,7 +313,7 @@ const MISFITS: &[Misfit] = &[
     // what yields
     misfit("[sheet]\nmesh = \"finite.fold\"\n[energy]\ncreases = { stiffness = inf, yield = { moment = 1.0 } }", "4:38", "what is rigid does not yield", "give the term a finite stiffness"),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[energy]\nbars = { stiffness = 1.0, yield = { force = 1.0 }, law = { kind = \"green-lagrange\" } }", "4:35", "the term has a law and yields at once", "leave out `law`: what yields is linear up to there"),
-    misfit("[sheet]\nmesh = \"finite.fold\"\n[[pressure]]\nvalue = 1.0", "3:1", "faces are under pressure and do not close: the side between vertices 1 and 2 belongs to one of them only", "a pressure has a potential where its faces enclose a volume: name faces that close, or pin their rim"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[pressure]]\nvalue = 1.0", "3:1", "faces are under pressure and enclose no volume: at the side between vertices 1 and 2 they do not close", "a pressure has a potential where its faces enclose a volume: name faces that close, or pin their rim"),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[pressure]]\nvalue = 1.0\nfaces = [0, 9]", "5:9", "there is no face 9", "the faces of the mesh are 0 to 3"),
     misfit("[sheet]\nmesh = \"star.fold\"\ndomain = \"torus\"\n[[pressure]]\nvalue = 1.0", "4:1", "only faces of a patch have a pressure", "give domain = \"patch\""),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[load]]\nvertex = 0\nforce = [0.0, 0.5, 0.0]", "5:9", "the loads push the whole sheet along y with a force of 0.5", "balance the loads, or pin a vertex along that axis"),

@@ -71,9 +71,12 @@ impl<'a, P: Problem> Newton<'a, P> {
         mut self,
         negative_eigenvalues: Result<Option<usize>, Failure>,
     ) -> Result<Equilibrium, NewtonError> {
-        match negative_eigenvalues {
+        let energy = self.history.last().map_or(f64::NAN, |step| step.energy);
+        match negative_eigenvalues
+            .and_then(|count| if energy.is_finite() { Ok(count) } else { Err(Failure::NotFinite) })
+        {
             Ok(negative_eigenvalues) => Ok(Equilibrium {
-                energy: self.history.last().map_or(f64::NAN, |step| step.energy),
+                energy,
                 independent: self.rigid_measures_independent(),
                 x: self.x,
                 tension: self.tension,

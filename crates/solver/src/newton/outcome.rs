@@ -93,6 +93,8 @@ pub enum Failure {
          for bars ten times as stiff the largest force in them grows by a factor of {growth:.2}, without bound"
     )]
     Unbounded { growth: f64 },
+    #[error("the energy of the state is not a finite number")]
+    NotFinite,
     #[error(transparent)]
     Collapsed(#[from] Collapse),
     #[error(transparent)]

@@ -3,6 +3,7 @@
 use super::bordered::{Bordered, Plane, REFUSED_RESIDUAL};
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::problem::Residuals;
+use crate::tension::without_self_stress;
 use foldwell_numerics::factor::FactorError;
 use foldwell_numerics::vector::{add_scaled, larger, max_abs, norm_blocked};
 
@@ -64,7 +65,7 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let rounding = larger(MOST_ROUNDING, bordered.rounding_force(max_abs(&at.x)));
         let rounded = residuals.length <= tolerance && size <= rounding;
         if size <= tolerance || (polished == MOST_POLISHED && rounded) {
-            let broken_down = problem.breakdown(&at.x).is_some();
+            let broken_down = problem.breakdown(&at.x).is_some() || !problem.energy(&at.x).is_finite();
             return Ok((!broken_down).then_some(Corrected { at, residuals, off, iterations }));
         }
         if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
@@ -120,7 +121,10 @@ fn relieved<P: ParametrizedProblem>(
     bordered: &mut Bordered,
     found: Corrected,
 ) -> Result<Corrected, FactorError> {
-    let Some(tension) = bordered.relieved(&found.at.tension) else { return Ok(found) };
+    if bordered.is_relieved(&found.at.tension) {
+        return Ok(found);
+    }
+    let Some(tension) = without_self_stress(problem, &bordered.at, &found.at.tension) else { return Ok(found) };
     bordered.linearize(problem, &found.at.x, &tension);
     let residuals = Residuals::new(problem, &bordered.at, &tension);
     if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {

@@ -5,18 +5,20 @@ use super::corrector::{Guess, complete, correct};
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
-use foldwell_numerics::vector::{add_scaled, dot, norm_blocked};
+use foldwell_numerics::vector::{add_scaled, dot};
 
 /// Length of the first step relative to the longest one, and the shortest one relative to it.
 const FIRST_STEP: f64 = 0.1;
 const SHORTEST_STEP: f64 = 1e-9;
 /// Error of a prediction relative to the step that is aimed at.
 const WANTED_ERROR: f64 = 0.02;
-/// Cosine of the largest angle between the tangents at both ends of a step.
+/// Cosine of the largest angle between the tangents at both ends of a step, and between them and its chord.
 const LEAST_TANGENT_COSINE: f64 = 0.8;
 /// Length of a step relative to the longest one below which a path whose stiffness jumps is taken to have a kink: there
 /// no step, however short, looks smooth.
 const KINK_STEP: f64 = 1e-3;
+/// Way to a state beyond a kink, in lengths of the step, up to which it is near.
+const FARTHEST_BEYOND_KINK: f64 = 10.0;
 /// Largest change of the measure of a soft element in a step: a fold angle in radians.
 const LARGEST_MEASURE_CHANGE: f64 = 0.5;
 /// Bounds of the ratio of one step to the one before.
@@ -87,14 +89,21 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
             let at_kink = self.problem.has_kinks() && length < KINK_STEP * self.settings.max_step;
-            let plane = self.plane(&last.tangent, at_kink);
-            if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
+            let mut found = if at_kink { self.beyond_kink(last, guess.clone(), length)? } else { None };
+            if found.is_none() {
+                let plane = self.plane(&last.tangent, at_kink);
+                found = self.settle(guess, &plane, 0.0)?;
+            }
+            if let Some((mut state, off)) = found {
                 let chord = Cubic::new(last, &state).chord();
-                let way = norm_blocked(&chord.x).hypot(chord.parameter / self.bordered.unit()) / unit_of_length;
-                let turn = self.cosine(&last.tangent, &state.tangent);
+                let way = self.size(&chord);
+                // a state of another curve near by lies beside the tangents, however alike they are
+                let (first, second) = (&last.tangent, &state.tangent);
+                let turns = [self.cosine(first, second), self.cosine(first, &chord), self.cosine(&chord, second)];
                 let folds = self.bordered.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);
-                let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
+                let goes_on = turns.iter().all(|cosine| *cosine >= LEAST_TANGENT_COSINE);
+                let is_smooth = goes_on && error <= 10.0 * WANTED_ERROR;
                 if folds <= LARGEST_MEASURE_CHANGE && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
@@ -105,6 +114,22 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
             length *= SHRINK;
         }
         Ok(None)
+    }
+
+    /// The state beyond a kink of a path whose state is as stable there as before: then the parameter goes on, whichever way
+    /// the unknowns turn. `None` where no such state is near.
+    fn beyond_kink(
+        &mut self,
+        last: &PathState,
+        guess: Guess,
+        length: f64,
+    ) -> Result<Option<(PathState, f64)>, PathError> {
+        let plane = Plane::of_parameter(last.x.len(), last.tangent.parameter.signum());
+        let found = self.settle(guess, &plane, 0.0)?;
+        Ok(found.filter(|(state, _)| {
+            let way = self.size(&Cubic::new(last, state).chord());
+            state.negative_eigenvalues == last.negative_eigenvalues && way <= FARTHEST_BEYOND_KINK * length
+        }))
     }
 
     /// The plane across a direction; at a kink, where the parameter may turn back at once while the unknowns go on, across

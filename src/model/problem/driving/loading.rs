@@ -3,6 +3,7 @@
 use super::DrivenModel;
 use super::effect::Effect;
 use crate::solver::path::ParametrizedProblem;
+use crate::solver::tension::self_stress;
 use crate::solver::{Linearization, Tangent};
 
 /// Relative residual of the system of the rates.
@@ -10,8 +11,14 @@ const EXACT: f64 = 1e-14;
 
 impl DrivenModel {
     /// Returns the rate by the parameter, in the state of a factored tangent, of the Hessian that the rates of the forces in
-    /// elements make, while the state itself does not move: the geometric stiffness of linear buckling.
-    pub(crate) fn geometric_rate(&self, tangent: &mut Tangent, x: &[f64], tension: &[f64]) -> Linearization {
+    /// elements make, while the state itself does not move: the geometric stiffness of linear buckling. Also that
+    /// of a self stress of the rigid measures, as large as those rates, if they have one.
+    pub(crate) fn geometric_rate(
+        &self,
+        tangent: &mut Tangent,
+        x: &[f64],
+        tension: &[f64],
+    ) -> (Linearization, Option<Linearization>) {
         let [force, gap] =
             self.parameter_rates(&tangent.at, x, tension).map(|rates| rates.iter().map(|r| -r).collect());
         let (force, gap): (Vec<f64>, Vec<f64>) = (force, gap);
@@ -23,6 +30,9 @@ impl DrivenModel {
         if let Effect::Loads { pressures, .. } = &self.effect {
             pressures.iter().for_each(|(face, unit)| forces[*face] -= unit);
         }
-        self.model.geometric_stiffness(x, &forces, &rates.dt)
+        let none = vec![0.0; forces.len()];
+        let stress = self_stress(&self.model, &tangent.at, &rates.dt);
+        let of_stress = stress.map(|stress| self.model.geometric_stiffness(x, &none, &stress));
+        (self.model.geometric_stiffness(x, &forces, &rates.dt), of_stress)
     }
 }
