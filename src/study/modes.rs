@@ -14,7 +14,6 @@ use crate::analysis::modes::{
 };
 use crate::model::Gauge;
 use crate::output::figure::rounded;
-use crate::output::picture::Picture;
 use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
 pub use summary::ModesSummary;
@@ -107,16 +106,11 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordina
         table.push(vec![Value::Whole(k as i64), Value::Number(*value)]);
     }
     answer.add(format!("{}.csv", context.name()), table);
-    let at_rest = states::picture_at(context, coordinates.to_vec());
-    let moving = |rates: &Vec<f64>| {
-        let displacement = context.view.velocities(context.assembly.drawn(), coordinates, rates);
-        Picture { displacement, ..at_rest.clone() }
-    };
     if !modes.vectors.is_empty() && !context.study.draw.is_empty() {
-        let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
+        let pictures = states::moving(context, coordinates, &modes.vectors);
         let softest = modes.rigid_motions.min(pictures.len() - 1);
         let shown = pictures[softest].displaced(0.1);
-        states::add_series(answer, context, pictures);
+        states::add_motions(answer, context, [""; 2], pictures);
         if modes.vibrations.is_none() {
             let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
             let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
@@ -124,6 +118,6 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordina
         }
     }
     if let Some(found) = &modes.vibrations {
-        vibrations::add(answer, context, (found, modes.rigid_motions), moving);
+        vibrations::add(answer, context, (found, modes.rigid_motions), coordinates);
     }
 }

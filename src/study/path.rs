@@ -247,8 +247,8 @@ fn add_pictures(
     if context.draws(Draw::Vtk) {
         let chosen = pictured(branches);
         let rows = points.enumerate().filter(|(row, _)| chosen.contains(row));
-        let pictures: Vec<_> = rows.map(|(row, (number, step, point))| (row, picture(number, step, point))).collect();
-        states::add_series_at(answer, context, pictures);
+        let pictures = rows.map(|(row, (number, step, point))| (row, row, picture(number, step, point)));
+        states::add_series(answer, context, [""; 2], pictures);
     }
     let Some(branch) = branches.first() else { return };
     if let Some(last) = branch.points.last() {

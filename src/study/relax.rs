@@ -143,10 +143,10 @@ fn add_states(answer: &mut Answer, context: &Context<'_>, states: &[Reached<'_>]
         (iteration, Shown { state, residuals, marks })
     };
     let all: Vec<(usize, Shown)> = states.iter().map(&mut all).collect();
-    let table = states::table_of_steps(context, all.iter().map(|(iteration, state)| (*iteration, state)));
+    let table = states::table(context, all.iter().map(|(iteration, state)| (*iteration, state)));
     answer.add(format!("{}.csv", context.name()), table);
     let timed = all.iter().enumerate().map(|(row, (iteration, state))| (row, *iteration, state));
-    states::add_timed(answer, context, timed, Some((all.len() - 1, shown)));
+    states::add(answer, context, timed, Some((all.len() - 1, shown)));
     all.last()?.1.marks.as_ref().map(|marks| marks.any)
 }
 

@@ -160,7 +160,7 @@ fn add_pictures(answer: &mut Answer, context: &Context<'_>, response: &Response,
         );
         states::add_figure(answer, context, &last.displaced(SHOWN), &state);
     }
-    states::add_series(answer, context, pictures);
+    states::add_motions(answer, context, [""; 2], pictures);
     if context.draws(Draw::Svg) && response.poisson.is_some() {
         let [in_plane, bending] = [0, 1].map(|which| move |angle: f64| ratios_at(response, angle)[which].ok());
         let plots: [(&str, ratios::RatioOf<'_>); 2] =

@@ -27,13 +27,8 @@ pub(crate) fn with_all_angles(context: &Context<'_>, state: &State) -> State {
     state.clone().with_angles(context.assembly.fold_angles_at(&state.coordinates))
 }
 
-/// Returns the table of states, with one row for each; its step is the number of the row.
-pub(crate) fn table(context: &Context<'_>, states: &[Shown]) -> Table {
-    table_of_steps(context, states.iter().enumerate())
-}
-
 /// Returns the table of states that are reached in these steps, with one row for each.
-pub(crate) fn table_of_steps<'s>(context: &Context<'_>, states: impl IntoIterator<Item = (usize, &'s Shown)>) -> Table {
+pub(crate) fn table<'s>(context: &Context<'_>, states: impl IntoIterator<Item = (usize, &'s Shown)>) -> Table {
     let rows: Vec<StateRow> = states.into_iter().map(|(step, shown)| row(context, step, shown)).collect();
     table_of_rows(context, &rows)
 }
@@ -93,25 +88,16 @@ pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Pictur
     picture(context, &Shown { state, residuals: None, marks })
 }
 
-/// Adds the VTK series of states, which are those of the rows of the table, and the SVG picture of one of them with its
-/// description, as the study asks.
-pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: Option<(usize, &str)>) {
-    add_rows(answer, context, states.iter().enumerate(), shown);
+/// Returns the pictures of the state with these coordinates that moves at each of these rates of its coordinates.
+pub(crate) fn moving(context: &Context<'_>, coordinates: &[f64], rates: &[Vec<f64>]) -> Vec<Picture> {
+    let at_rest = picture_at(context, coordinates.to_vec());
+    let velocities = |rates: &Vec<f64>| context.view.velocities(context.assembly.drawn(), coordinates, rates);
+    rates.iter().map(|rates| Picture { displacement: velocities(rates), ..at_rest.clone() }).collect()
 }
 
-/// Adds the VTK series of states, each with the number of its row in the table, and the SVG picture of one of them,
-/// given by its place among these states, with its description, as the study asks.
-pub(crate) fn add_rows<'s>(
-    answer: &mut Answer,
-    context: &Context<'_>,
-    states: impl IntoIterator<Item = (usize, &'s Shown)>,
-    shown: Option<(usize, &str)>,
-) {
-    add_timed(answer, context, states.into_iter().map(|(row, state)| (row, row, state)), shown);
-}
-
-/// Adds the same of states with the numbers of their rows and their times in the series.
-pub(crate) fn add_timed<'s>(
+/// Adds the VTK series of states, each with the number of its row in the table and its time in the series, and the SVG
+/// picture of one of them, given by its place among these states, with its description, as the study asks.
+pub(crate) fn add<'s>(
     answer: &mut Answer,
     context: &Context<'_>,
     states: impl IntoIterator<Item = (usize, usize, &'s Shown)>,
@@ -120,44 +106,38 @@ pub(crate) fn add_timed<'s>(
     let pictures: Vec<(usize, usize, Picture)> =
         states.into_iter().map(|(row, time, shown)| (row, time, picture(context, shown))).collect();
     let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.2.clone(), state)));
-    add_timed_series(answer, context, pictures);
+    add_series(answer, context, [""; 2], pictures);
     if let Some((picture, state)) = drawn {
         add_figure(answer, context, &picture, state);
     }
 }
 
-/// Adds pictures as a VTK series if the study asks for it; the time of a picture is its number.
-pub(crate) fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Picture>) {
-    add_series_at(answer, context, pictures.into_iter().enumerate());
+/// Adds pictures of motions as a VTK series, as [`add_series`] does; the time of a picture is its number.
+pub(crate) fn add_motions(answer: &mut Answer, context: &Context<'_>, endings: [&str; 2], pictures: Vec<Picture>) {
+    add_series(answer, context, endings, pictures.into_iter().enumerate().map(|(k, picture)| (k, k, picture)));
 }
 
-/// Adds pictures as a VTK series if the study asks for it, each with the number that is its time and names its file.
-pub(crate) fn add_series_at(
+/// Adds pictures as a VTK series if the study asks for it, each with the number that names its file and its time. The
+/// names of files and collection are that of the study with these endings; the series without has a script for ParaView.
+pub(crate) fn add_series(
     answer: &mut Answer,
     context: &Context<'_>,
-    pictures: impl IntoIterator<Item = (usize, Picture)>,
-) {
-    add_timed_series(answer, context, pictures.into_iter().map(|(row, picture)| (row, row, picture)));
-}
-
-/// Adds pictures as a VTK series if the study asks for it, each with the number that names its file and its time.
-fn add_timed_series(
-    answer: &mut Answer,
-    context: &Context<'_>,
+    [of_file, of_series]: [&str; 2],
     pictures: impl IntoIterator<Item = (usize, usize, Picture)>,
 ) {
     if !context.draws(Draw::Vtk) {
         return;
     }
-    let name = context.name();
-    let mut entries = Vec::new();
-    for (row, time, picture) in pictures {
-        let file = format!("{name}/{name}_{row:04}.vtu");
+    let (name, mut entries) = (context.name(), Vec::new());
+    for (number, time, picture) in pictures {
+        let file = format!("{name}/{name}{of_file}_{number:04}.vtu");
         answer.add(&file, picture);
         entries.push((time as f64, file));
     }
-    answer.add(format!("{name}.pvd"), Artifact::Series(entries));
-    answer.add(format!("{name}-paraview.py"), Artifact::Script(paraview::script(name)));
+    answer.add(format!("{name}{of_series}.pvd"), Artifact::Series(entries));
+    if of_series.is_empty() {
+        answer.add(format!("{name}-paraview.py"), Artifact::Script(paraview::script(name)));
+    }
 }
 
 /// Adds one picture as SVG, with the description `state`, if the study asks for it.

@@ -190,7 +190,8 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
         let closed = closed_tubes(assembly, &mut model, paths);
         answer.add(format!("{}-closed-tubes.csv", context.name()), states::table_of_rows(context, &closed));
     }
-    states::add_rows(answer, context, pictures.iter().map(|(row, shown)| (*row, shown)), Some((shown.0, &shown.1)));
+    let timed = pictures.iter().map(|(row, shown)| (*row, *row, shown));
+    states::add(answer, context, timed, Some((shown.0, &shown.1)));
     add_paths(answer, context, paths, &rows);
     answer.state = saved_state(assembly, &model, paths);
 }

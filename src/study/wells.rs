@@ -312,9 +312,9 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     for pass in passes.iter().map(|barrier| &barrier.pass) {
         all.push(shown(&pass.state, [pass.residual_force, pass.residual_length]));
     }
-    answer.add(format!("{name}.csv"), states::table(context, &all));
+    answer.add(format!("{name}.csv"), states::table(context, all.iter().enumerate()));
     answer.add(format!("{name}-barriers.csv"), heights(&passes));
-    states::add(answer, context, &all, None);
+    states::add(answer, context, all.iter().enumerate().map(|(k, shown)| (k, k, shown)), None);
     if !context.draws(Draw::Svg) {
         return;
     }

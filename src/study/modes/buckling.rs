@@ -2,11 +2,9 @@
 
 use crate::analysis::modes::{ModesError, buckling};
 use crate::model::Configuration;
-use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
-use crate::output::picture::Picture;
 use crate::output::table::{Table, Value};
-use crate::scene::spec::{Draw, ModesSpec};
+use crate::scene::spec::ModesSpec;
 use crate::study::answer::Answer;
 use crate::study::context::Context;
 use crate::study::error::StudyError;
@@ -33,27 +31,17 @@ pub(super) fn factors(
     let Some(wanted) = &spec.buckling else { return Ok(None) };
     let loaded = (!start::is_drawn(spec.start.as_ref())).then_some(state);
     let found = buckling(context.assembly, loaded, wanted.0 as usize, &mut || context.step(0, None))?;
-    let (name, coordinates) = (context.name(), &state.coordinates);
+    let name = context.name();
     let mut table = Table::new(["mode", "factor"].map(str::to_owned).to_vec());
     (0..).zip(&found.factors).for_each(|(k, factor)| table.push(vec![Value::Whole(k), Value::Number(*factor)]));
     answer.add(format!("{name}-buckling.csv"), table);
-    let at_rest = states::picture_at(context, coordinates.clone());
-    let moving = |rates: &Vec<f64>| {
-        let displacement = context.view.velocities(context.assembly.drawn(), coordinates, rates);
-        Picture { displacement, ..at_rest.clone() }
-    };
-    if context.draws(Draw::Vtk) && !found.vectors.is_empty() {
-        let files = (0..found.vectors.len()).map(|k| (k as f64, format!("{name}/{name}_buckling_{k:04}.vtu")));
-        let entries: Vec<(f64, String)> = files.collect();
-        entries.iter().zip(&found.vectors).for_each(|((_, file), motion)| answer.add(file, moving(motion)));
-        answer.add(format!("{name}-buckling.pvd"), Artifact::Series(entries));
-    }
-    if let (Some(motion), Some(factor), false) =
-        (found.vectors.first(), found.factors.first(), context.study.draw.is_empty())
-    {
+    if let (Some(factor), false) = (found.factors.first(), found.vectors.is_empty() || context.study.draw.is_empty()) {
+        let pictures = states::moving(context, &state.coordinates, &found.vectors);
+        let shown = pictures[0].displaced(0.1);
+        states::add_motions(answer, context, ["_buckling", "-buckling"], pictures);
         let factor = rounded(*factor, 5);
         let words = format!("buckles at {factor} times the loads, drawn with an amplitude of a tenth of the sheet");
-        states::add_figure_as(&format!("{name}-buckling"), answer, context, (&moving(motion).displaced(0.1), &words));
+        states::add_figure_as(&format!("{name}-buckling"), answer, context, (&shown, &words));
     }
     Ok(Some(found.factors))
 }

@@ -1,22 +1,19 @@
 //! The slowest vibrations of a study of kind `modes`: their table, series and picture.
 
 use crate::analysis::modes::Vibrations;
-use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
-use crate::output::picture::Picture;
 use crate::output::table::{Table, Value};
-use crate::scene::spec::Draw;
 use crate::study::answer::Answer;
 use crate::study::context::Context;
 use crate::study::states;
 
 /// Adds a table of the frequencies and the state with each motion as displacement, and a picture of the slowest motion
-/// after the rigid ones; `moving` makes a picture of velocities.
+/// after the rigid ones.
 pub(super) fn add(
     answer: &mut Answer,
     context: &Context<'_>,
     (vibrations, rigid_motions): (&Vibrations, usize),
-    moving: impl Fn(&Vec<f64>) -> Picture,
+    coordinates: &[f64],
 ) {
     let (name, frequencies) = (context.name(), vibrations.frequencies());
     let mut table = Table::new(["mode", "frequency", "growth_rate"].map(str::to_owned).to_vec());
@@ -29,16 +26,9 @@ pub(super) fn add(
         return;
     }
     let slowest = rigid_motions.min(vibrations.vectors.len() - 1);
-    let shown = moving(&vibrations.vectors[slowest]).displaced(0.1);
-    if context.draws(Draw::Vtk) {
-        let mut entries = Vec::new();
-        for (k, motion) in vibrations.vectors.iter().enumerate() {
-            let file = format!("{name}/{name}_vibration_{k:04}.vtu");
-            answer.add(&file, moving(motion));
-            entries.push((k as f64, file));
-        }
-        answer.add(format!("{name}-vibrations.pvd"), Artifact::Series(entries));
-    }
+    let pictures = states::moving(context, coordinates, &vibrations.vectors);
+    let shown = pictures[slowest].displaced(0.1);
+    states::add_motions(answer, context, ["_vibration", "-vibrations"], pictures);
     let value = match frequencies[slowest] {
         Some(frequency) => format!("frequency {}", rounded(frequency, 5)),
         None => "which grows".to_owned(),
