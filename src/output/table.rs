@@ -86,9 +86,15 @@ pub struct Table {
 }
 
 impl Table {
-    /// Makes a table without rows.
-    pub(crate) fn new(header: Vec<String>) -> Self {
-        Self { header, rows: Vec::new() }
+    /// Makes a table without rows, with these names of columns, which commas separate.
+    pub(crate) fn new(header: &str) -> Self {
+        Self { header: header.split(',').map(str::to_owned).collect(), rows: Vec::new() }
+    }
+
+    /// Returns the table with further columns.
+    pub(crate) fn with(mut self, columns: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        self.header.extend(columns.into_iter().map(Into::into));
+        self
     }
 
     /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by `state`, the number of
@@ -99,24 +105,17 @@ impl Table {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let others = states.first().map(|state| state.solution.energy.others.as_slice()).unwrap_or_default();
         let solution = Solution::columns(others.iter().map(|(name, _)| name.as_str()));
-        let columns = StateRow::PLACE.into_iter().chain(CYLINDER).chain(solution.iter().map(String::as_str));
-        let columns = columns.chain(["self_intersecting"]);
         let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
         let seam = states.iter().any(|state| state.seam.is_some()).then_some(SEAM).into_iter().flatten();
-        let columns =
-            columns.chain(compared.then_some("error_to_kinematic")).chain(ratios).chain(seam).chain(["state"]);
-        let table = Self::with_edges(columns, "fold", edges.iter());
+        let table = Self::new("branch,sign,step,arc_length").with(CYLINDER).with(solution).with(["self_intersecting"]);
+        let table = table.with(compared.then_some("error_to_kinematic")).with(ratios).with(seam).with(["state"]);
+        let table = table.with_edges("fold", edges);
         Self { rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect(), ..table }
     }
 
-    /// Makes a table without rows with these columns, followed by one for each edge, whose name begins with this word.
-    pub(crate) fn with_edges<'a>(
-        columns: impl IntoIterator<Item = &'a str>,
-        word: &str,
-        edges: impl Iterator<Item = &'a EdgeKey>,
-    ) -> Self {
-        let of_edges = edges.map(|edge| Self::edge_column(word, edge));
-        Self::new(columns.into_iter().map(str::to_owned).chain(of_edges).collect())
+    /// Returns the table with a further column for each edge, whose name begins with this word.
+    pub(crate) fn with_edges<'a>(self, word: &str, edges: impl IntoIterator<Item = &'a EdgeKey>) -> Self {
+        self.with(edges.into_iter().map(|edge| Self::edge_column(word, edge)))
     }
 
     /// Returns the name of the column with the fold angle of an edge.
@@ -126,7 +125,7 @@ impl Table {
 
     /// Returns the name of a column with a quantity of an edge; that of a further hinge round it has the hinge's number
     /// behind.
-    pub(crate) fn edge_column(word: &str, edge: &EdgeKey) -> String {
+    fn edge_column(word: &str, edge: &EdgeKey) -> String {
         let round = if edge.has_bar() { String::new() } else { format!("_{}", edge.round) };
         format!("{word}_{}_{}_{}_{}{round}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
@@ -145,8 +144,8 @@ impl Table {
     }
 
     /// Appends a row.
-    pub(crate) fn push(&mut self, row: Vec<Value>) {
-        self.rows.push(row);
+    pub(crate) fn push(&mut self, row: impl IntoIterator<Item = Value>) {
+        self.rows.push(row.into_iter().collect());
     }
 
     /// Returns the text of the table.
@@ -188,15 +187,21 @@ impl From<f64> for Value {
     }
 }
 
-impl From<Option<f64>> for Value {
-    fn from(number: Option<f64>) -> Self {
-        number.map_or(Self::Empty, Self::Number)
+impl From<i64> for Value {
+    fn from(number: i64) -> Self {
+        Self::Whole(number)
     }
 }
 
-impl From<Option<i64>> for Value {
-    fn from(number: Option<i64>) -> Self {
-        number.map_or(Self::Empty, Self::Whole)
+impl From<usize> for Value {
+    fn from(number: usize) -> Self {
+        Self::Whole(number as i64)
+    }
+}
+
+impl<T: Into<Self>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Empty, Into::into)
     }
 }
 
@@ -280,9 +285,6 @@ pub(crate) const RATIOS: [&str; 2] = ["poisson_in_plane", "poisson_bending"];
 pub(crate) const SEAM: [&str; 2] = ["seam_turn", "seam_rise"];
 
 impl StateRow {
-    /// Names of the columns before those of the cylinder.
-    const PLACE: [&str; 4] = ["branch", "sign", "step", "arc_length"];
-
     fn values(&self, row: usize, compared: bool) -> Vec<Value> {
         let counts = [self.branch, self.sign, self.step].map(Value::from);
         let shape = [&[self.arc_length, self.curvature][..], &self.theta, &self.strain].concat();
@@ -304,8 +306,8 @@ mod tests {
     #[test]
     fn numbers_read_back_exactly() {
         let numbers = [0.1, -1.0 / 3.0, 5e-324, f64::MAX, 1e16 + 2.0, -0.0, f64::INFINITY, 123_456_789.125];
-        let mut table = Table::new(numbers.iter().map(|_| "x".to_owned()).collect());
-        table.push(numbers.iter().map(|&x| Value::Number(x)).collect());
+        let mut table = Table::new("x,x,x,x,x,x,x,x");
+        table.push(numbers.map(Value::from));
         let text = table.to_csv().unwrap();
         let back: Vec<f64> = text.lines().nth(1).unwrap().split(',').map(|field| field.parse().unwrap()).collect();
         assert_eq!(back.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), numbers.map(f64::to_bits));

@@ -207,14 +207,12 @@ fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
 
 /// Returns a row for every root at every wavenumber.
 fn table(decays: &[Decay]) -> Table {
-    let names = ["q1", "root", "kappa2", "q2", "condition", "on_circle", "multiplicity"];
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    let mut table = Table::new("q1,root,kappa2,q2,condition,on_circle,multiplicity");
     for decay in decays {
         for (k, root) in decay.roots.iter().enumerate() {
             let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
-            let first = [Value::Number(decay.q), Value::Whole(k as i64)];
-            let last = [root.on_circle().into(), root.multiplicity as i64].map(Value::Whole);
-            table.push(first.into_iter().chain(numbers).chain(last).collect());
+            let last = [i64::from(root.on_circle()).into(), root.multiplicity.into()];
+            table.push([decay.q.into(), k.into()].into_iter().chain(numbers).chain(last));
         }
     }
     table

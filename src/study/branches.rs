@@ -91,13 +91,12 @@ fn table(assembly: &Assembly, branches: &Branches) -> Table {
         let cell = if several { format!("_{}_{}", edge.cell[0], edge.cell[1]) } else { String::new() };
         format!("rate_{}_{}_{}_{}{cell}", key.i, key.j, key.shift[0], key.shift[1])
     });
-    let first = ["branch", "sign", "multiplicity", "curvature_sign", "error"].map(str::to_owned);
-    let mut table = Table::new(first.into_iter().chain(rate).collect());
+    let mut table = Table::new("branch,sign,multiplicity,curvature_sign,error").with(rate);
     for (ray, curvature) in branches.rays.rays.iter().zip(&branches.curvature_signs) {
-        let curvature = Value::from(curvature.map(i64::from));
-        let counts = [ray.branch as i64, i64::from(ray.sign), ray.multiplicity as i64].map(Value::Whole);
+        let counts = [ray.branch.into(), i64::from(ray.sign).into(), ray.multiplicity.into()];
+        let others = [curvature.map(i64::from).into(), ray.error.into()];
         let rates = ray.direction.iter().map(|rate| Value::Number(*rate));
-        table.push(counts.into_iter().chain([curvature, Value::Number(ray.error)]).chain(rates).collect());
+        table.push(counts.into_iter().chain(others).chain(rates));
     }
     table
 }

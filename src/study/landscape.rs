@@ -263,10 +263,10 @@ fn energies(context: &Context<'_>, found: &[Along]) -> Chart {
 /// ones.
 fn table(assembly: &Assembly, found: &[Along]) -> Table {
     let uniform = if assembly.tiling().periodic { &[] } else { assembly.sheet().edges.as_slice() };
-    let solution = Solution::columns([]);
-    let columns = ["mode", "k11", "k22", "k12", "amplitude"].into_iter().chain(solution.iter().map(String::as_str));
-    let columns = columns.chain(["iterations", "rounds"]);
-    let mut table = Table::with_edges(columns, "rest", uniform.iter().map(|edge| &edge.key));
+    let mut table = Table::new("mode,k11,k22,k12,amplitude")
+        .with(Solution::columns([]))
+        .with(["iterations", "rounds"])
+        .with_edges("rest", uniform.iter().map(|edge| &edge.key));
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
             let relaxed = &sample.relaxed;
@@ -275,13 +275,11 @@ fn table(assembly: &Assembly, found: &[Along]) -> Table {
                 residual_force: Some(relaxed.residual_force),
                 residual_length: Some(relaxed.residual_length),
             };
-            let mut row = vec![Value::Whole(number as i64)];
-            row.extend((0..3).map(|k| Value::from(along.curvature.map(|curvature| curvature[k]))));
-            row.push(Value::Number(sample.amplitude));
-            row.extend(solution.values());
-            row.extend([sample.iterations, sample.rounds].map(|count| Value::Whole(count as i64)));
-            row.extend(uniform.iter().zip(&sample.rest).map(|(_, angle)| Value::Number(*angle)));
-            table.push(row);
+            let mode = [0, 1, 2].map(|k| along.curvature.map(|curvature| curvature[k]).into());
+            let first = [number.into()].into_iter().chain(mode).chain([sample.amplitude.into()]);
+            let rounds = [sample.iterations, sample.rounds].map(Value::from);
+            let rest = uniform.iter().zip(&sample.rest).map(|(_, angle)| Value::Number(*angle));
+            table.push(first.chain(solution.values()).chain(rounds).chain(rest));
         }
     }
     table

@@ -14,7 +14,7 @@ use crate::analysis::modes::{
 };
 use crate::model::Gauge;
 use crate::output::figure::rounded;
-use crate::output::table::{Table, Value};
+use crate::output::table::Table;
 use crate::scene::spec::ModesSpec;
 pub use summary::ModesSummary;
 
@@ -101,10 +101,8 @@ fn summary(modes: &Modes) -> ModesSummary {
 /// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size; of a sheet with mass also the
 /// vibrations, of which the picture is then.
 fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordinates: &[f64]) {
-    let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
-    for (k, value) in modes.eigenvalues.iter().enumerate() {
-        table.push(vec![Value::Whole(k as i64), Value::Number(*value)]);
-    }
+    let mut table = Table::new("mode,eigenvalue");
+    modes.eigenvalues.iter().enumerate().for_each(|(k, value)| table.push([k.into(), (*value).into()]));
     answer.add(format!("{}.csv", context.name()), table);
     if !modes.vectors.is_empty() && !context.study.draw.is_empty() {
         let pictures = states::moving(context, coordinates, &modes.vectors);

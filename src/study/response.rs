@@ -80,27 +80,14 @@ pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answ
 
 /// Returns a row for each mode: strain, curvature tensor, lattice rotations and the rates of all fold angles.
 fn modes_table(context: &Context<'_>, modes: &[LinearMode]) -> Table {
-    let columns = [
-        "mode",
-        "strain11",
-        "strain22",
-        "strain12",
-        "curvature11",
-        "curvature22",
-        "curvature12",
-        "rotation1_x",
-        "rotation1_y",
-        "rotation1_z",
-        "rotation2_x",
-        "rotation2_y",
-        "rotation2_z",
-    ];
-    let edges = &context.assembly.sheet().edges;
-    let mut table = Table::with_edges(columns, "rate", edges.iter().map(|edge| &edge.key));
+    let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
+    let mut table = Table::new("mode,strain11,strain22,strain12,curvature11,curvature22,curvature12")
+        .with(["rotation1_x", "rotation1_y", "rotation1_z", "rotation2_x", "rotation2_y", "rotation2_z"])
+        .with_edges("rate", edges);
     for (number, mode) in modes.iter().enumerate() {
         let rotations = mode.lattice_rotations.iter().flat_map(|omega| omega.iter());
         let numbers = mode.strain.iter().chain(&mode.curvature).chain(rotations).chain(&mode.rates);
-        table.push(std::iter::once(Value::Whole(number as i64)).chain(numbers.map(|x| Value::Number(*x))).collect());
+        table.push([number.into()].into_iter().chain(numbers.map(|x| Value::Number(*x))));
     }
     table
 }
@@ -108,27 +95,26 @@ fn modes_table(context: &Context<'_>, modes: &[LinearMode]) -> Table {
 /// Returns a row for each self stress: its work on strains and curvatures, the tensions of the bars, and the torques of
 /// the hinges that keep their angles.
 fn stresses_table(context: &Context<'_>, stresses: &[SelfStress]) -> Table {
-    let columns = ["stress", "force11", "force22", "force12", "moment11", "moment22", "moment12"].map(str::to_owned);
-    let edges = &context.assembly.sheet().edges;
-    let of_edges = |word: &'static str| edges.iter().map(move |edge| Table::edge_column(word, &edge.key));
-    let mut table = Table::new(columns.into_iter().chain(of_edges("tension")).chain(of_edges("torque")).collect());
+    let edges = || context.assembly.sheet().edges.iter().map(|edge| &edge.key);
+    let mut table = Table::new("stress,force11,force22,force12,moment11,moment22,moment12")
+        .with_edges("tension", edges())
+        .with_edges("torque", edges());
     for (number, stress) in stresses.iter().enumerate() {
         let numbers = stress.force.iter().chain(&stress.moment).chain(&stress.tension).chain(&stress.torque);
-        table.push(std::iter::once(Value::Whole(number as i64)).chain(numbers.map(|x| Value::Number(*x))).collect());
+        table.push([number.into()].into_iter().chain(numbers.map(|x| Value::Number(*x))));
     }
     table
 }
 
 /// Returns a row for each direction; where there is no ratio its field is empty, and the reason is in another.
 fn ratios_table(response: &Response, directions: u32) -> Table {
-    let columns = ["direction", "in_plane", "bending", "no_in_plane", "no_bending"];
-    let mut table = Table::new(columns.map(str::to_owned).to_vec());
+    let mut table = Table::new("direction,in_plane,bending,no_in_plane,no_bending");
     for k in 0..directions {
         let angle = PI * f64::from(k) / f64::from(directions);
         let ratios = ratios_at(response, angle);
-        let numbers = ratios.map(|ratio| ratio.map_or(Value::Empty, Value::Number));
+        let numbers = ratios.map(|ratio| ratio.ok().into());
         let reasons = ratios.map(|ratio| Value::Word(ratio.err().map_or("", |reason| reason.word())));
-        table.push([Value::Number(angle)].into_iter().chain(numbers).chain(reasons).collect());
+        table.push([angle.into()].into_iter().chain(numbers).chain(reasons));
     }
     table
 }

@@ -330,12 +330,11 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
 
 /// Returns a row for each pass and each stiffness at which it was followed; rigid bars have the stiffness `inf`.
 fn heights(passes: &[&Barrier]) -> Table {
-    let names = ["from", "to", "joins_a", "joins_b", "bars", "energy"];
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    let mut table = Table::new("from,to,joins_a,joins_b,bars,energy");
     for barrier in passes {
         for height in &barrier.heights {
-            let wells = barrier.between.iter().chain(&barrier.joins).map(|well| Value::Whole(*well as i64));
-            table.push(wells.chain([Value::Number(height.stiffness), Value::Number(height.energy)]).collect());
+            let wells = barrier.between.into_iter().chain(barrier.joins).map(Value::from);
+            table.push(wells.chain([height.stiffness.into(), height.energy.into()]));
         }
     }
     table

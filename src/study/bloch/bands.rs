@@ -206,11 +206,10 @@ fn band_table(path: &[Bands]) -> Table {
     let count = |of: fn(&Bands) -> &Vec<f64>| path.iter().map(|at| of(at).len()).max().unwrap_or(0);
     let bands = (0..count(|at| &at.values)).map(|k| format!("band_{k}"));
     let frequencies = (0..count(|at| &at.frequencies)).map(|k| format!("frequency_{k}"));
-    let names = ["length", "q1", "q2"].map(str::to_owned).into_iter();
-    let mut table = Table::new(names.chain(bands).chain(frequencies).collect());
+    let mut table = Table::new("length,q1,q2").with(bands).with(frequencies);
     for (length, Bands { q, values, frequencies }) in lengths(path).into_iter().zip(path) {
         let row = [length, q[0], q[1]].into_iter().chain(values.iter().chain(frequencies).copied());
-        table.push(row.map(Value::Number).collect());
+        table.push(row.map(Value::Number));
     }
     table
 }
@@ -218,12 +217,11 @@ fn band_table(path: &[Bands]) -> Table {
 /// Returns a row for every bin: its lower and its upper edge, the density in it, and the number of states up to the
 /// upper edge.
 fn density_table(density: &Density) -> Table {
-    let names = ["frequency_low", "frequency_high", "density", "states_below"];
-    let mut table = Table::new(names.map(str::to_owned).to_vec());
+    let mut table = Table::new("frequency_low,frequency_high,density,states_below");
     let mut states = 0.0;
     for (ends, value) in density.edges.windows(2).zip(&density.values) {
         states += value * (ends[1] - ends[0]);
-        table.push([ends[0], ends[1], *value, states].map(Value::Number).to_vec());
+        table.push([ends[0], ends[1], *value, states].map(Value::Number));
     }
     table
 }

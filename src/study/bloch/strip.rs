@@ -260,26 +260,14 @@ fn matched(
 
 /// Returns a row for every root at every wavenumber and edge.
 fn table(found: &FoundStrip) -> Table {
-    let names = [
-        "q1",
-        "zero_modes",
-        "self_stresses",
-        "gap",
-        "edge",
-        "kappa2_measured",
-        "kappa2_predicted",
-        "difference",
-        "condition",
-    ];
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    let mut table =
+        Table::new("q1,zero_modes,self_stresses,gap,edge,kappa2_measured,kappa2_predicted,difference,condition");
     for row in &found.rows {
-        let [modes, stresses] = row.found.map(|count| Value::Whole(count as i64));
-        let number = |value: Option<f64>| value.map_or(Value::Empty, Value::Number);
+        let [modes, stresses] = row.found.map(Value::from);
         let difference = row.measured.map(|measured| measured - row.predicted);
-        let rates =
-            [number(row.measured), Value::Number(row.predicted), number(difference), Value::Number(row.condition)];
-        let first = [Value::Number(row.q1), modes, stresses, Value::Number(row.gap), Value::Word(row.place.word())];
-        table.push(first.into_iter().chain(rates).collect());
+        let first = [row.q1.into(), modes, stresses, row.gap.into(), Value::Word(row.place.word())];
+        let rates = [row.measured.into(), row.predicted.into(), difference.into(), row.condition.into()];
+        table.push(first.into_iter().chain(rates));
     }
     table
 }
@@ -291,13 +279,11 @@ pub(super) fn add(answer: &mut Answer, name: &str, found: &FoundStrip) {
 
 /// Returns a row for every wavenumber at which zero modes and self stresses were counted.
 pub(super) fn count_table(counts: &[Counts]) -> Table {
-    let names = ["q1", "q2", "zero_modes", "self_stresses", "self_stresses_opposite", "gap"];
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    let mut table = Table::new("q1,q2,zero_modes,self_stresses,self_stresses_opposite,gap");
     for found in counts {
         let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
-        let q = found.q.map(Value::Number);
-        let last = numbers.map(|number| Value::Whole(number as i64));
-        table.push(q.into_iter().chain(last).chain([Value::Number(found.gap)]).collect());
+        let q = found.q.into_iter().map(Value::from);
+        table.push(q.chain(numbers.map(Value::from)).chain([found.gap.into()]));
     }
     table
 }

@@ -29,21 +29,11 @@ const BATCH: usize = 64;
 const CONE: usize = 96;
 const PROBES: usize = 8;
 /// Columns of the table; NaN is the energy of a sample that failed.
-const COLUMNS: [&str; 9] = [
-    "k11",
-    "k22",
-    "k12",
-    "energy_bars",
-    "energy_creases",
-    "energy_total",
-    "residual_force",
-    "residual_length",
-    "iterations",
-];
+const COLUMNS: &str = "k11,k22,k12,energy_bars,energy_creases,energy_total,residual_force,residual_length,iterations";
 const TOTAL: usize = 5;
 const ITERATIONS: usize = 8;
 
-type Row = [f64; COLUMNS.len()];
+type Row = [f64; 9];
 
 /// The results of a map.
 pub(crate) struct Map {
@@ -144,16 +134,16 @@ fn line_of(row: &Row) -> String {
 
 /// Returns the row of a line of the log; `None` if it is none.
 fn row_of(line: &str) -> Option<Row> {
-    let row: [Option<f64>; COLUMNS.len()] = serde_json::from_str(line).ok()?;
+    let row: [Option<f64>; 9] = serde_json::from_str(line).ok()?;
     Some(row.map(|number| number.unwrap_or(f64::NAN)))
 }
 
 fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new(COLUMNS.iter().map(|name| (*name).to_owned()).collect());
+    let mut table = Table::new(COLUMNS);
     let value = |(column, number): (usize, &f64)| {
         if column == ITERATIONS { Value::Whole(*number as i64) } else { Value::Number(*number) }
     };
-    rows.iter().for_each(|row| table.push(row.iter().enumerate().map(value).collect()));
+    rows.iter().for_each(|row| table.push(row.iter().enumerate().map(value)));
     table
 }
 

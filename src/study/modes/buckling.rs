@@ -3,7 +3,7 @@
 use crate::analysis::modes::{ModesError, buckling};
 use crate::model::Configuration;
 use crate::output::figure::rounded;
-use crate::output::table::{Table, Value};
+use crate::output::table::Table;
 use crate::scene::spec::ModesSpec;
 use crate::study::answer::Answer;
 use crate::study::context::Context;
@@ -32,8 +32,8 @@ pub(super) fn factors(
     let loaded = (!start::is_drawn(spec.start.as_ref())).then_some(state);
     let found = buckling(context.assembly, loaded, wanted.0 as usize, &mut || context.step(0, None))?;
     let name = context.name();
-    let mut table = Table::new(["mode", "factor"].map(str::to_owned).to_vec());
-    (0..).zip(&found.factors).for_each(|(k, factor)| table.push(vec![Value::Whole(k), Value::Number(*factor)]));
+    let mut table = Table::new("mode,factor");
+    found.factors.iter().enumerate().for_each(|(k, factor)| table.push([k.into(), (*factor).into()]));
     answer.add(format!("{name}-buckling.csv"), table);
     if let (Some(factor), false) = (found.factors.first(), found.vectors.is_empty() || context.study.draw.is_empty()) {
         let pictures = states::moving(context, &state.coordinates, &found.vectors);

@@ -2,7 +2,7 @@
 
 use crate::analysis::modes::Vibrations;
 use crate::output::figure::rounded;
-use crate::output::table::{Table, Value};
+use crate::output::table::Table;
 use crate::study::answer::Answer;
 use crate::study::context::Context;
 use crate::study::states;
@@ -16,10 +16,9 @@ pub(super) fn add(
     coordinates: &[f64],
 ) {
     let (name, frequencies) = (context.name(), vibrations.frequencies());
-    let mut table = Table::new(["mode", "frequency", "growth_rate"].map(str::to_owned).to_vec());
-    for (k, (frequency, rate)) in (0..).zip(frequencies.iter().zip(vibrations.growth_rates())) {
-        let numbers = [*frequency, rate].map(|number| Value::Number(number.unwrap_or(f64::NAN)));
-        table.push([Value::Whole(k)].into_iter().chain(numbers).collect());
+    let mut table = Table::new("mode,frequency,growth_rate");
+    for (k, (frequency, rate)) in frequencies.iter().zip(vibrations.growth_rates()).enumerate() {
+        table.push([k.into(), (*frequency).into(), rate.into()]);
     }
     answer.add(format!("{name}-frequencies.csv"), table);
     if vibrations.vectors.is_empty() || context.study.draw.is_empty() {

@@ -18,20 +18,16 @@ pub(crate) fn table(
     marks: Option<&[Vec<Marks>]>,
 ) -> Table {
     let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
-    let solution = Solution::columns(context.assembly.terms().own_names());
-    let displacements: Vec<String> = probes.iter().map(|(name, _)| format!("probe_{name}")).collect();
-    let columns = ["branch", "step", "arc_length", "drive", "reaction", "work"]
-        .into_iter()
-        .chain(solution.iter().map(String::as_str))
-        .chain(["negative_eigenvalues", "event"])
-        .chain(asked(marks.is_some(), &["self_intersecting"]))
-        .chain(asked(context.assembly.domain().is_periodic(), &CYLINDER))
-        .chain(asked(spec.response.is_some(), &RATIOS))
-        .chain(asked(yields(context), &["dissipated"]))
-        .chain(displacements.iter().map(String::as_str))
-        .chain(["state"]);
-    let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
-    let mut table = Table::with_edges(columns, "fold", edges);
+    let mut table = Table::new("branch,step,arc_length,drive,reaction,work")
+        .with(Solution::columns(context.assembly.terms().own_names()))
+        .with(["negative_eigenvalues", "event"])
+        .with(asked(marks.is_some(), &["self_intersecting"]))
+        .with(asked(context.assembly.domain().is_periodic(), &CYLINDER))
+        .with(asked(spec.response.is_some(), &RATIOS))
+        .with(asked(yields(context), &["dissipated"]))
+        .with(probes.iter().map(|(name, _)| format!("probe_{name}")))
+        .with(["state"])
+        .with_edges("fold", context.assembly.sheet().edges.iter().map(|edge| &edge.key));
     for (number, branch) in branches.iter().enumerate() {
         for (step, point) in branch.points.iter().enumerate() {
             let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
@@ -63,9 +59,9 @@ fn row(
     let ratios = ratios::of_state(assembly, spec.response.as_ref(), coordinates);
     let state = states::with_all_angles(context, &point.state);
     let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
-    let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
+    let [branch, step, number] = [branch, step, number].map(Value::from);
     let own = [branch, step].into_iter().chain(numbers).chain(solution.values());
-    let own = own.chain([point.negative_eigenvalues.map(|count| count as i64).into(), event]);
+    let own = own.chain([point.negative_eigenvalues.into(), event]);
     let shape = shape.into_iter().flatten().map(Value::Number);
     let asked = crossing.into_iter().chain(shape).chain(ratios.into_iter().flatten().map(Value::from));
     let moved = probes.iter().map(|(_, probe)| probe.displacement(assembly, coordinates).into());
