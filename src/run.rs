@@ -10,7 +10,6 @@ use crate::sheet::{Info, Pattern, Sheet, flatten, generate, welded};
 mod belongings;
 mod claim;
 mod convert;
-mod ending;
 mod error;
 mod film;
 mod folder;
@@ -18,7 +17,6 @@ mod in_memory;
 mod info;
 mod inputs;
 mod ledger;
-mod lists;
 mod log;
 mod meshes;
 mod report;
@@ -33,13 +31,12 @@ mod view;
 pub use crate::output::film::FilmOptions;
 pub use crate::study::Observer;
 pub use crate::study::Progress;
-use ending::ending;
 pub use error::RunError;
 pub use film::film;
 pub use in_memory::{Computed, compute};
 pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
-use meshes::{MeshKind, read_mesh};
+use meshes::{MeshKind, ending, read_mesh};
 pub use report::{RunOptions, RunReport};
 pub use single::{run, run_and_keep};
 pub use summary::{SheetSummary, Summary};
@@ -133,8 +130,8 @@ pub enum Listed {
 pub fn list(mesh_or_scene: &Path, wanted: &Wanted, listed: Listed) -> Result<String, RunError> {
     let sheet = wanted.sheet(mesh_or_scene)?;
     let table = match listed {
-        Listed::Vertices => lists::vertices(&sheet),
-        Listed::Edges => lists::edges(&sheet),
+        Listed::Vertices => info::vertices(&sheet),
+        Listed::Edges => info::edges(&sheet),
     };
     Ok(table.to_csv().map_err(|fault| OutputError::Shape { path: mesh_or_scene.into(), fault })?)
 }

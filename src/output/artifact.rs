@@ -1,6 +1,6 @@
 //! The files of a study before they are written: tables, states, surfaces, maps and drawings.
 
-use super::fault::ShapeError;
+use super::error::ShapeError;
 use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::table::Table;

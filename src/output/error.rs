@@ -1,11 +1,9 @@
-//! The errors of writing and reading files.
+//! The errors of writing and reading files, and the faults of a picture, a table or a VTU file.
 
 use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
-
-use super::fault::{ShapeError, VtuFault};
 
 /// The reason why a file could not be written or read.
 #[derive(Debug, Error)]
@@ -24,4 +22,61 @@ pub enum OutputError {
     Vtu { path: PathBuf, fault: VtuFault },
     #[error("{}: not written: {fault}", path.display())]
     Shape { path: PathBuf, fault: ShapeError },
+}
+
+/// Parts of a picture or a table that are inconsistent.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[allow(missing_docs)] // the messages say it
+pub enum ShapeError {
+    /// An array has the wrong length.
+    #[error("array `{array}` has {found} entries, expected {expected}")]
+    Length {
+        array: &'static str,
+        /// Its length.
+        found: usize,
+        /// Expected length.
+        expected: usize,
+    },
+    #[error("point {point} is used, but there are {count}")]
+    NoSuchPoint { point: usize, count: usize },
+    /// A row of a table has the wrong length.
+    #[error("row {row} has {found} values, expected {expected} as in the header")]
+    Row {
+        /// Index of the row, counted from 0.
+        row: usize,
+        found: usize,
+        expected: usize,
+    },
+}
+
+/// A fault of the content of a VTU file.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[allow(missing_docs)] // the messages say it
+pub enum VtuFault {
+    #[error("not a readable VTU file: {0}")]
+    Format(String),
+    #[error("not an unstructured grid")]
+    NotUnstructured,
+    #[error("the coordinates of the points are no floating-point numbers")]
+    Coordinates,
+    #[error("cell {cell} is a {kind}, expected triangles, quadrangles, polygons and lines only")]
+    CellKind {
+        /// Index of the cell, counted from 0.
+        cell: usize,
+        kind: String,
+    },
+    #[error("cell {cell} has {found} points, expected {expected}")]
+    CellSize {
+        /// Index of the cell, counted from 0.
+        cell: usize,
+        found: usize,
+        expected: usize,
+    },
+    #[error("cell {cell} uses point {point}, but there are {count}")]
+    NoSuchPoint {
+        /// Index of the cell, counted from 0.
+        cell: usize,
+        point: u64,
+        count: usize,
+    },
 }

@@ -6,7 +6,6 @@ pub mod artifact;
 pub(crate) mod claim;
 mod counted;
 pub(crate) mod error;
-pub(crate) mod fault;
 pub mod figure;
 pub mod files;
 pub(crate) mod film;

@@ -1,6 +1,6 @@
 //! A state of a sheet to be drawn or written: points, triangles, lines and the quantities on them.
 
-use super::fault::ShapeError;
+use super::error::ShapeError;
 
 use crate::analysis::shown_cells::ShownCells;
 use crate::analysis::state::State;

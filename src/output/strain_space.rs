@@ -1,6 +1,6 @@
 //! A surface, or a curve, of folded states in the space of lattice strains, to be drawn or written.
 
-use super::fault::ShapeError;
+use super::error::ShapeError;
 use crate::math::Vec3;
 
 /// Folded states, and triangles between them, or segments of a curve. Arrays have one entry for each state.

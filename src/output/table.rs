@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::OutputError;
-use super::fault::ShapeError;
+use super::error::ShapeError;
 use crate::sheet::EdgeKey;
 
 /// Reads the named columns of a table that was written by this module. Returns one vector for each row, with NaN for

@@ -17,7 +17,7 @@ use vtkio::model::{
     PolyDataPiece, UnstructuredGridPiece, Version, VertexNumbers, Vtk,
 };
 
-use super::fault::ShapeError;
+use super::error::ShapeError;
 use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
@@ -268,7 +268,7 @@ pub(crate) fn pvd(states: &[(f64, String)]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fault::{ShapeError, VtuFault};
+    use super::super::error::{ShapeError, VtuFault};
     use super::super::picture::samples;
     use super::read::{parse_picture, parse_vtu};
     use super::*;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::RunError;
-use super::ending::ending;
 use super::folder::{contents, study_name, summary};
+use super::meshes::ending;
 use crate::output::OutputError;
 use crate::output::film::{FilmOptions, Reel, write_gif, write_mp4};
 use crate::output::html::Content;

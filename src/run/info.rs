@@ -1,11 +1,13 @@
-//! Counts of a mesh, and of the energy of a scene.
+//! Counts of a mesh, and of the energy of a scene; vertices and edges as tables, for the numbers and names that a scene
+//! refers to.
 
 use std::fmt;
 
 use serde::Serialize;
 
 use crate::model::{Assembly, Hinges, Stiffness};
-use crate::sheet::{EdgeKind, Info, TiledEdge};
+use crate::output::table::{Table, Value};
+use crate::sheet::{Edge, EdgeKind, Info, Sheet, TiledEdge};
 
 /// Largest difference of a rest angle from the drawn angle, in radians, that counts as none.
 const SAME_ANGLE_RAD: f64 = 1e-9;
@@ -125,5 +127,38 @@ impl fmt::Display for ElementCounts {
             _ if rigid == elements => f.write_str(", all rigid"),
             _ => write!(f, ", {rigid} of them rigid"),
         }
+    }
+}
+
+/// Returns a table of the vertices of a cell: number and coordinates.
+pub(super) fn vertices(sheet: &Sheet) -> Table {
+    let mut table = Table::new("vertex,x,y,z");
+    for (number, position) in sheet.vertices.iter().enumerate() {
+        table.push([number.into(), position.x.into(), position.y.into(), position.z.into()]);
+    }
+    table
+}
+
+/// Returns a table of the edges of a cell: number, name `[i, j, n1, n2]`, kind, assignment as a letter of FOLD, length,
+/// and drawn fold angle in radians, which is empty for edges of one face.
+pub(super) fn edges(sheet: &Sheet) -> Table {
+    let mut table = Table::new("edge,i,j,n1,n2,kind,assignment,length,angle");
+    for (number, edge) in sheet.edges.iter().enumerate() {
+        let key = edge.key;
+        let place =
+            [number, key.i, key.j].map(Value::from).into_iter().chain(key.shift.map(i64::from).map(Value::from));
+        let words = [kind(edge), sheet.assignment(edge).letter()].map(Value::Word);
+        let [start, end] = key.ends().map(|corner| sheet.position(corner));
+        let numbers = [Value::Number((end - start).norm()), sheet.drawn_angle(edge).into()];
+        table.push(place.chain(words).chain(numbers));
+    }
+    table
+}
+
+fn kind(edge: &Edge) -> &'static str {
+    match edge.kind {
+        EdgeKind::Crease => "crease",
+        EdgeKind::Facet => "facet",
+        EdgeKind::Boundary => "boundary",
     }
 }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::convert;
-use super::ending::ending;
 use super::error::RunError;
 use crate::output::picture::Picture;
 use crate::output::{files, glb, vtk};
@@ -29,6 +28,11 @@ pub(super) enum MeshKind {
     Stl,
     Vtu,
     Lines(Format),
+}
+
+/// Returns the ending of a file name in lower case; empty if it has none.
+pub(super) fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 impl MeshKind {

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use super::RunError;
-use super::ending::ending;
 use super::folder::{contents, study_name, summary};
+use super::meshes::ending;
 use crate::output::html::{StudyFiles, page};
 use crate::output::{OutputError, files};
 

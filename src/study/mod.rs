@@ -35,7 +35,6 @@ mod summary;
 mod supported;
 pub mod surface;
 pub mod trace;
-mod tube;
 pub mod wells;
 
 use crate::scene::spec::StudyKind;
@@ -50,7 +49,7 @@ pub use surface::left_out;
 /// # Errors
 /// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
-    tube::check(context)?;
+    supported::of_a_tube(context)?;
     let relaxes = matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Wells(_));
     if !relaxes && !matches!(*context.study.kind, StudyKind::Path(_) | StudyKind::Fold(_)) {
         supported::no_parts(context)?;

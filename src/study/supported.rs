@@ -1,11 +1,14 @@
-//! Checks of the terms of a scene that several kinds of study share: which stiffnesses and rest values they support.
+//! Checks that several kinds of study share: which stiffnesses and rest values they support, and which a tube has.
 
 use super::context::Context;
 use super::error::StudyError;
+use crate::model::Domain;
 use crate::scene::spec::StudyKind;
 
 /// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
+/// Advice for a study of the ways in which a tube folds.
+const MOTIONS_OF_A_TUBE: &str = "use domain = \"screw\"; `modes` counts the motions of a tube";
 
 /// Checks that there are no rigid parts, which modes know too, no pins along a direction and no terms of one's own, as
 /// springs between vertices are, which relaxations, paths and wells alone know.
@@ -83,4 +86,43 @@ pub(super) fn drawn_rigid_hinges(context: &Context<'_>, what: &str) -> Result<()
         key.i, key.j, key.shift[0], key.shift[1]
     );
     Err(context.refuse(message, format!("give rigid hinges the drawn rest angles; {SUPPORTED}")).into())
+}
+
+/// Checks that the study is one of those that a tube has.
+pub(super) fn of_a_tube(context: &Context<'_>) -> Result<(), StudyError> {
+    let Domain::Tube { .. } = context.assembly.domain() else { return Ok(()) };
+    let refused = match &*context.study.kind {
+        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Trace(_) => None,
+        StudyKind::Wells(wells) if wells.rigid => {
+            Some(("the rigid states of a closed tube are single points", "leave out `rigid`"))
+        }
+        StudyKind::Wells(_) => None,
+        StudyKind::Surface(_) => Some((
+            "the folded states of a tube are no surface: its closing conditions leave one motion or none",
+            MOTIONS_OF_A_TUBE,
+        )),
+        StudyKind::Branches(_) => {
+            Some(("branches leave the drawn state, and a tube is another one", MOTIONS_OF_A_TUBE))
+        }
+        StudyKind::Landscape(_) => {
+            let help = "use domain = \"patch\" or \"torus\"";
+            Some(("a landscape is the energy along folding modes of a periodic sheet, and a tube has none", help))
+        }
+        StudyKind::Bloch(_) => {
+            let help = "use domain = \"screw\", and start from a relaxation or a trajectory";
+            Some(("wavenumbers around a closed tube are whole numbers, and bloch asks for all", help))
+        }
+        StudyKind::Response(_) => {
+            let help = "use domain = \"screw\" or \"torus\"";
+            Some(("strains and curvatures of a closed tube are fixed by its seam", help))
+        }
+        StudyKind::Path(_) | StudyKind::Fold(_) => {
+            let help = "use domain = \"patch\", or relax the tube at every value of a [sweep]";
+            Some(("paths of equilibria of tubes are not known", help))
+        }
+    };
+    match refused {
+        None => Ok(()),
+        Some((message, help)) => Err(context.refuse(message, help).into()),
+    }
 }

@@ -82,7 +82,7 @@ mod tests {
     use super::super::canvas::Caption;
     use super::super::sheet::svg;
     use super::*;
-    use crate::output::fault::ShapeError;
+    use crate::output::error::ShapeError;
     use crate::output::picture::samples;
 
     fn drawn(added: &Annotations) -> Result<String, ShapeError> {

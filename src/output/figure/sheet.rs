@@ -13,7 +13,7 @@ use super::projection::Projection;
 use super::style::{Font, PaperPoint, Style};
 use crate::math::Vec3;
 use crate::output::Picture;
-use crate::output::fault::ShapeError;
+use crate::output::error::ShapeError;
 use crate::sheet::{Assignment, EdgeKind};
 use std::f64::consts::{PI, TAU};
 

@@ -17,7 +17,7 @@ use super::projection::Projection;
 use super::style::{Area, Font, PaperPoint, Style};
 use crate::math::Vec3;
 use crate::output::StrainSurface;
-use crate::output::fault::ShapeError;
+use crate::output::error::ShapeError;
 
 const AXES: [&str; 3] = ["strain11", "strain22", "strain12"];
 /// Ranges of strain that count as rounding errors: relative to the largest range, and absolute.

@@ -13,7 +13,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use lzma_rust2::XzReader;
 
-use crate::output::fault::VtuFault;
+use crate::output::error::VtuFault;
 
 /// The compression that VTK has beside zlib.
 const LZMA: &str = "vtkLZMADataCompressor";

@@ -9,7 +9,7 @@ use super::appended::inlined;
 use crate::analysis::state::REMEMBERED;
 use crate::math::Vec3;
 use crate::output::OutputError;
-use crate::output::fault::VtuFault;
+use crate::output::error::VtuFault;
 use crate::output::picture::Picture;
 use crate::sheet::{Assignment, EdgeKind, text};
 
