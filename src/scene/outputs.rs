@@ -7,12 +7,20 @@ use super::spec::{StudyKind, StudySpec};
 
 /// Names of the files that a study of any kind may write; `@` is the name of the study.
 const ANY: [&str; 7] = ["@.csv", "@.svg", "@.html", "@.pvd", "@-paraview.py", "@.state.json", "@/@_#.vtu"];
-const TRACE: &[&str] = &["@-strain.svg"];
+const TRACE: &[&str] = &["@-strain.svg", "@-closed-tubes.csv"];
 const SURFACE: &[&str] = &["@/@_#.vtp"];
 const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp", "@.map.jsonl"];
 const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
 const BANDS: &[&str] = &["@_bands.csv", "@-bands.svg", "@-density.csv", "@-strip.csv", "@-modes.csv"];
-const MODES: &[&str] = &["@-frequencies.csv", "@-vibrations.pvd", "@/@_vibration_#.vtu"];
+const MODES: &[&str] = &[
+    "@-frequencies.csv",
+    "@-vibrations.pvd",
+    "@/@_vibration_#.vtu",
+    "@-buckling.csv",
+    "@-buckling.svg",
+    "@-buckling.pvd",
+    "@/@_buckling_#.vtu",
+];
 const WELLS: &[&str] = &["@-barriers.csv"];
 const RESPONSE: &[&str] = &["@-ratios.csv", "@-ratios.svg", "@-stresses.csv"];
 const PATH: &[&str] = &["@-reaction.svg", "@.path.jsonl"];
@@ -62,7 +70,9 @@ mod tests {
     #[test]
     fn names_are_told_apart() {
         let own = owned("a");
-        for file in ["a.csv", "a/a_0000.vtu", "a/a_12345.vtp", "a-map.csv", "a/a_mode_0001.vtu"] {
+        for file in
+            ["a.csv", "a/a_0000.vtu", "a/a_12345.vtp", "a-map.csv", "a/a_mode_0001.vtu", "a/a_buckling_0000.vtu"]
+        {
             assert!(is_one_of(&own, file), "{file}");
         }
         for file in ["b.csv", "a/a_1.vtu", "a/a_x000.vtu", "a/b_0000.vtu", "a.toml", "a/a_.vtu", "summary.json"] {
