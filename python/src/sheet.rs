@@ -46,7 +46,7 @@ impl Sheet {
     fn parse(py: Python<'_>, text: String, name: String, frame: Option<usize>) -> PyResult<Self> {
         let parsed = watched(py, None, move |_| match (name.to_lowercase().ends_with(".obj"), frame) {
             (true, _) => obj::parse(&text, &name),
-            (false, frame) => fold::parse_frame(&text, &name, frame),
+            (false, frame) => fold::parse_frame(&text, &name, frame, None),
         })?;
         parsed.map(|sheet| Self { sheet }).map_err(|error| raise_sheet(py, error))
     }

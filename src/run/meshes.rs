@@ -50,7 +50,7 @@ impl MeshKind {
 /// Reads a mesh; `expected` are the endings that messages name.
 pub(super) fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
     match MeshKind::of(path) {
-        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame)?),
+        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame, None)?),
         Some(kind) => match frame {
             Some(frame) => Err(RunError::NoFrames { path: path.into(), frame }),
             None => read_kind(path, kind),
@@ -64,7 +64,7 @@ fn read_kind(path: &Path, kind: MeshKind) -> Result<Sheet, RunError> {
         MeshKind::Fold => Ok(fold::read(path)?),
         MeshKind::Obj => Ok(obj::read(path)?),
         MeshKind::Stl => Ok(stl::read(path)?),
-        MeshKind::Lines(format) => Ok(pattern::read(path, format)?),
+        MeshKind::Lines(format) => Ok(pattern::read(path, format, &Cleanup::default())?),
         MeshKind::Vtu => {
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let drawn = convert::drawing(vtk::read_vtu(path)?, title);
@@ -76,9 +76,9 @@ fn read_kind(path: &Path, kind: MeshKind) -> Result<Sheet, RunError> {
 /// Reads a flat crease pattern and cleans it up.
 pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup) -> Result<Sheet, RunError> {
     match (MeshKind::of(path), frame) {
-        (Some(MeshKind::Fold), _) => Ok(fold::read_cleaned(path, frame, cleanup)?),
+        (Some(MeshKind::Fold), _) => Ok(fold::read_frame(path, frame, Some(cleanup))?),
         (Some(_), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
-        (Some(MeshKind::Lines(format)), None) => Ok(pattern::read_cleaned(path, format, cleanup)?),
+        (Some(MeshKind::Lines(format)), None) => Ok(pattern::read(path, format, cleanup)?),
         _ => Err(RunError::Ending { path: path.into(), ending: ending(path), expected: CLEANED }),
     }
 }

@@ -113,7 +113,7 @@ fn no_mesh(file: &SceneFile, span: Range<usize>, path: &Path) -> SceneError {
 /// Returns another sheet that a study names, from its mesh.
 pub(crate) fn other_sheet(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
     let path = file.resolve(path);
-    Ok(fold::read_frame(&path, None)?)
+    Ok(fold::read(&path)?)
 }
 
 /// Reads the mesh at `path` in the format of its ending; FOLD if that is unknown.
@@ -134,7 +134,7 @@ fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
     }
     let cleanup = Cleanup { merge: spec.merge.as_ref().map(|merge| **merge), split: true };
     match (lines, ending.as_str()) {
-        (Some(format), _) => Ok(pattern::read_cleaned(path, format, &cleanup)?),
+        (Some(format), _) => Ok(pattern::read(path, format, &cleanup)?),
         (None, "obj") => Ok(obj::read(path)?),
         (None, "stl") => Ok(stl::read(path)?),
         (None, "vtu") => {
@@ -142,8 +142,10 @@ fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
             let help = "convert it to a .fold file; a state to start from is `start` of a study";
             Err(file.error_at(span, "a mesh of a scene is no .vtu file", help))
         }
-        (None, _) if spec.merge.is_some() => Ok(fold::read_cleaned(path, frame.map(|frame| **frame), &cleanup)?),
-        (None, _) => Ok(fold::read_frame(path, frame.map(|frame| **frame))?),
+        (None, _) => {
+            let cleanup = spec.merge.as_ref().map(|_| &cleanup);
+            Ok(fold::read_frame(path, frame.map(|frame| **frame), cleanup)?)
+        }
     }
 }
 

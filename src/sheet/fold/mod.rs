@@ -36,7 +36,7 @@ mod record;
 mod stiffness;
 mod write;
 
-pub use parse::{parse, parse_cleaned, parse_frame, read, read_cleaned, read_frame};
+pub use parse::{parse, parse_frame, read, read_frame};
 pub(crate) use write::in_degrees;
 pub use write::write;
 

@@ -98,22 +98,11 @@ impl Format {
     }
 }
 
-/// The default clean-up of lines.
-const AS_DRAWN: Cleanup = Cleanup { merge: None, split: true };
-
-/// Reads the crease pattern of the file at `path`.
+/// Reads the crease pattern of the file at `path`, as [`parse_cleaned`] does.
 ///
 /// # Errors
-/// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse`].
-pub fn read(path: &Path, format: Format) -> Result<Sheet, SheetError> {
-    read_cleaned(path, format, &AS_DRAWN)
-}
-
-/// Does the same as [`read`], cleaned up as [`parse_cleaned`] does it.
-///
-/// # Errors
-/// As [`read`] and [`parse_cleaned`].
-pub fn read_cleaned(path: &Path, format: Format, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
+/// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse_cleaned`].
+pub fn read(path: &Path, format: Format, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
     let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
     parse_cleaned(&text, &path.display().to_string(), format, cleanup)
 }
@@ -124,7 +113,7 @@ pub fn read_cleaned(path: &Path, format: Format, cleanup: &Cleanup) -> Result<Sh
 /// # Errors
 /// [`SheetError::Bad`] with line and column of what is wrong.
 pub fn parse(text: &str, name: &str, format: Format) -> Result<Sheet, SheetError> {
-    parse_cleaned(text, name, format, &AS_DRAWN)
+    parse_cleaned(text, name, format, &Cleanup::default())
 }
 
 /// Does the same as [`parse`], with another distance of merging. Lines are split in any case.

@@ -134,7 +134,7 @@ fn read(text: &str, format: Option<Format>) -> Result<Sheet, String> {
     let cleanup = Cleanup { merge: None, split: true };
     let read = match format {
         Some(format) => pattern::parse(text, "a", format),
-        None => fold::parse_cleaned(text, "a.fold", None, &cleanup),
+        None => fold::parse_frame(text, "a.fold", None, Some(&cleanup)),
     };
     read.map_err(|error| error.to_string())
 }

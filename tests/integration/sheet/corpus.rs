@@ -485,7 +485,7 @@ fn fold_files_are_merged_and_split() {
 "edges_foldAngle": [null,null,null,null,-90,90,0]}"#;
     assert!(fold::parse(text, "a.fold").is_err());
     let clean = |text: &str, merge: Option<f64>, split: bool| {
-        fold::parse_cleaned(text, "a.fold", None, &Cleanup { merge, split }).map_err(|error| error.to_string())
+        fold::parse_frame(text, "a.fold", None, Some(&Cleanup { merge, split })).map_err(|error| error.to_string())
     };
     let sheet = clean(text, Some(1e-3), true).unwrap();
     let sides = sheet.edges.iter().filter(|edge| edge.kind != EdgeKind::Facet).count();

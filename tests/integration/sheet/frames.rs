@@ -17,7 +17,7 @@ fn path(name: &str) -> PathBuf {
 }
 
 fn drawn_valley(text: &str, frame: Option<usize>) -> f64 {
-    let sheet = fold::parse_frame(text, "a.fold", frame).unwrap();
+    let sheet = fold::parse_frame(text, "a.fold", frame, None).unwrap();
     let crease = sheet.edges.iter().find(|edge| edge.kind == EdgeKind::Crease).unwrap();
     assert_eq!(sheet.assignment(crease), Assignment::Valley);
     sheet.drawn_angle(crease).unwrap()
@@ -30,11 +30,11 @@ fn frames_inherit() {
     assert_eq!(drawn_valley(FRAMES, None), 0.0);
     assert_eq!(drawn_valley(FRAMES, Some(1)), PI);
     assert!((drawn_valley(FRAMES, Some(2)) - PI / 2.0).abs() < 1e-15);
-    let targets =
-        [0, 1, 2].map(|frame| Info::new(&fold::parse_frame(FRAMES, "a.fold", Some(frame)).unwrap()).target_angles);
+    let targets = [0, 1, 2]
+        .map(|frame| Info::new(&fold::parse_frame(FRAMES, "a.fold", Some(frame), None).unwrap()).target_angles);
     assert_eq!(targets, [1, 0, 0]);
-    assert_eq!(fold::parse_frame(FRAMES, "a.fold", Some(3)).unwrap().vertices.len(), 3);
-    let found = Info::new(&fold::parse_frame(FRAMES, "a.fold", Some(2)).unwrap());
+    assert_eq!(fold::parse_frame(FRAMES, "a.fold", Some(3), None).unwrap().vertices.len(), 3);
+    let found = Info::new(&fold::parse_frame(FRAMES, "a.fold", Some(2), None).unwrap());
     assert_eq!((found.frame, found.further_frames), (2, 3));
     assert!(found.to_string().contains("frame 2 is read; 3 others are not"), "{found}");
 }
@@ -45,8 +45,8 @@ fn the_first_frame_with_a_mesh_is_read() {
     let sheet = fold::parse(BELOW, "a.fold").unwrap();
     let found = Info::new(&sheet);
     assert_eq!((found.frame, found.further_frames, sheet.vertices.len(), sheet.title.as_str()), (2, 2, 4, "steps"));
-    assert_eq!(fold::parse_frame(BELOW, "a.fold", Some(3)).unwrap().vertices, sheet.vertices);
-    let message = fold::parse_frame(BELOW, "a.fold", Some(1)).unwrap_err().to_string();
+    assert_eq!(fold::parse_frame(BELOW, "a.fold", Some(3), None).unwrap().vertices, sheet.vertices);
+    let message = fold::parse_frame(BELOW, "a.fold", Some(1), None).unwrap_err().to_string();
     assert!(message.contains("`vertices_coords` is missing"), "{message}");
 }
 
@@ -69,7 +69,7 @@ fn wrong_frames_are_refused() {
         ("{\"file_frames\": [1]}".to_owned(), 0, "frame 1 of `file_frames` is `1`; it should be an object"),
     ];
     for (text, frame, words) in cases {
-        let message = fold::parse_frame(&text, "a.fold", Some(frame)).unwrap_err().to_string();
+        let message = fold::parse_frame(&text, "a.fold", Some(frame), None).unwrap_err().to_string();
         assert!(message.contains(words), "{words}\n{message}");
     }
 }
