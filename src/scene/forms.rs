@@ -1,16 +1,15 @@
 //! Values of a scene that have more than one written form: a word, a number or a table.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 
 use super::Located;
 use super::values::{Positive, Triple};
-use super::written::{Written, read_as_written};
+use super::written::{Written, read_as_written, schema_any_of};
 
 /// `{ file = "angles.csv" }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -140,21 +139,6 @@ impl Written for BranchChoice {
         let number = usize::try_from(number).map_err(|_| E::invalid_value(Unexpected::Signed(number), &Self::FORMS))?;
         Ok(Self::Number(number))
     }
-}
-
-/// Implements the schema "any of these forms" for a type, to match the visitor that reads the forms.
-macro_rules! schema_any_of {
-    ($type:ident as $name:literal, $generator:ident, $forms:tt) => {
-        impl JsonSchema for $type {
-            fn schema_name() -> Cow<'static, str> {
-                $name.into()
-            }
-
-            fn json_schema($generator: &mut SchemaGenerator) -> Schema {
-                json_schema!({ "anyOf": $forms })
-            }
-        }
-    };
 }
 
 schema_any_of!(

@@ -1,10 +1,9 @@
 //! The forms of rest angles in a scene: a word, a number, a table by letters, a mode or a file.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Unexpected};
@@ -12,7 +11,7 @@ use serde::de::{Error, MapAccess, Unexpected};
 use super::Located;
 use super::forms::{FileName, Mode};
 use super::values::Finite;
-use super::written::{Written, read_as_written};
+use super::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::Assignment;
 use crate::sheet::angle::Angle;
 
@@ -170,18 +169,10 @@ fn with_signs(letters: BTreeMap<Assignment, Angle>) -> Result<RestSpec, &'static
     Ok(RestSpec::Letters(letters))
 }
 
-impl JsonSchema for RestSpec {
-    fn schema_name() -> Cow<'static, str> {
-        "Rest".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [
-            { "enum": ["drawn", "flat", "target", "assigned"] },
-            generator.subschema_for::<Angle>(),
-            generator.subschema_for::<RestTable>(),
-            generator.subschema_for::<ModeRest>(),
-            generator.subschema_for::<FileName>(),
-        ] })
-    }
-}
+schema_any_of!(RestSpec as "Rest", generator, [
+    { "enum": ["drawn", "flat", "target", "assigned"] },
+    generator.subschema_for::<Angle>(),
+    generator.subschema_for::<RestTable>(),
+    generator.subschema_for::<ModeRest>(),
+    generator.subschema_for::<FileName>(),
+]);

@@ -1,10 +1,9 @@
 //! The forms of a stiffness and of rest lengths in a scene: a number, a word, a table by letters, or a file.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Unexpected};
@@ -12,7 +11,7 @@ use serde::de::{Error, MapAccess, Unexpected};
 use super::Located;
 use super::forms::FileName;
 use super::values::{Positive, Stiffness};
-use super::written::{Written, read_as_written};
+use super::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::Assignment;
 
 /// Stiffness of the elements of a term.
@@ -104,20 +103,12 @@ impl Written for StiffnessSpec {
     }
 }
 
-impl JsonSchema for StiffnessSpec {
-    fn schema_name() -> Cow<'static, str> {
-        "Stiffnesses".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [
-            generator.subschema_for::<Stiffness>(),
-            { "const": "mesh", "description": "as the mesh file gives its edges" },
-            generator.subschema_for::<Letters>(),
-            generator.subschema_for::<FileName>(),
-        ] })
-    }
-}
+schema_any_of!(StiffnessSpec as "Stiffnesses", generator, [
+    generator.subschema_for::<Stiffness>(),
+    { "const": "mesh", "description": "as the mesh file gives its edges" },
+    generator.subschema_for::<Letters>(),
+    generator.subschema_for::<FileName>(),
+]);
 
 /// Rest lengths of bars.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,16 +142,8 @@ impl Written for RestLengthSpec {
     }
 }
 
-impl JsonSchema for RestLengthSpec {
-    fn schema_name() -> Cow<'static, str> {
-        "RestLengths".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [
-            { "const": "drawn" },
-            { "type": "number", "exclusiveMinimum": 0, "description": "factor on the drawn lengths" },
-            generator.subschema_for::<FileName>(),
-        ] })
-    }
-}
+schema_any_of!(RestLengthSpec as "RestLengths", generator, [
+    { "const": "drawn" },
+    { "type": "number", "exclusiveMinimum": 0, "description": "factor on the drawn lengths" },
+    generator.subschema_for::<FileName>(),
+]);

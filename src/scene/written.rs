@@ -54,6 +54,22 @@ macro_rules! read_as_written {
 }
 pub(super) use read_as_written;
 
+/// Implements the schema "any of these forms" for a type, to match the visitor that reads the forms.
+macro_rules! schema_any_of {
+    ($type:ident as $name:literal, $generator:ident, $forms:tt) => {
+        impl schemars::JsonSchema for $type {
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                $name.into()
+            }
+
+            fn json_schema($generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                schemars::json_schema!({ "anyOf": $forms })
+            }
+        }
+    };
+}
+pub(super) use schema_any_of;
+
 struct AnyForm<T>(PhantomData<T>);
 
 impl<'de, T: Written> Visitor<'de> for AnyForm<T> {

@@ -1,8 +1,6 @@
 //! `[[part]]`, `[[tie]]` and `[[drive]]`: vertices that move as one body, those that stay in one place, and the quantities that a path drives.
 
-use std::borrow::Cow;
-
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error, IntoDeserializer, SeqAccess, Unexpected};
@@ -10,7 +8,7 @@ use serde::de::{Error, IntoDeserializer, SeqAccess, Unexpected};
 use super::vertices::VertexSet;
 use crate::scene::Located;
 use crate::scene::values::{EdgeName, Label, Motions, Triple};
-use crate::scene::written::{Written, read_as_written};
+use crate::scene::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::angle::Angle;
 
 /// `[[part]]`: vertices of a patch that move as one rigid body.
@@ -112,16 +110,10 @@ impl Written for DriveEnd {
     }
 }
 
-impl JsonSchema for DriveEnd {
-    fn schema_name() -> Cow<'static, str> {
-        "DriveEnd".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let one = generator.subschema_for::<Angle>();
-        json_schema!({ "anyOf": [one, { "type": "array", "minItems": 1, "items": one }] })
-    }
-}
+schema_any_of!(DriveEnd as "DriveEnd", generator, [
+    generator.subschema_for::<Angle>(),
+    { "type": "array", "minItems": 1, "items": generator.subschema_for::<Angle>() },
+]);
 
 /// A term whose stiffness can be driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -162,13 +154,4 @@ impl Written for AxisSpec {
     }
 }
 
-impl JsonSchema for AxisSpec {
-    fn schema_name() -> Cow<'static, str> {
-        "Axis".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let direction = generator.subschema_for::<[f64; 3]>();
-        json_schema!({ "anyOf": [{ "enum": Motions::NAMES }, direction] })
-    }
-}
+schema_any_of!(AxisSpec as "Axis", generator, [{ "enum": Motions::NAMES }, generator.subschema_for::<[f64; 3]>()]);

@@ -1,9 +1,8 @@
 //! `facets` of `[energy]`: how polygons bend.
 
-use std::borrow::Cow;
 use std::ops::Deref;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{Error, IntoDeserializer, MapAccess};
@@ -14,7 +13,7 @@ use crate::scene::Located;
 use crate::scene::rest::RestSpec;
 use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::values::Fraction;
-use crate::scene::written::{Written, read_as_written};
+use crate::scene::written::{Written, read_as_written, schema_any_of};
 
 /// The model by which quadrilaterals bend, named by the vertices and bars of one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -74,13 +73,8 @@ impl Written for FacetsForm {
     }
 }
 
-impl JsonSchema for FacetsForm {
-    fn schema_name() -> Cow<'static, str> {
-        "Facets".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let forms = [generator.subschema_for::<FacetModel>(), generator.subschema_for::<FacetsSpec>()];
-        json_schema!({ "anyOf": forms })
-    }
-}
+schema_any_of!(
+    FacetsForm as "Facets",
+    generator,
+    [generator.subschema_for::<FacetModel>(), generator.subschema_for::<FacetsSpec>()]
+);

@@ -1,17 +1,16 @@
 //! `law = { kind = "..", .. }` of bars and hinges: how their force grows with what they are off their rest values.
 
-use std::borrow::Cow;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error as _, SeqAccess};
 use thiserror::Error;
 
 use crate::scene::values::{Exactly, numbers};
-use crate::scene::written::{Written, read_as_written};
+use crate::scene::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::angle::Angle;
 
 /// The reasons for which a number of a law is refused.
@@ -205,18 +204,10 @@ impl Written for Yields {
     }
 }
 
-impl JsonSchema for Yields {
-    fn schema_name() -> Cow<'static, str> {
-        "Yields".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [
-            { "type": "number", "exclusiveMinimum": 0, "description": "on both sides" },
-            generator.subschema_for::<[f64; 2]>(),
-        ] })
-    }
-}
+schema_any_of!(Yields as "Yields", generator, [
+    { "type": "number", "exclusiveMinimum": 0, "description": "on both sides" },
+    generator.subschema_for::<[f64; 2]>(),
+]);
 
 /// Two exponents that differ.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]

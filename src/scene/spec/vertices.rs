@@ -1,14 +1,12 @@
 //! Sets of vertices of a patch, in the forms in which a scene names them.
 
-use std::borrow::Cow;
-
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 
 use crate::scene::values::Exactly;
-use crate::scene::written::{Written, read_as_written};
+use crate::scene::written::{Written, read_as_written, schema_any_of};
 
 /// A set of vertices of a patch.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,32 +139,20 @@ impl Written for Coordinate {
     }
 }
 
-impl JsonSchema for VertexSet {
-    fn schema_name() -> Cow<'static, str> {
-        "VertexSet".into()
-    }
+schema_any_of!(VertexSet as "VertexSet", generator, [
+    { "type": "array", "items": { "anyOf": [
+        { "type": "integer", "minimum": 0 },
+        { "type": "array", "items": { "type": "integer", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
+    ] } },
+    { "type": "string", "description": "a list of vertices that the mesh names in `foldwell:names`" },
+    {
+        "type": "object", "additionalProperties": false, "required": ["where"],
+        "properties": { "where": generator.subschema_for::<Plane>() },
+    },
+    {
+        "type": "object", "additionalProperties": false, "required": ["box"],
+        "properties": { "box": generator.subschema_for::<[[f64; 3]; 2]>() },
+    },
+]);
 
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let place = generator.subschema_for::<Plane>();
-        let corners = generator.subschema_for::<[[f64; 3]; 2]>();
-        json_schema!({ "anyOf": [
-            { "type": "array", "items": { "anyOf": [
-                { "type": "integer", "minimum": 0 },
-                { "type": "array", "items": { "type": "integer", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
-            ] } },
-            { "type": "string", "description": "a list of vertices that the mesh names in `foldwell:names`" },
-            { "type": "object", "additionalProperties": false, "required": ["where"], "properties": { "where": place } },
-            { "type": "object", "additionalProperties": false, "required": ["box"], "properties": { "box": corners } },
-        ] })
-    }
-}
-
-impl JsonSchema for Coordinate {
-    fn schema_name() -> Cow<'static, str> {
-        "Coordinate".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [{ "enum": ["min", "max"] }, { "type": "number" }] })
-    }
-}
+schema_any_of!(Coordinate as "Coordinate", _generator, [{ "enum": ["min", "max"] }, { "type": "number" }]);
