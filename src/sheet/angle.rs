@@ -101,6 +101,18 @@ pub(crate) fn radians<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64,
     Angle::deserialize(deserializer).map(|angle| angle.radians)
 }
 
+/// Returns the degrees that are read as exactly this angle: the shortest of the numbers next to it that are.
+pub(crate) fn in_degrees(angle: f64) -> f64 {
+    shortest(angle.to_degrees(), |degrees| degrees.to_radians() == angle)
+}
+
+/// Returns the shortest of the numbers next to one that are right; that one if none is.
+pub(crate) fn shortest(near: f64, is_right: impl Fn(f64) -> bool) -> f64 {
+    let rounded = [1e3, 1e6, 1e9, 1e12].map(|scale| (near * scale).round() / scale);
+    let candidates = rounded.into_iter().chain([near, near.next_up(), near.next_down()]);
+    candidates.into_iter().find(|number| is_right(*number)).unwrap_or(near)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

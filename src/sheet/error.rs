@@ -25,6 +25,13 @@ pub enum SheetError {
     },
 }
 
+impl SheetError {
+    /// Makes the error of a file that has this problem in a line and column.
+    pub(crate) fn bad(name: &str, [line, column]: [usize; 2], problem: impl Into<Box<Problem>>) -> Self {
+        Self::Bad { name: name.to_owned(), line, column, problem: problem.into() }
+    }
+}
+
 /// The part of a drawn mesh to which a [`Defect`] refers, numbered from 0 whatever the file does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshPart {

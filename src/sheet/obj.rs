@@ -16,11 +16,11 @@ use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::Path;
 
+use super::angle::in_degrees;
 use super::assignment::Assignment;
 use super::build::{Drawing, build, draw};
 use super::cell::Sheet;
 use super::error::{Defect, MeshPart, Problem, SheetError};
-use super::fold::in_degrees;
 use super::text;
 use crate::math::Vec3;
 
@@ -45,9 +45,10 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     for (number, line) in joined_lines(text) {
         reader.line = number;
-        reader.read(&line).map_err(|problem| bad(name, reader.line, problem))?;
+        reader.read(&line).map_err(|problem| SheetError::bad(name, [number, 1], problem))?;
     }
-    reader.drawn.lattice = reader.lattice().map_err(|problem| bad(name, reader.line, problem))?;
+    let last = [reader.line.max(1), 1];
+    reader.drawn.lattice = reader.lattice().map_err(|problem| SheetError::bad(name, last, problem))?;
     let mut sheet = build(&reader.drawn).map_err(|defect| reader.located(name, defect))?;
     sheet.record.metadata = reader.metadata;
     Ok(sheet)
@@ -69,10 +70,6 @@ fn joined_lines(text: &str) -> Vec<(usize, Cow<'_, str>)> {
         goes_on = continued;
     }
     lines
-}
-
-fn bad(name: &str, line: usize, problem: Problem) -> SheetError {
-    SheetError::Bad { name: name.to_owned(), line: line.max(1), column: 1, problem: Box::new(problem) }
 }
 
 /// The mesh read so far, and the line numbers of its parts.
@@ -194,7 +191,7 @@ impl Reader {
             MeshPart::FoldAngle(e) => self.angle_lines.get(e),
             MeshPart::Mesh => None,
         };
-        bad(name, line.copied().unwrap_or(self.line), *defect.problem)
+        SheetError::bad(name, [line.copied().unwrap_or(self.line).max(1), 1], defect.problem)
     }
 }
 

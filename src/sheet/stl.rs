@@ -32,13 +32,8 @@ pub fn read(path: &Path) -> Result<Sheet, SheetError> {
 /// # Errors
 /// [`SheetError::Bad`] with what is wrong, and in a text its line.
 pub fn parse(bytes: &[u8], name: &str) -> Result<Sheet, SheetError> {
-    let bad = |line: usize, problem: Problem| SheetError::Bad {
-        name: name.to_owned(),
-        line,
-        column: 1,
-        problem: Box::new(problem),
-    };
-    let corners = binary(bytes).map_or_else(|| ascii(bytes), Ok).map_err(|(line, problem)| bad(line, problem))?;
+    let corners = binary(bytes).map_or_else(|| ascii(bytes), Ok);
+    let corners = corners.map_err(|(line, problem)| SheetError::bad(name, [line, 1], problem))?;
     let coords: Vec<Vec3> = corners.iter().map(|(_, x)| *x).collect();
     let mut number: Vec<usize> = (0..coords.len()).collect();
     coincident(&coords).into_iter().for_each(|[v, first]| number[v] = first);
@@ -58,7 +53,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Sheet, SheetError> {
         MeshPart::Face(face) => corners.get(3 * face).map_or(1, |(line, _)| *line),
         _ => 1,
     };
-    build(&drawn).map_err(|defect| bad(line(&defect), *defect.problem))
+    build(&drawn).map_err(|defect| SheetError::bad(name, [line(&defect), 1], defect.problem))
 }
 
 /// A corner of a triangle, and its line in a text.

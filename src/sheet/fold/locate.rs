@@ -27,15 +27,14 @@ impl<'a> Source<'a> {
         let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
         let start = before.iter().rposition(|&b| b == b'\n').map_or(0, |k| k + 1);
         let column = String::from_utf8_lossy(&before[start..]).chars().count() + 1;
-        SheetError::Bad { name: self.name.to_owned(), line, column, problem: Box::new(problem) }
+        SheetError::bad(self.name, [line, column], problem)
     }
 
     /// Returns the error of the JSON parser, without the position in its message.
     pub(crate) fn syntax(&self, error: &serde_json::Error) -> SheetError {
         let full = error.to_string();
         let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned();
-        let problem = Box::new(Problem::Syntax { message });
-        SheetError::Bad { name: self.name.to_owned(), line: error.line(), column: error.column(), problem }
+        SheetError::bad(self.name, [error.line(), error.column()], Problem::Syntax { message })
     }
 
     /// Reads the value as a `T`; `what` is the name of the value in messages, and `right` describes what it should

@@ -37,7 +37,6 @@ mod stiffness;
 mod write;
 
 pub use parse::{parse, parse_frame, read, read_frame};
-pub(crate) use write::in_degrees;
 pub use write::write;
 
 #[cfg(test)]

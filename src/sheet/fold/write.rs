@@ -6,6 +6,7 @@ use std::fmt::{Display, Write};
 use super::keys::GLUE;
 use super::record::{ATTRIBUTES, CLASSES};
 use super::stiffness::{BARS, HINGES};
+use crate::sheet::angle::in_degrees;
 use crate::sheet::assigned::FLAT;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
@@ -144,14 +145,6 @@ fn corners(sheet: &Sheet, drawn: &Drawing) -> Vec<Corner> {
 fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
     let angle = sheet.drawn_angle(edge).filter(|_| edge.kind != EdgeKind::Boundary)?.to_degrees();
     Some(if angle.abs() < FLAT { 0.0 } else { (angle * 1e9).round() / 1e9 })
-}
-
-/// Returns the degrees that are read as exactly this angle: the shortest of the numbers next to it that are.
-pub(crate) fn in_degrees(angle: f64) -> f64 {
-    let near = angle.to_degrees();
-    let rounded = [1e3, 1e6, 1e9, 1e12].map(|scale| (near * scale).round() / scale);
-    let candidates = rounded.into_iter().chain([near, near.next_up(), near.next_down()]);
-    candidates.into_iter().find(|degrees| degrees.to_radians() == angle).unwrap_or(near)
 }
 
 fn field(text: &mut String, key: &str, value: &str) {

@@ -129,12 +129,7 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         Format::Ori => ori::lines(text),
         Format::Dxf => dxf::lines(text),
     };
-    let bad = |[line, column]: [usize; 2], problem: Box<Problem>| SheetError::Bad {
-        name: name.to_owned(),
-        line,
-        column,
-        problem,
-    };
+    let bad = |place: [usize; 2], problem: Box<Problem>| SheetError::bad(name, place, problem);
     let DrawnLines { lines, mut title, redrawing } = read.map_err(|(place, problem)| bad(place, problem))?;
     if title.is_empty() {
         title = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();

@@ -51,7 +51,7 @@ pub(super) fn lines(text: &str) -> Lines {
 #[derive(Clone, Copy, Default)]
 struct Around {
     style: Style,
-    transform: Transform,
+    transform: Affine,
 }
 
 struct Drawing<'d, 'input> {
@@ -144,30 +144,20 @@ impl Around {
         let Some(text) = properties.get("transform").filter(|text| **text != "none") else {
             return Ok(Self { style, ..*self });
         };
-        let own = text
-            .parse()
-            .map_err(|_| value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like"))?;
-        Ok(Self { style, transform: product(self.transform, own) })
+        let wrong = |_| value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like");
+        let Transform { a, b, c, d, e, f } = text.parse().map_err(wrong)?;
+        Ok(Self { style, transform: self.transform * Affine::new([a, b, c, d, e, f]) })
     }
 
     /// Translates by the attributes `x` and `y` of an element.
     fn shift(&mut self, node: Node) -> Result<(), PatternFault> {
-        let shift = Transform::new(1.0, 0.0, 0.0, 1.0, length(node, "x")?, length(node, "y")?);
-        self.transform = product(self.transform, shift);
+        self.transform *= Affine::translate((length(node, "x")?, length(node, "y")?));
         Ok(())
     }
 
     /// Returns the transform from an element to the sheet, whose y points upwards.
     fn placed(&self) -> Affine {
-        let Transform { a, b, c, d, e, f } = self.transform;
+        let [a, b, c, d, e, f] = self.transform.as_coeffs();
         Affine::new([a, flip(b), c, flip(d), e, flip(f)])
     }
-}
-
-/// Returns the transform that does first `second`, then `first`.
-fn product(first: Transform, second: Transform) -> Transform {
-    let Transform { a, b, c, d, e, f } = first;
-    let column = |x: f64, y: f64| [a * x + c * y, b * x + d * y];
-    let [[p, q], [r, s], [t, u]] = [column(second.a, second.b), column(second.c, second.d), column(second.e, second.f)];
-    Transform::new(p, q, r, s, t + e, u + f)
 }

@@ -6,6 +6,7 @@ use super::colour;
 use super::cp::TYPES;
 use super::flat::{NotFlat, edges};
 use super::line::flip;
+use crate::sheet::angle::shortest;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::Sheet;
 
@@ -50,10 +51,7 @@ pub fn write_svg(sheet: &Sheet) -> Result<String, NotFlat> {
 /// Returns the opacity that is read as exactly this target angle: the shortest of the numbers next to it that are.
 fn opacity(target: f64) -> f64 {
     let target = target.abs();
-    let near = target.to_degrees() / 180.0;
-    let rounded = [1e3, 1e6, 1e9, 1e12].map(|scale| (near * scale).round() / scale);
-    let candidates = rounded.into_iter().chain([near, near.next_up(), near.next_down()]);
-    candidates.into_iter().find(|opacity| (opacity * 180.0).to_radians() == target).unwrap_or(near)
+    shortest(target.to_degrees() / 180.0, |opacity| (opacity * 180.0).to_radians() == target)
 }
 
 fn escaped(text: &str) -> String {
