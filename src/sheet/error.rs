@@ -1,12 +1,19 @@
 //! The errors of a mesh: what is wrong, where, and what would be right.
 
-use super::assignment_fault::AssignmentFault;
-pub use super::drawn_edge::DrawnEdge;
-use super::fold_angle_fault::FoldAngleFault;
-use super::frame_fault::FrameFault;
+use super::assignment::Assignment;
 use super::pattern_fault::PatternFault;
-use super::plane_fault::PlaneFault;
+use std::fmt;
 use std::path::PathBuf;
+
+/// An edge of a drawn mesh, named by the numbers that the file gives to its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawnEdge(pub usize, pub usize);
+
+impl fmt::Display for DrawnEdge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "[{}, {}]", self.0, self.1)
+    }
+}
 
 /// The reason why a file gives no sheet.
 #[derive(Debug, thiserror::Error)]
@@ -165,19 +172,90 @@ pub enum Problem {
     LooseEdge { edge: usize, ends: DrawnEdge },
     #[error("edges {a} and {b} cross or touch in the plane; edges should meet at common vertices only")]
     Crossing { a: DrawnEdge, b: DrawnEdge },
-    #[error(transparent)]
-    Plane(#[from] PlaneFault),
-    #[error(transparent)]
-    Assignment(#[from] AssignmentFault),
+    #[error("edge {0} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it")]
+    Upright(DrawnEdge),
+    #[error(
+        "edge {edge} of the list, {ends}, belongs to edges inside a face that are not joined to the others; give \
+         `faces_vertices`, which cannot be rebuilt for them, or join them"
+    )]
+    Nested { edge: usize, ends: DrawnEdge },
+    #[error(
+        "edge {edge} of the list, {ends}, is assigned B, a boundary, but it lies between two faces; assign C to cut the \
+         sheet there, M, V, F or U to a crease, or take away the face that is a hole"
+    )]
+    BoundaryInside { edge: usize, ends: DrawnEdge },
+    #[error("edge {edge} of the list, {ends}, is assigned J, which joins two faces, but it has only one; assign B")]
+    JoinAtRim { edge: usize, ends: DrawnEdge },
+    #[error(
+        "edge {edge} of the list, {ends}, is assigned {letter}, but the vertices draw a fold angle of {drawn} degrees \
+         (valley positive, seen from the side of the face normals); assign the other letter, or turn all faces over"
+    )]
+    OtherSide {
+        edge: usize,
+        ends: DrawnEdge,
+        letter: Assignment,
+        /// Fold angle that the vertices draw, in degrees.
+        drawn: f64,
+    },
+    #[error(
+        "`foldwell:glue` has {found} word(s) for edge {edge} of {faces} face(s); it is for edges of three or more faces, \
+         and has one word, or one for each face"
+    )]
+    Glue { edge: DrawnEdge, faces: usize, found: usize },
+    #[error(
+        "edge {edge} of the list, {ends}, is assigned C, but the sheet stays joined at both of its ends, so that this cut \
+         cannot open; let cuts of two edges or more meet, or reach the rim"
+    )]
+    ClosedCut { edge: usize, ends: DrawnEdge },
+    #[error(
+        "edge {edge} of the list, {ends}, is assigned C, but a periodic sheet cannot be cut along an edge; draw the cut \
+         as an opening, with vertices of its own on both sides, and list it in `foldwell:holes`"
+    )]
+    PeriodicCut { edge: usize, ends: DrawnEdge },
     #[error(
         "edge {edge} of the list, {ends}, has {given} in `{key}`, and another copy of it in the drawing has {before}; \
          give both the same, or one of them null"
     )]
     StiffnessOfCopies { key: &'static str, edge: usize, ends: DrawnEdge, given: f64, before: f64 },
-    #[error(transparent)]
-    Frame(#[from] FrameFault),
-    #[error(transparent)]
-    FoldAngle(#[from] FoldAngleFault),
+    #[error("there is no frame {frame}; {}", frames(*last))]
+    NoFrame { frame: usize, last: usize },
+    #[error("`frame_parent` of frame {frame} is {parent}; {}", frames(*last))]
+    NoParent { frame: usize, parent: usize, last: usize },
+    #[error("frame {frame} inherits from itself by way of `frame_parent`; parents should lead to frame 0")]
+    FrameCycle { frame: usize },
+    #[error(
+        "edge {edge} of the list, {ends}, has the fold angle {given} degrees; a target angle should be between -180 and \
+         180 degrees, valley positive"
+    )]
+    AngleRange {
+        edge: usize,
+        ends: DrawnEdge,
+        /// The fold angle, in degrees.
+        given: f64,
+    },
+    #[error(
+        "edge {edge} of the list, {ends}, is assigned {letter} and has the fold angle {given} degrees; mountains have \
+         negative angles and valleys positive ones: change the sign or the letter"
+    )]
+    AngleOtherSide {
+        edge: usize,
+        ends: DrawnEdge,
+        letter: Assignment,
+        /// The fold angle, in degrees.
+        given: f64,
+    },
+    #[error(
+        "edge {edge} of the list, {ends}, has the fold angle {given} degrees, and another copy of it in the drawing has \
+         {before} degrees; give both the same, or one of them null"
+    )]
+    AngleOfCopies {
+        edge: usize,
+        ends: DrawnEdge,
+        /// Fold angle of this copy, in degrees.
+        given: f64,
+        /// Fold angle of the copy that is listed before, in degrees.
+        before: f64,
+    },
     #[error(transparent)]
     Pattern(#[from] PatternFault),
 }
@@ -187,6 +265,14 @@ fn numbering(first: usize, last: usize) -> String {
         "no vertices stand before it".to_owned()
     } else {
         format!("vertices are numbered {first} to {last}")
+    }
+}
+
+fn frames(last: usize) -> String {
+    if last == 0 {
+        "the file has frame 0 only".to_owned()
+    } else {
+        format!("frames are 0, the top of the file, and 1 to {last}, those of `file_frames`")
     }
 }
 

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::Assignment;
-use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
 
 /// Least distance in degrees of a fold angle from 0 and from 180 at which it is a mountain or a valley.
@@ -38,11 +37,10 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
                 continue;
             }
             // a simulator folds some creases to the other side, or the whole pattern backwards
-            let aimed =
-                |problem: &AssignmentFault| problem.is_other_side() && targets.contains(&(sorted(ends), assignment));
+            let is_aimed = targets.contains(&(sorted(ends), assignment));
             let found = fault(sheet, edge, (e, drawn.edge_name(ends)), assignment);
-            if let Some(problem) = found.filter(|problem| !aimed(problem)) {
-                return Err(Defect::new(MeshPart::Edge(e), Problem::Assignment(problem)));
+            if let Some(problem) = found.filter(|problem| !(is_aimed && matches!(problem, Problem::OtherSide { .. }))) {
+                return Err(Defect::new(MeshPart::Edge(e), problem));
             }
             let (key, shown) = (edge.key, sheet.drawn_assignment(edge));
             if assignment != shown {
@@ -68,19 +66,17 @@ fn fault(
     found: &Edge,
     (edge, ends): (usize, crate::sheet::error::DrawnEdge),
     assignment: Assignment,
-) -> Option<AssignmentFault> {
+) -> Option<Problem> {
     let drawn = sheet.drawn_angle(found).unwrap_or(0.0).to_degrees();
     let folded = drawn.abs() > SIDE_TOLERANCE && drawn.abs() < 180.0 - SIDE_TOLERANCE;
     match (assignment, found.kind) {
-        (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => {
-            Some(AssignmentFault::BoundaryInside { edge, ends })
-        }
-        (Assignment::Join, EdgeKind::Boundary) => Some(AssignmentFault::JoinAtRim { edge, ends }),
+        (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => Some(Problem::BoundaryInside { edge, ends }),
+        (Assignment::Join, EdgeKind::Boundary) => Some(Problem::JoinAtRim { edge, ends }),
         (Assignment::Mountain, EdgeKind::Crease) if folded && drawn > 0.0 => {
-            Some(AssignmentFault::OtherSide { edge, ends, letter: assignment, drawn })
+            Some(Problem::OtherSide { edge, ends, letter: assignment, drawn })
         }
         (Assignment::Valley, EdgeKind::Crease) if folded && drawn < 0.0 => {
-            Some(AssignmentFault::OtherSide { edge, ends, letter: assignment, drawn })
+            Some(Problem::OtherSide { edge, ends, letter: assignment, drawn })
         }
         _ => None,
     }

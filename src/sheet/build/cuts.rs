@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::Assignment;
-use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Corner, EdgeKey};
 
 /// Cut edges by name, each with its index in the list of edges.
@@ -64,14 +63,10 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
     match cuts.values().min() {
         Some(&edge) if drawn.is_repeated() => {
             let ends = drawn.edge_name(drawn.assignments[edge].0);
-            Err(fault(AssignmentFault::PeriodicCut { edge, ends }, edge))
+            Err(Defect::new(MeshPart::Edge(edge), Problem::PeriodicCut { edge, ends }))
         }
         _ => Ok(cuts),
     }
-}
-
-fn fault(fault: AssignmentFault, edge: usize) -> Defect {
-    Defect::new(MeshPart::Edge(edge), Problem::Assignment(fault))
 }
 
 fn sides(polygon: &[Corner]) -> impl Iterator<Item = EdgeKey> + '_ {
@@ -160,7 +155,7 @@ fn check_open(
         let [i, j] = key.ends().map(|end| Corner { vertex: origin(end.vertex), ..end });
         if let Some(&edge) = cuts.get(&EdgeKey::new(i, j).0) {
             let ends = drawn.edge_name(drawn.assignments[edge].0);
-            return Err(fault(AssignmentFault::ClosedCut { edge, ends }, edge));
+            return Err(Defect::new(MeshPart::Edge(edge), Problem::ClosedCut { edge, ends }));
         }
     }
     Ok(())

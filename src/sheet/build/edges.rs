@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use super::hinges::{self, Flap};
 use super::split::{Part, position};
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
-use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
 use crate::sheet::pieces::pieces;
 
@@ -102,8 +101,8 @@ pub(super) fn glue(drawn: &Drawing, cell: &Identified, sides: &[Side]) -> Result
         let faces = sides.iter().find(|side| side.key == key).map_or(0, |side| side.uses.len());
         let words = if words.len() == 1 { vec![words[0]; faces] } else { words.clone() };
         if faces < 3 || words.len() != faces {
-            let fault = AssignmentFault::Glue { edge: drawn.edge_name(*ends), faces, found: words.len() };
-            return Err(Defect::new(MeshPart::Edge(e), Problem::Assignment(fault)));
+            let problem = Problem::Glue { edge: drawn.edge_name(*ends), faces, found: words.len() };
+            return Err(Defect::new(MeshPart::Edge(e), problem));
         }
         found.insert(key, words);
     }

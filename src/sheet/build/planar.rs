@@ -7,7 +7,6 @@ use std::ops::ControlFlow;
 use super::{Defect, Drawing, MeshPart, Problem};
 use crate::math::{Vec2, Vec3};
 use crate::sheet::boxes::{around, for_pairs_that_meet};
-use crate::sheet::plane_fault::PlaneFault;
 
 /// Sine of the angle below which three points count as collinear.
 const ALIGNED: f64 = 1e-12;
@@ -60,7 +59,7 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     let x = &drawn.coords;
     let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, MeshPart::Edge(e))).collect();
     if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
-        return Err(Defect::new(place, PlaneFault::Upright(drawn.edge_name([a, b])).into()));
+        return Err(Defect::new(place, Problem::Upright(drawn.edge_name([a, b]))));
     }
     super::check_places(drawn)?;
     check_crossings(drawn, &placed)?;
@@ -72,7 +71,7 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     let (faces, outside): (Vec<_>, Vec<_>) = walks.into_iter().partition(|walk| area(x, walk) > 0.0);
     let Some(inner) = nested(x, &outside) else { return Ok(faces) };
     let edge = edges.iter().position(|ends| ends.contains(&inner)).unwrap_or_default();
-    Err(Defect::new(MeshPart::Edge(edge), PlaneFault::Nested { edge, ends: drawn.edge_name(edges[edge]) }.into()))
+    Err(Defect::new(MeshPart::Edge(edge), Problem::Nested { edge, ends: drawn.edge_name(edges[edge]) }))
 }
 
 /// Returns a vertex of a closed walk that lies inside another one, of walks that do not cross.
@@ -193,6 +192,6 @@ mod tests {
         assert_eq!(apart, [vec![0, 1, 2], vec![3, 4, 5]]);
         let within = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [1.0, 1.0], [2.0, 1.0], [1.0, 2.0]];
         let nested = faces_of(&drawn(&within), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap_err();
-        assert_eq!(*nested.problem, PlaneFault::Nested { edge: 3, ends: DrawnEdge(3, 4) }.into());
+        assert_eq!(*nested.problem, Problem::Nested { edge: 3, ends: DrawnEdge(3, 4) });
     }
 }

@@ -9,7 +9,6 @@ use crate::sheet::assigned::is_same_angle;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet, is_folded_flat};
 use crate::sheet::error::DrawnEdge;
-use crate::sheet::fold_angle_fault::FoldAngleFault;
 
 /// Keeps the fold angles of the file as targets if some of them are not the drawn ones; otherwise they say nothing that
 /// the drawing does not. An angle that is not drawn has to be between -pi and pi, and on the side of its edge's letter.
@@ -31,7 +30,7 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
         if numbers.is_empty() {
             return Err(Defect::new(MeshPart::Edge(e), Problem::LooseEdge { edge: e, ends: named.1 }));
         }
-        let refused = |fault: FoldAngleFault| Defect::new(MeshPart::FoldAngle(e), Problem::FoldAngle(fault));
+        let refused = |problem: Problem| Defect::new(MeshPart::FoldAngle(e), problem);
         for edge in with_one_hinge(sheet, numbers).iter().map(|&number| &sheet.edges[number]) {
             let is_drawn = is_drawn(sheet, edge, angle);
             if let Some(fault) = fault(named, letters.get(&name).copied(), angle, is_drawn) {
@@ -40,7 +39,7 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
             let before = targets.insert(edge.key, angle).filter(|before| !is_same_angle(*before, angle));
             if let Some(before) = before {
                 let [given, before] = [angle, before].map(f64::to_degrees);
-                return Err(refused(FoldAngleFault::Copies { edge: e, ends: named.1, given, before }));
+                return Err(refused(Problem::AngleOfCopies { edge: e, ends: named.1, given, before }));
             }
             all_drawn &= is_drawn;
             if !letters.contains_key(&name) && is_other_side(sheet.drawn_assignment(edge), angle) {
@@ -70,16 +69,11 @@ fn is_drawn(sheet: &Sheet, edge: &Edge, angle: f64) -> bool {
 }
 
 /// Returns the reason for which an edge cannot have this angle.
-fn fault(
-    (edge, ends): (usize, DrawnEdge),
-    letter: Option<Assignment>,
-    angle: f64,
-    is_drawn: bool,
-) -> Option<FoldAngleFault> {
+fn fault((edge, ends): (usize, DrawnEdge), letter: Option<Assignment>, angle: f64, is_drawn: bool) -> Option<Problem> {
     let given = angle.to_degrees();
     match letter {
-        _ if !is_within_a_turn(angle) && !is_drawn => Some(FoldAngleFault::Range { edge, ends, given }),
-        Some(letter) if is_other_side(letter, angle) => Some(FoldAngleFault::OtherSide { edge, ends, letter, given }),
+        _ if !is_within_a_turn(angle) && !is_drawn => Some(Problem::AngleRange { edge, ends, given }),
+        Some(letter) if is_other_side(letter, angle) => Some(Problem::AngleOtherSide { edge, ends, letter, given }),
         _ => None,
     }
 }

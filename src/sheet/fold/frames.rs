@@ -6,7 +6,6 @@ use serde_json::value::RawValue;
 use super::keys::Values;
 use super::locate::Source;
 use crate::sheet::error::{Problem, SheetError};
-use crate::sheet::frame_fault::FrameFault;
 
 /// The frame that is read, with the keys that it inherits.
 pub(super) struct Frame<'a> {
@@ -73,7 +72,7 @@ impl<'a> Frames<'_, 'a> {
     fn resolved(&self, number: usize) -> Result<Values<'a>, SheetError> {
         let last = self.further.len();
         if number > last {
-            return Err(self.source.at_start(Problem::Frame(FrameFault::NoFrame { frame: number, last })));
+            return Err(self.source.at_start(Problem::NoFrame { frame: number, last }));
         }
         let (mut values, mut at, mut seen) = (Values::default(), number, vec![number]);
         loop {
@@ -86,7 +85,7 @@ impl<'a> Frames<'_, 'a> {
             }
             let Some(parent) = self.parent(own, at)? else { break };
             if seen.contains(&parent) {
-                let problem = Problem::Frame(FrameFault::Cycle { frame: number });
+                let problem = Problem::FrameCycle { frame: number };
                 return Err(match own.get("frame_parent") {
                     Some(place) => self.source.at(place, problem),
                     None => self.source.at_start(problem),
@@ -113,7 +112,7 @@ impl<'a> Frames<'_, 'a> {
         let parent: usize = self.source.typed(value, || "`frame_parent`".into(), "the number of a frame")?;
         let last = self.further.len();
         if parent > last {
-            let problem = Problem::Frame(FrameFault::NoParent { frame: number, parent, last });
+            let problem = Problem::NoParent { frame: number, parent, last };
             return Err(self.source.at(value, problem));
         }
         Ok(Some(parent))

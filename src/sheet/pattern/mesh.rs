@@ -14,7 +14,6 @@ use crate::sheet::build::{Drawing, build_identified, listed_order, rebuild_faces
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem};
 use crate::sheet::pattern_fault::PatternFault;
-use crate::sheet::plane_fault::PlaneFault;
 use crate::sheet::redrawing::{Gap, Redrawing};
 
 /// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little
@@ -265,7 +264,7 @@ fn located(lines: &[Line], number: Option<usize>, defect: Defect) -> Misdrawn {
     let problem = match (*defect.problem, number.map(|k| lines[k].name())) {
         (Problem::LooseEdge { .. }, Some(line)) if !lines.iter().any(is_rim) => PatternFault::NoRim { line }.into(),
         (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
-        (Problem::Plane(PlaneFault::Nested { .. }), Some(line)) => PatternFault::Nested { line }.into(),
+        (Problem::Nested { .. }, Some(line)) => PatternFault::Nested { line }.into(),
         (problem, Some(line)) => PatternFault::Line { line, problem: problem.to_string() }.into(),
         (problem, None) => Box::new(problem),
     };
