@@ -2,7 +2,7 @@
 
 use serde_json::value::RawValue;
 
-use super::keys::{GLUE, Keys};
+use super::keys::{GLUE, Values};
 use super::locate::Source;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::GluedEdge;
@@ -25,9 +25,9 @@ pub(super) struct Edges<'a> {
 }
 
 /// Reads the list of edges of a mesh with `count` drawn vertices.
-pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Result<Edges<'a>, SheetError> {
+pub(super) fn read<'a>(source: &Source<'a>, keys: &Values<'a>, count: usize) -> Result<Edges<'a>, SheetError> {
     let mut edges = Edges::default();
-    if let Some(value) = keys.edges_vertices {
+    if let Some(value) = keys.get("edges_vertices") {
         edges.rows = source.list(value, || "`edges_vertices`".into(), "a list of edges, [[0, 1], ...]")?;
     }
     edges.ends = edges.rows.iter().enumerate().map(|(e, row)| ends(source, row, e, count)).collect::<Result<_, _>>()?;
@@ -46,10 +46,10 @@ fn ends(source: &Source, row: &RawValue, e: usize, count: usize) -> Result<[usiz
 
 fn angles<'a>(
     source: &Source<'a>,
-    keys: &Keys<'a>,
+    keys: &Values<'a>,
     count: usize,
 ) -> Result<Vec<(&'a RawValue, Option<f64>)>, SheetError> {
-    let Some(value) = keys.edges_fold_angle else { return Ok(Vec::new()) };
+    let Some(value) = keys.get("edges_foldAngle") else { return Ok(Vec::new()) };
     let rows = source.list(value, || "`edges_foldAngle`".into(), "a list of degrees and nulls")?;
     check_length(source, value, "edges_foldAngle", rows.len(), count)?;
     let read = |(e, row): (usize, &&'a RawValue)| {
@@ -59,8 +59,8 @@ fn angles<'a>(
     rows.iter().enumerate().map(read).collect()
 }
 
-fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignment>, SheetError> {
-    let Some(value) = keys.edges_assignment else { return Ok(Vec::new()) };
+fn assignments(source: &Source, keys: &Values, count: usize) -> Result<Vec<Assignment>, SheetError> {
+    let Some(value) = keys.get("edges_assignment") else { return Ok(Vec::new()) };
     let rows = source.list(value, || "`edges_assignment`".into(), "a list of letters")?;
     check_length(source, value, "edges_assignment", rows.len(), count)?;
     let read = |(e, row): (usize, &&RawValue)| {
@@ -74,8 +74,8 @@ fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignm
 
 /// Reads the joints between the faces of edges of more than two faces, an entry for each edge: no word, one, or one for each
 /// face.
-pub(super) fn glue(source: &Source, keys: &Keys, ends: &[[usize; 2]]) -> Result<Vec<GluedEdge>, SheetError> {
-    let Some(value) = keys.glue else { return Ok(Vec::new()) };
+pub(super) fn glue(source: &Source, keys: &Values, ends: &[[usize; 2]]) -> Result<Vec<GluedEdge>, SheetError> {
+    let Some(value) = keys.get(GLUE) else { return Ok(Vec::new()) };
     let rows = source.list(value, || format!("`{GLUE}`"), "a list of words, lists of words, and nulls")?;
     check_length(source, value, GLUE, rows.len(), ends.len())?;
     let read = |(e, (row, ends)): (usize, (&&RawValue, &[usize; 2]))| {

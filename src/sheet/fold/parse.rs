@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::frames;
-use super::keys::Keys;
 use super::locate::Source;
 use super::read::read_drawing;
 use super::{clean, read as listed};
@@ -58,10 +57,9 @@ pub fn parse_frame(
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { name, text };
     let frame = frames::choose(&source, frame)?;
-    let keys = Keys::new(&frame.values);
-    let drawn = read_drawing(&source, &keys)?;
+    let drawn = read_drawing(&source, &frame.values)?;
     match cleanup.copied().or_else(|| clean::needed(&drawn)) {
         Some(cleanup) => clean::sheet(&source, &frame, drawn, &cleanup),
-        None => listed::sheet(&source, &frame, &keys, drawn),
+        None => listed::sheet(&source, &frame, drawn),
     }
 }

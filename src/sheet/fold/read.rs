@@ -8,7 +8,7 @@ use serde_json::value::RawValue;
 
 use super::edges::{self, Edges};
 use super::frames::Frame;
-use super::keys::Keys;
+use super::keys::Values;
 use super::locate::Source;
 use super::{record, stiffness};
 use crate::math::Vec3;
@@ -34,16 +34,16 @@ pub(super) type ReadFrame<'a> = (Drawing, Rows<'a>, Edges<'a>);
 pub(super) fn sheet<'a>(
     source: &Source<'a>,
     frame: &Frame<'a>,
-    keys: &Keys<'a>,
     (mut drawn, mut rows, mut edges): ReadFrame<'a>,
 ) -> Result<Sheet, SheetError> {
+    let keys = &frame.values;
     check_ends(&edges.ends, drawn.coords.len()).map_err(|(e, problem)| source.at(edges.rows[e], problem))?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     drawn.fold_angles = edges.fold_angles();
     read_holes(source, keys, &mut drawn, &mut rows)?;
     drawn.glue = edges::glue(source, keys, &edges.ends)?;
     drawn.names = read_names(source, keys, drawn.coords.len())?;
-    edges.rebuilt = keys.faces_vertices.is_none();
+    edges.rebuilt = keys.get("faces_vertices").is_none();
     let locate = |defect| located(source, keys, &rows, &edges, defect);
     let holes = if edges.rebuilt { rebuild_faces(&mut drawn, &edges.ends).map_err(locate)? } else { 0 };
     drawn.bars = bars_alone(&drawn, &edges.ends);
@@ -55,7 +55,7 @@ pub(super) fn sheet<'a>(
 }
 
 /// Reads title, vertices, edges and faces of a frame.
-pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Keys<'a>) -> Result<ReadFrame<'a>, SheetError> {
+pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Values<'a>) -> Result<ReadFrame<'a>, SheetError> {
     let mut rows = Rows::default();
     let mut drawn = head(source, keys)?;
     read_vertices(source, keys, &mut drawn, &mut rows)?;
@@ -64,28 +64,24 @@ pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Keys<'a>) -> Result<R
     Ok((drawn, rows, edges))
 }
 
-fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
-    let string = |value: Option<&RawValue>, key: &str| -> Result<Option<String>, SheetError> {
-        value.map(|v| source.typed(v, || format!("`{key}`"), "a text in quotes")).transpose()
+fn head(source: &Source, keys: &Values) -> Result<Drawing, SheetError> {
+    let string = |key: &str| -> Result<Option<String>, SheetError> {
+        keys.get(key).map(|v| source.typed(v, || format!("`{key}`"), "a text in quotes")).transpose()
     };
     let stem = || Path::new(source.name).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    // screw motions are objects
+    let (rolled, in_plane) = match keys.get("foldwell:lattice") {
+        Some(value) if value.get().contains('{') => (Some(value), None),
+        other => (None, other),
+    };
     Ok(Drawing {
-        title: string(keys.file_title, "file_title")?.unwrap_or_else(stem),
-        description: string(keys.file_description, "file_description")?.unwrap_or_default(),
-        folded: keys.frame_classes.is_some_and(|classes| classes.get().contains("\"foldedForm\"")),
-        lattice: keys
-            .lattice
-            .filter(|value| !repeats_by_screws(value))
-            .map(|value| lattice(source, value))
-            .transpose()?,
-        screws: keys.lattice.filter(|value| repeats_by_screws(value)).map(|value| screws(source, value)).transpose()?,
+        title: string("file_title")?.unwrap_or_else(stem),
+        description: string("file_description")?.unwrap_or_default(),
+        folded: keys.get("frame_classes").is_some_and(|classes| classes.get().contains("\"foldedForm\"")),
+        lattice: in_plane.map(|value| lattice(source, value)).transpose()?,
+        screws: rolled.map(|value| screws(source, value)).transpose()?,
         ..Drawing::default()
     })
-}
-
-/// Whether a lattice is one of screw motions, which are objects.
-fn repeats_by_screws(value: &RawValue) -> bool {
-    value.get().contains('{')
 }
 
 /// A screw motion in a file: its angle in degrees, and its translation.
@@ -114,14 +110,15 @@ fn lattice(source: &Source, value: &RawValue) -> Result<[Vec3; 2], SheetError> {
 
 fn read_vertices<'a>(
     source: &Source<'a>,
-    keys: &Keys<'a>,
+    keys: &Values<'a>,
     drawn: &mut Drawing,
     rows: &mut Rows<'a>,
 ) -> Result<(), SheetError> {
     let right = "a list of points, [[x, y, z], ...]";
     let missing =
         || source.at_start(Problem::Missing { key: "vertices_coords", right: "it should be a list of points" });
-    rows.vertices = source.list(keys.vertices_coords.ok_or_else(missing)?, || "`vertices_coords`".into(), right)?;
+    rows.vertices =
+        source.list(keys.get("vertices_coords").ok_or_else(missing)?, || "`vertices_coords`".into(), right)?;
     let mut dimension = None;
     for (v, row) in rows.vertices.iter().enumerate() {
         let point = source.list(row, || format!("vertex {v}"), "a list of 2 or 3 numbers")?;
@@ -141,12 +138,12 @@ fn read_vertices<'a>(
 
 fn read_faces<'a>(
     source: &Source<'a>,
-    keys: &Keys<'a>,
+    keys: &Values<'a>,
     drawn: &mut Drawing,
     rows: &mut Rows<'a>,
     edges: &Edges<'a>,
 ) -> Result<(), SheetError> {
-    match keys.faces_vertices {
+    match keys.get("faces_vertices") {
         Some(value) => {
             rows.faces = source.list(value, || "`faces_vertices`".into(), "a list of faces, [[0, 1, 2], ...]")?;
             let count = drawn.coords.len();
@@ -165,11 +162,11 @@ fn read_faces<'a>(
 
 fn read_holes<'a>(
     source: &Source<'a>,
-    keys: &Keys<'a>,
+    keys: &Values<'a>,
     drawn: &mut Drawing,
     rows: &mut Rows<'a>,
 ) -> Result<(), SheetError> {
-    let Some(value) = keys.holes else { return Ok(()) };
+    let Some(value) = keys.get("foldwell:holes") else { return Ok(()) };
     rows.holes = source.list(value, || "`foldwell:holes`".into(), "a list of openings, [[0, 1, 2], ...]")?;
     let count = drawn.coords.len();
     let holes = rows.holes.iter().enumerate().map(|(h, row)| source.indices(row, || format!("opening {h}"), count));
@@ -178,8 +175,8 @@ fn read_holes<'a>(
 }
 
 /// Reads the named lists of vertices of a mesh with `count` drawn vertices.
-fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<String, Vec<usize>>, SheetError> {
-    let Some(value) = keys.names else { return Ok(BTreeMap::new()) };
+fn read_names(source: &Source, keys: &Values, count: usize) -> Result<BTreeMap<String, Vec<usize>>, SheetError> {
+    let Some(value) = keys.get("foldwell:names") else { return Ok(BTreeMap::new()) };
     let right = "an object of names and lists of vertices, {\"top\": [0, 1, 2], ...}";
     let lists: BTreeMap<String, &RawValue> = source.typed(value, || "`foldwell:names`".into(), right)?;
     let read = |(name, list): (String, &RawValue)| {
@@ -190,17 +187,17 @@ fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<Str
 }
 
 /// Adds to a defect of the mesh the line of the text that has the defective part.
-fn located(source: &Source, keys: &Keys, rows: &Rows, edges: &Edges, defect: Defect) -> SheetError {
+fn located(source: &Source, keys: &Values, rows: &Rows, edges: &Edges, defect: Defect) -> SheetError {
     let row = match defect.place {
         MeshPart::Mesh => None,
         MeshPart::Vertex(v) => rows.vertices.get(v).copied(),
         MeshPart::Face(f) => rows.faces.get(f).copied(),
         MeshPart::Edge(e) => edges.rows.get(e).copied(),
         MeshPart::FoldAngle(e) => edges.angles.get(e).map(|(row, _)| *row),
-        MeshPart::Lattice => keys.lattice,
+        MeshPart::Lattice => keys.get("foldwell:lattice"),
         MeshPart::Hole(h) => rows.holes.get(h).copied(),
     };
-    let whole = keys.faces_vertices.or(keys.edges_vertices).or(keys.vertices_coords);
+    let whole = keys.get("faces_vertices").or(keys.get("edges_vertices")).or(keys.get("vertices_coords"));
     match row.or(whole) {
         Some(value) => source.at(value, *defect.problem),
         None => source.at_start(*defect.problem),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::value::RawValue;
 
 use super::edges::{Edges, check_length};
-use super::keys::Keys;
+use super::keys::Values;
 use super::locate::Source;
 use crate::sheet::build::{Identified, edges_by_drawn_name};
 use crate::sheet::cell::{EdgeKey, MeshStiffness, Sheet};
@@ -18,15 +18,15 @@ pub(super) const BARS: &str = "foldwell:bar_stiffness";
 /// Reads the stiffnesses of the edges of `sheet`.
 pub(super) fn read(
     source: &Source,
-    keys: &Keys,
+    keys: &Values,
     edges: &Edges,
     sheet: &Sheet,
     identified: &Identified,
 ) -> Result<MeshStiffness, SheetError> {
     let known = edges_by_drawn_name(sheet);
-    let list = |key: &'static str, value: Option<&RawValue>| -> Result<BTreeMap<EdgeKey, f64>, SheetError> {
+    let list = |key: &'static str| -> Result<BTreeMap<EdgeKey, f64>, SheetError> {
         let mut found = BTreeMap::new();
-        let Some(value) = value else { return Ok(found) };
+        let Some(value) = keys.get(key) else { return Ok(found) };
         let rows: Vec<&RawValue> = source.list(value, || format!("`{key}`"), "a list of numbers and nulls")?;
         check_length(source, value, key, rows.len(), edges.ends.len())?;
         for (e, (row, ends)) in rows.iter().zip(&edges.ends).enumerate() {
@@ -42,7 +42,7 @@ pub(super) fn read(
         }
         Ok(found)
     };
-    Ok(MeshStiffness { hinges: list(HINGES, keys.stiffness)?, bars: list(BARS, keys.bar_stiffness)? })
+    Ok(MeshStiffness { hinges: list(HINGES)?, bars: list(BARS)? })
 }
 
 /// Reads a positive number, `"inf"` or null; JSON has no infinite numbers.
