@@ -124,14 +124,10 @@ pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, polygons: &[V
     for (f, polygon) in polygons.iter().enumerate() {
         polygon.iter().enumerate().for_each(|(k, corner)| at[corner.vertex].push((f, k)));
     }
-    match at.iter().position(|wedges| fans(polygons, wedges, &Cuts::new()).len() > 1) {
-        Some(vertex) => {
-            let home = identified.homes[vertex];
-            let problem = Problem::NonManifoldVertex { vertex: drawn.name(home) };
-            Err(Defect::new(MeshPart::Vertex(home), problem))
-        }
-        None => Ok(()),
-    }
+    let apart = at.iter().position(|wedges| fans(polygons, wedges, &Cuts::new()).len() > 1);
+    let Some(vertex) = apart else { return Ok(()) };
+    let home = identified.homes[vertex];
+    Err(Defect::new(MeshPart::Vertex(home), Problem::NonManifoldVertex { vertex: drawn.name(home) }))
 }
 
 /// Checks that the two sides of every cut have become two edges.

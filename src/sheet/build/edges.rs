@@ -82,14 +82,11 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
             }
         }
     }
-    match sides.iter().find(|s| s.uses.len() == 1 && rim.contains_key(&s.key)) {
-        Some(side) => {
-            let face = side.uses[0].0;
-            let problem = Problem::Unmatched { edge: drawn.edge_name(side.drawn), face: drawn.name(face) };
-            Err(Defect::new(MeshPart::Face(face), problem))
-        }
-        None => Ok(()),
-    }
+    let unmatched = sides.iter().find(|s| s.uses.len() == 1 && rim.contains_key(&s.key));
+    let Some(side) = unmatched else { return Ok(()) };
+    let face = side.uses[0].0;
+    let problem = Problem::Unmatched { edge: drawn.edge_name(side.drawn), face: drawn.name(face) };
+    Err(Defect::new(MeshPart::Face(face), problem))
 }
 
 /// Returns the joints between the faces of edges of more than two faces, by the names of the edges; those of which the

@@ -29,28 +29,15 @@ pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defe
         face.iter().for_each(|&v| used[identified.corner[v].vertex] = true);
     }
     drawn.bars.iter().flatten().for_each(|&v| used[identified.corner[v].vertex] = true);
-    match used.iter().position(|&u| !u) {
-        Some(v) => {
-            let home = identified.homes[v];
-            Err(Defect::new(MeshPart::Vertex(home), Problem::UnusedVertex { vertex: drawn.name(home) }))
-        }
-        None => Ok(()),
-    }
+    let Some(unused) = used.iter().position(|&u| !u) else { return Ok(()) };
+    let home = identified.homes[unused];
+    Err(Defect::new(MeshPart::Vertex(home), Problem::UnusedVertex { vertex: drawn.name(home) }))
 }
 
 fn check_indices(drawn: &Drawing, list: &[usize], place: MeshPart, what: impl Fn() -> String) -> Result<(), Defect> {
-    match list.iter().find(|&&v| v >= drawn.coords.len()) {
-        Some(&v) => {
-            let problem = Problem::Index {
-                what: what(),
-                found: drawn.name(v).to_string(),
-                first: drawn.first,
-                last: drawn.name(drawn.coords.len() - 1),
-            };
-            Err(Defect::new(place, problem))
-        }
-        None => Ok(()),
-    }
+    let Some(&v) = list.iter().find(|&&v| v >= drawn.coords.len()) else { return Ok(()) };
+    let (found, last) = (drawn.name(v).to_string(), drawn.name(drawn.coords.len() - 1));
+    Err(Defect::new(place, Problem::Index { what: what(), found, first: drawn.first, last }))
 }
 
 fn check_corners(drawn: &Drawing, f: usize, face: &[usize]) -> Result<(), Defect> {
@@ -59,13 +46,8 @@ fn check_corners(drawn: &Drawing, f: usize, face: &[usize]) -> Result<(), Defect
         return Err(Defect::new(MeshPart::Face(f), problem));
     }
     let mut seen = BTreeSet::new();
-    match face.iter().find(|&&v| !seen.insert(v)) {
-        Some(&v) => {
-            let problem = Problem::RepeatedVertex { face: drawn.name(f), vertex: drawn.name(v) };
-            Err(Defect::new(MeshPart::Face(f), problem))
-        }
-        None => Ok(()),
-    }
+    let Some(&v) = face.iter().find(|&&v| !seen.insert(v)) else { return Ok(()) };
+    Err(Defect::new(MeshPart::Face(f), Problem::RepeatedVertex { face: drawn.name(f), vertex: drawn.name(v) }))
 }
 
 /// Returns the sorted corners, translated so that one of the lowest vertices is in cell (0, 0), and the cell from
