@@ -211,79 +211,44 @@ pub(super) fn angle_defects(sheet: &Sheet) -> impl Iterator<Item = (usize, f64)>
     inner.map(|(vertex, (sum, _))| (vertex, std::f64::consts::TAU - sum))
 }
 
-impl Info {
-    /// Writes what sheets of one surface do not have.
-    fn write_assembly(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.bars_alone > 0 {
-            writeln!(f, "bars without faces     {}", self.bars_alone)?;
-        }
-        if self.joints > 0 {
-            writeln!(f, "joints                 {} edges of more than two faces", self.joints)?;
-        }
-        Ok(())
-    }
-}
-
 impl fmt::Display for Info {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "{}: {}",
-            self.title,
-            if self.periodic { "one cell of a periodic sheet" } else { "a finite sheet" }
-        )?;
-        writeln!(f, "vertices               {}", self.vertices)?;
-        let (creases, facets, boundary) = (self.creases, self.facets, self.boundary);
+        let Self { creases, facets, boundary, bars_alone, joints, faces, polygons, .. } = self;
         let cut = if self.cut == 0 { String::new() } else { format!(", {} of them along cuts", self.cut) };
-        writeln!(
-            f,
-            "edges                  {} ({creases} creases, {facets} facets, {boundary} boundary{cut})",
-            self.edges
-        )?;
-        self.write_assembly(f)?;
-        writeln!(f, "triangles              {} (of {} polygons)", self.faces, self.polygons)?;
-        writeln!(f, "pieces                 {}", self.pieces)?;
-        writeln!(f, "Euler characteristic   {}", self.euler_characteristic)?;
-        write!(f, "Maxwell count          {}", self.maxwell_count)?;
-        match (self.maxwell_count_screw, self.maxwell_count_free_torus) {
-            (Some(screw), Some(free)) => writeln!(f, " (fixed torus), {screw} (screw), {free} (free torus)")?,
-            _ => writeln!(f)?,
-        }
+        let further_counts = match (self.maxwell_count_screw, self.maxwell_count_free_torus) {
+            (Some(screw), Some(free)) => format!(" (fixed torus), {screw} (screw), {free} (free torus)"),
+            _ => String::new(),
+        };
         let developable = if self.developable { "yes" } else { "no" };
-        writeln!(
-            f,
-            "developable            {developable}, largest angle defect {:.3e} rad",
-            self.largest_angle_defect
-        )?;
-        writeln!(f, "edge lengths           {:.6} to {:.6}", self.shortest_edge, self.longest_edge)?;
-        write!(f, "worst triangle         quality {:.4} (1: equilateral)", self.worst_triangle_quality)?;
-        if self.thin_triangles > 0 {
-            let named = self.thinnest.iter().map(|thin| format!("{:?} of {:.1e}", thin.vertices, thin.quality));
-            let named = named.collect::<Vec<_>>().join(", ");
-            let more = if self.thin_triangles > self.thinnest.len() { ", .." } else { "" };
-            let count = self.thin_triangles;
-            write!(f, "\nthin triangles         {count} of quality under {THIN_QUALITY:?}: {named}{more}")?;
-        }
-        if self.target_angles > 0 {
-            write!(f, "\ntarget angles          {}", targets_said(self.target_angles))?;
-        }
-        if self.drawn_against_targets > 0 {
-            let count = self.drawn_against_targets;
-            write!(f, "\n                       {count} creases are drawn on the other side than their targets")?;
-        }
-        if self.turned_over {
-            write!(f, "\nturned over            {TURNED_OVER}")?;
-        }
-        if self.touching_vertices > 0 {
-            write!(f, "\ntouching layers        {} vertices stand where others stand", self.touching_vertices)?;
-        }
-        for said in &self.remarks {
-            write!(f, "\nremark                 {said}")?;
-        }
-        match frames_said(self.frame, self.further_frames) {
-            None => Ok(()),
-            Some(said) => write!(f, "\nframes                 {said}"),
-        }
+        let thinnest = self.thinnest.iter().map(|thin| format!("{:?} of {:.1e}", thin.vertices, thin.quality));
+        let thinnest = thinnest.collect::<Vec<_>>().join(", ");
+        let (thin, more) = (self.thin_triangles, if self.thin_triangles > self.thinnest.len() { ", .." } else { "" });
+        let (against, touching) = (self.drawn_against_targets, self.touching_vertices);
+        // the name of each line, whether it is written, and what it says
+        let lines = [
+            ("vertices", true, self.vertices.to_string()),
+            ("edges", true, format!("{} ({creases} creases, {facets} facets, {boundary} boundary{cut})", self.edges)),
+            ("bars without faces", *bars_alone > 0, bars_alone.to_string()),
+            ("joints", *joints > 0, format!("{joints} edges of more than two faces")),
+            ("triangles", true, format!("{faces} (of {polygons} polygons)")),
+            ("pieces", true, self.pieces.to_string()),
+            ("Euler characteristic", true, self.euler_characteristic.to_string()),
+            ("Maxwell count", true, format!("{}{further_counts}", self.maxwell_count)),
+            ("developable", true, format!("{developable}, largest angle defect {:.3e} rad", self.largest_angle_defect)),
+            ("edge lengths", true, format!("{:.6} to {:.6}", self.shortest_edge, self.longest_edge)),
+            ("worst triangle", true, format!("quality {:.4} (1: equilateral)", self.worst_triangle_quality)),
+            ("thin triangles", thin > 0, format!("{thin} of quality under {THIN_QUALITY:?}: {thinnest}{more}")),
+            ("target angles", self.target_angles > 0, targets_said(self.target_angles)),
+            ("", against > 0, format!("{against} creases are drawn on the other side than their targets")),
+            ("turned over", self.turned_over, TURNED_OVER.to_owned()),
+            ("touching layers", touching > 0, format!("{touching} vertices stand where others stand")),
+        ];
+        let written = lines.into_iter().filter(|(_, is_written, _)| *is_written).map(|(name, _, said)| (name, said));
+        let remarks = self.remarks.iter().map(|said| ("remark", said.clone()));
+        let frames = frames_said(self.frame, self.further_frames).map(|said| ("frames", said));
+        let surface = if self.periodic { "one cell of a periodic sheet" } else { "a finite sheet" };
+        write!(f, "{}: {surface}", self.title)?;
+        written.chain(remarks).chain(frames).try_for_each(|(name, said)| write!(f, "\n{name:<23}{said}"))
     }
 }
 
