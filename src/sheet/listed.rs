@@ -7,6 +7,7 @@ use super::assignment::Assignment;
 use super::build::{Drawing, Identified, build, build_identified, drawn_sides, edges_by_drawn_name, listed_order};
 use super::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
 use super::error::{Defect, DrawnEdge, MeshPart, Problem};
+use super::sides::{self, sorted};
 
 /// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces
 /// are turned over if the letters are those of the other side. Also returns the corner of the cell that each drawn
@@ -54,7 +55,7 @@ pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize
         if a == b {
             return Err((edge, Problem::Loop { edge, vertex: a }));
         }
-        if let Some(other) = seen.insert([a.min(b), a.max(b)], edge) {
+        if let Some(other) = seen.insert(sorted([a, b]), edge) {
             return Err((edge, Problem::DuplicateEdge { edge, other, ends: DrawnEdge(a, b) }));
         }
     }
@@ -68,17 +69,14 @@ pub(crate) fn bars_alone(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize; 
     if !drawn.faces.is_empty() && drawn.coords.iter().all(|x| x.z == first) {
         return vec![];
     }
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let sides: BTreeSet<[usize; 2]> = drawn_sides(drawn).into_iter().map(|(ends, _)| sorted(ends)).collect();
     listed.iter().copied().filter(|ends| !sides.contains(&sorted(*ends))).collect()
 }
 
 /// Returns the edges that are sides, and not diagonals, of polygons.
 fn sides(sheet: &Sheet) -> BTreeSet<EdgeKey> {
-    let sides = |polygon: &Vec<Corner>| {
-        (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0).collect::<Vec<_>>()
-    };
-    sheet.polygons.iter().flat_map(sides).collect()
+    let sides = sheet.polygons.iter().flat_map(|polygon| sides::sides(polygon));
+    sides.map(|[a, b]| EdgeKey::new(a, b).0).collect()
 }
 
 /// Returns the mesh with all faces turned over if its letters are those of the other side: at least two creases are

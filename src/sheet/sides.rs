@@ -1,6 +1,24 @@
-//! The sides of triangles.
+//! The sides of polygons.
 
 use std::collections::BTreeMap;
+
+/// Returns the ends of an edge, the lower number first.
+pub(crate) fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Returns the sides of a polygon, each in its direction round the polygon.
+pub(crate) fn sides<T: Copy>(polygon: &[T]) -> impl Iterator<Item = [T; 2]> {
+    (0..polygon.len()).map(|k| [polygon[k], polygon[(k + 1) % polygon.len()]])
+}
+
+/// Returns the number of polygons that have each side, by its ends in order.
+pub(crate) fn uses_of_sides(polygons: &[Vec<usize>]) -> BTreeMap<[usize; 2], usize> {
+    let mut uses = BTreeMap::new();
+    let sides = polygons.iter().flat_map(|polygon| sides(polygon));
+    sides.for_each(|side| *uses.entry(sorted(side)).or_default() += 1);
+    uses
+}
 
 /// Returns the sides of triangles, each in its direction round the triangle, that more of them have than have it in the
 /// other direction: the rim of the surface that they are.

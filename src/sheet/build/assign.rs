@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
+use crate::sheet::sides::{sorted, uses_of_sides};
 
 /// Least distance in degrees of a fold angle from 0 and from 180 at which it is a mountain or a valley.
 const SIDE_TOLERANCE: f64 = 1e-3;
@@ -17,7 +18,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
         return Ok(());
     }
     let known = edges_by_drawn_name(sheet);
-    let (rim, targets) = (drawn_rim(drawn), targets(drawn));
+    let (faces, targets) = (uses_of_sides(&drawn.faces), targets(drawn));
     for (e, &(ends, assignment)) in drawn.assignments.iter().enumerate() {
         let [a, b] = ends.map(|v| identified.corner[v]);
         let numbers = known.get(&EdgeKey::new(a, b).0).map(Vec::as_slice).unwrap_or_default();
@@ -33,7 +34,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
             }
             let edge = &sheet.edges[number];
             // the outline of the drawn cell is not a boundary of a periodic sheet
-            if assignment == Assignment::Boundary && rim.get(&sorted(ends)) == Some(&1) && drawn.is_repeated() {
+            if assignment == Assignment::Boundary && faces.get(&sorted(ends)) == Some(&1) && drawn.is_repeated() {
                 continue;
             }
             // a simulator folds some creases to the other side, or the whole pattern backwards
@@ -97,19 +98,4 @@ pub(crate) fn edges_by_drawn_name(sheet: &Sheet) -> BTreeMap<EdgeKey, Vec<usize>
         known.entry(EdgeKey::new(i, j).0).or_default().push(number);
     }
     known
-}
-
-fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
-    [a.min(b), a.max(b)]
-}
-
-/// Returns the number of drawn faces of every drawn edge.
-fn drawn_rim(drawn: &Drawing) -> BTreeMap<[usize; 2], usize> {
-    let mut faces = BTreeMap::new();
-    for face in &drawn.faces {
-        for (k, &a) in face.iter().enumerate() {
-            *faces.entry(sorted([a, face[(k + 1) % face.len()]])).or_default() += 1;
-        }
-    }
-    faces
 }

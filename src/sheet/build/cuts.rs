@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, EdgeKey};
+use crate::sheet::sides;
 
 /// Cut edges by name, each with its index in the list of edges.
 type Cuts = BTreeMap<EdgeKey, usize>;
@@ -70,7 +71,7 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
 }
 
 fn sides(polygon: &[Corner]) -> impl Iterator<Item = EdgeKey> + '_ {
-    (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0)
+    sides::sides(polygon).map(|[a, b]| EdgeKey::new(a, b).0)
 }
 
 /// Returns the corners of faces at every vertex where a cut ends.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::planar::PlacedSide;
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::cell::Corner;
+use crate::sheet::sides::{self, sorted};
 
 /// Checks that all corners exist, that no face has a vertex twice, that no face is drawn twice, and that every vertex
 /// belongs to a face or to a bar.
@@ -67,22 +68,17 @@ fn canonical(corners: &[Corner]) -> (Vec<Corner>, [i32; 2]) {
 /// Returns the drawn sides of all faces, each once, in the order of the file.
 pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
     let mut seen = BTreeSet::new();
-    let mut sides = Vec::new();
+    let mut found = Vec::new();
     for (f, face) in drawn.faces.iter().enumerate() {
-        for (k, &a) in face.iter().enumerate() {
-            let b = face[(k + 1) % face.len()];
-            if seen.insert([a.min(b), a.max(b)]) {
-                sides.push(([a, b], MeshPart::Face(f)));
-            }
-        }
+        let new = sides::sides(face).filter(|side| seen.insert(sorted(*side)));
+        found.extend(new.map(|side| (side, MeshPart::Face(f))));
     }
-    sides
+    found
 }
 
 /// Returns the listed edges, followed by the sides that are not listed; empty if that is the order of the sides.
 pub(crate) fn listed_order(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let sides: Vec<[usize; 2]> = sides(drawn).into_iter().map(|(ends, _)| ends).collect();
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let known: BTreeSet<[usize; 2]> = listed.iter().map(|ends| sorted(*ends)).collect();
     let others = sides.iter().filter(|ends| !known.contains(&sorted(**ends)));
     let order: Vec<[usize; 2]> = listed.iter().chain(others).copied().collect();

@@ -3,12 +3,13 @@
 //! A pattern that stands upright, as in the plane of x and z that Origami Simulator uses, is seen from the side to
 //! which the normal of its plane has its positive component of largest magnitude; all others are seen along z.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::planar::faces_of;
 use super::{Defect, Drawing};
 use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
+use crate::sheet::sides::{sides, sorted, uses_of_sides};
 
 /// Largest distance of a vertex from the plane of an upright pattern, relative to its extent.
 const FLAT: f64 = 1e-6;
@@ -59,13 +60,9 @@ fn drop_openings(drawn: &mut Drawing) {
 /// Removes rebuilt faces that the assignments show to be holes: all their sides are boundaries, and every side has a
 /// face on its other side.
 fn drop_holes(drawn: &mut Drawing) {
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let boundary = drawn.assignments.iter().filter(|(_, assignment)| *assignment == Assignment::Boundary);
     let boundary: BTreeSet<[usize; 2]> = boundary.map(|(ends, _)| sorted(*ends)).collect();
-    let sides = |face: &Vec<usize>| -> Vec<[usize; 2]> {
-        (0..face.len()).map(|k| sorted([face[k], face[(k + 1) % face.len()]])).collect()
-    };
-    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    drawn.faces.iter().flat_map(sides).for_each(|side| *faces.entry(side).or_default() += 1);
-    drawn.faces.retain(|face| !sides(face).iter().all(|side| boundary.contains(side) && faces[side] == 2));
+    let faces = uses_of_sides(&drawn.faces);
+    let is_shared = |side: [usize; 2]| boundary.contains(&side) && faces[&side] == 2;
+    drawn.faces.retain(|face| !sides(face).map(sorted).all(is_shared));
 }

@@ -16,6 +16,7 @@ use crate::sheet::error::SheetError;
 use crate::sheet::pattern::{Cleanup, Line, sheet_of_lines};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::record::FileRecord;
+use crate::sheet::sides::{sides, sorted};
 
 /// Largest difference in z, relative to the extent, of a drawing that counts as flat.
 const FLAT: f64 = 1e-9;
@@ -109,7 +110,6 @@ impl Part {
 /// Returns the edges of a drawing, each with its place in the text; sides of faces that are not listed have the letter
 /// B or U.
 fn parts<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Part, &'a RawValue)> {
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let listed = edges.ends.iter().enumerate().map(|(e, &ends)| {
         let given = edges.assignments.get(e).copied();
         let letter = given.unwrap_or(Assignment::Unassigned);
@@ -117,16 +117,14 @@ fn parts<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Part, 
         let auxiliary = matches!(given, Some(Assignment::Flat | Assignment::Unassigned));
         (Part { ends, letter, angle, auxiliary }, edges.rows[e])
     });
-    let mut sides: BTreeMap<[usize; 2], (usize, usize)> = BTreeMap::new();
+    let mut unlisted: BTreeMap<[usize; 2], (usize, usize)> = BTreeMap::new();
     for (f, face) in drawn.faces.iter().enumerate() {
-        for (k, &a) in face.iter().enumerate() {
-            sides.entry(sorted([a, face[(k + 1) % face.len()]])).or_insert((f, 0)).1 += 1;
-        }
+        sides(face).for_each(|side| unlisted.entry(sorted(side)).or_insert((f, 0)).1 += 1);
     }
     for ends in &edges.ends {
-        sides.remove(&sorted(*ends));
+        unlisted.remove(&sorted(*ends));
     }
-    let others = sides.into_iter().map(|(ends, (face, count))| {
+    let others = unlisted.into_iter().map(|(ends, (face, count))| {
         let letter = if count == 1 { Assignment::Boundary } else { Assignment::Unassigned };
         (Part { ends, letter, angle: None, auxiliary: false }, rows.faces[face])
     });

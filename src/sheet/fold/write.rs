@@ -11,6 +11,7 @@ use crate::sheet::assigned::FLAT;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, Sheet};
+use crate::sheet::sides::sorted;
 
 /// Returns `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with
 /// assignment and drawn fold angle, lattice and openings. Coordinates are always three-dimensional, since the edges
@@ -103,7 +104,6 @@ fn listed(sheet: &Sheet, drawn: &Drawing, corners: &[Corner]) -> Vec<[usize; 2]>
         return sides.collect();
     }
     let number: BTreeMap<Corner, usize> = corners.iter().enumerate().map(|(v, corner)| (*corner, v)).collect();
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let mut left: BTreeMap<[usize; 2], usize> = sides.enumerate().map(|(k, ends)| (sorted(ends), k)).collect();
     let in_file = sheet.listed_edges.iter().filter_map(|[a, b]| Some([*number.get(a)?, *number.get(b)?]));
     let mut list: Vec<[usize; 2]> = in_file.filter(|ends| left.remove(&sorted(*ends)).is_some()).collect();

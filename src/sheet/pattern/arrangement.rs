@@ -16,6 +16,7 @@ use robust::{Coord, orient2d};
 
 use crate::math::Vec2;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
+use crate::sheet::sides::sorted;
 
 /// Most repetitions of splitting; two are usual.
 const MOST_ROUNDS: usize = 20;
@@ -172,10 +173,6 @@ impl Places {
         let pieces = pieces.into_iter().map(|piece| Piece { ends: piece.ends.map(|v| self.first(v)), ..piece });
         pieces.filter(|p| p.ends[0] != p.ends[1] && known.insert((p.segment, sorted(p.ends)))).collect()
     }
-}
-
-fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// Returns the parts of the pieces between the points at which they meet; `None` if there is nothing to split or merge.

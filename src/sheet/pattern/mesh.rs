@@ -15,6 +15,7 @@ use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::redrawing::{Gap, Redrawing};
+use crate::sheet::sides::{sorted, uses_of_sides};
 
 /// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little
 /// above that distance are this far apart.
@@ -110,17 +111,10 @@ fn built(lines: &[Line], coords: Vec<Vec3>, pieces: &[Piece], head: &Drawing) ->
 /// are plain: the number of these is returned.
 fn letter_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) -> usize {
     let mut plain = 0;
-    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for face in &drawn.faces {
-        for (k, &a) in face.iter().enumerate() {
-            let b = face[(k + 1) % face.len()];
-            *faces.entry([a.min(b), a.max(b)]).or_default() += 1;
-        }
-    }
+    let faces = uses_of_sides(&drawn.faces);
     for (piece, (ends, letter)) in pieces.iter().zip(&mut drawn.assignments) {
-        let [a, b] = *ends;
         let line = &lines[piece.segment];
-        match faces.get(&[a.min(b), a.max(b)]) {
+        match faces.get(&sorted(*ends)) {
             Some(2) if line.is_plain() => plain += 1,
             Some(2) if line.contour => *letter = Assignment::Cut,
             Some(1) if line.contour => *letter = Assignment::Boundary,
@@ -173,8 +167,7 @@ fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piec
     let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     let mut kept: Vec<Piece> = Vec::new();
     for piece in pieces {
-        let [a, b] = piece.ends;
-        match known.entry([a.min(b), a.max(b)]) {
+        match known.entry(sorted(piece.ends)) {
             Entry::Vacant(free) => {
                 free.insert(kept.len());
                 kept.push(*piece);
