@@ -21,6 +21,9 @@ const ROUNDING_FORCE: f64 = 1e-13;
 const SEED: u64 = 1;
 const LEAST_SELF_STRESS: f64 = 1e-6;
 
+/// Parts of a self stress, of both signs, with which negative eigenvalues are counted.
+const PARTS: [f64; 8] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
+
 /// A converged state's tensions.
 #[derive(Clone, Debug)]
 pub struct BalancedTensions {
@@ -94,8 +97,8 @@ pub fn self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64])
 }
 
 /// Negative eigenvalues of an equilibrium with these tensions of least norm; `None` if their number cannot be
-/// established. Where rigid measures have self stresses, the Hessian is not the same for all of them: then there is a
-/// number only if another one, as large as the tensions, does not change it.
+/// established. Where rigid measures have self stresses, the Hessian is not the same for all of them. If any gives no
+/// negative eigenvalue, the state is a minimum; another number is known only if no self stress of a few sizes changes it.
 pub fn negative_eigenvalues<P: Problem>(problem: &P, x: &[f64], least: &[f64]) -> Option<usize> {
     let count = |tension: &[f64]| {
         let mut tangent = Tangent::at_state(problem, x, tension, HessianKind::Full).ok()?;
@@ -104,7 +107,7 @@ pub fn negative_eigenvalues<P: Problem>(problem: &P, x: &[f64], least: &[f64]) -
     let mut at = Linearization::new(problem.layout());
     problem.linearize(x, least, HessianKind::GaussNewton, &mut at);
     let counted = count(least)?;
-    let Some(stress) = self_stress(problem, &at, least) else { return Some(counted) };
-    let is_same = |sign: f64| count(&moved(least, sign, &stress)) == Some(counted);
-    (is_same(1.0) && is_same(-1.0)).then_some(counted)
+    let Some(stress) = self_stress(problem, &at, least).filter(|_| counted > 0) else { return Some(counted) };
+    let mut parts = PARTS.iter().flat_map(|part| [*part, -part]);
+    parts.all(|part| count(&moved(least, part, &stress)) == Some(counted)).then_some(counted)
 }

@@ -16,6 +16,8 @@ const STEPS: usize = 20;
 const LAST_STEP: f64 = 1e-12;
 /// Longest way from the point of the grid, in meshes.
 const FARTHEST: f64 = 2.0;
+/// Wavenumbers below this are near `q = 0`.
+const NEAR_ORIGIN: f64 = 0.5;
 /// Steps by which an interval is shortened to rounding errors.
 const THIRDS: usize = 80;
 /// Ratio of the second derivatives along and across from which on a zero is a single point, and no point of a line.
@@ -72,7 +74,8 @@ pub(crate) fn touched(zone: &Zone, n: usize) -> Option<[f64; 2]> {
     let magnitudes: Vec<f64> = (0..n * n).map(|k| zone.at(at(k)).0.abs()).collect();
     let mesh = TAU / n as f64;
     let least = (0..n * n).filter(|&k| is_least(n, &magnitudes, k)).map(at);
-    least.filter(|q| q[0].hypot(q[1]) > FARTHEST * mesh).find_map(|start| {
+    // near q = 0, where all determinants vanish, no zero is told from its neighbours
+    least.filter(|q| q[0].hypot(q[1]) > NEAR_ORIGIN).find_map(|start| {
         let gradient = zone.at(start).1;
         let length = gradient[0].hypot(gradient[1]);
         let along = if length > 0.0 { gradient.map(|slope| slope / length) } else { [1.0, 0.0] };

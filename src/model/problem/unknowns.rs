@@ -170,7 +170,7 @@ impl Model {
 
     /// Chooses anew what is held where it would soon hold the shape instead of rigid motions, and the units of unknowns
     /// where they have become others. Returns then the unknowns of the state `x`, and the given rates of unknowns less
-    /// the rigid motion with which the coordinates now held would move.
+    /// the rigid motion of each piece with which its coordinates now held would move.
     pub(super) fn still_held(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
         let generalised = self.generalised(x);
         let units = self.units_at(&generalised[..self.points()]);
@@ -185,12 +185,19 @@ impl Model {
         self.rechoose(generalised);
         let mut held = vec![true; motions.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
-        let held: Vec<usize> = (0..motions.len()).filter(|&k| held[k] && !self.is_derived(k)).collect();
-        let rows = DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
-        let right = DVector::from_fn(held.len(), |row, _| moved[held[row]]);
-        let drift = shortest_solution(rows, &right, NOT_HELD)?;
-        let left = |&k: &u32| moved[k as usize] - motions[k as usize].dot(&drift);
-        let in_new_units = |k: &u32| left(k) * before[*k as usize] / self.unit(*k as usize);
+        (0..held.len()).for_each(|k| held[k] &= !self.is_derived(k));
+        for (number, piece) in self.pieces().iter().enumerate() {
+            let (motions, held) = self.motions_of_piece((number, piece), &motions, &held);
+            let rows: Vec<usize> = (0..piece.len()).filter(|&k| held[k]).collect();
+            if rows.is_empty() {
+                continue;
+            }
+            let right = DVector::from_fn(rows.len(), |row, _| moved[piece[rows[row]]]);
+            let rows = DMatrix::from_fn(rows.len(), 6, |row, motion| motions[rows[row]][motion]);
+            let drift = shortest_solution(rows, &right, NOT_HELD)?;
+            piece.iter().zip(&motions).for_each(|(&k, motion)| moved[k] -= motion.dot(&drift));
+        }
+        let in_new_units = |k: &u32| moved[*k as usize] * before[*k as usize] / self.unit(*k as usize);
         Some([self.start(), self.free.iter().map(in_new_units).collect()])
     }
 

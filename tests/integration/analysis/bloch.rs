@@ -1,6 +1,6 @@
 //! Spatially varying modes (theory, section 8).
 
-use crate::common::{Numbers, mesh};
+use crate::common::{Numbers, Scene, mesh};
 use crate::theory::duality::{displacement, fold_rates};
 use crate::theory::strain_form::StrainForm;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
@@ -791,5 +791,30 @@ fn counts_at_wavenumbers() {
     for (q, expected) in [([0.0; 2], 3), ([0.9, 1.7], 0), (line[line.len() / 3], 1)] {
         let found = Counts::at(&rigidity, q).unwrap();
         assert_eq!([found.zero_modes, found.self_stresses_opposite], [expected; 2], "{found:?}");
+    }
+}
+
+/// Claim: a determinant that is zero along a line without a change of sign is said to be, however its cell is drawn, and
+/// not to have no line of zeros. Source: singular values of the rigidity matrix: two vanish on a whole line.
+#[test]
+fn lines_without_change_of_sign_are_said() {
+    let corners = "[[0.9093826531241356, 0.9388028165616769, 0.1285447097515281],
+        [0.462756639357035, 1.2250788551444622, 0.19302343887066623],
+        [0.16275663935703502, 0.1250788551444623, 0.19302343887066623],
+        [1.162756639357035, 0.1250788551444623, 0.19302343887066623],
+        [1.462756639357035, 1.2250788551444622, 0.19302343887066623],
+        [0.6093826531241355, -0.1611971834383233, 0.1285447097515281]]";
+    for second in ["[0.3, 1.1, 0.0]", "[1.3, 1.1, 0.0]"] {
+        let fold = format!(
+            "{{\"vertices_coords\": {corners}, \"faces_vertices\": [[0, 1, 2], [0, 3, 4], [5, 0, 2], [3, 0, 5]],
+            \"foldwell:lattice\": [[1.0, 0.0, 0.0], {second}]}}"
+        );
+        let study = "[energy]\nbars = { stiffness = 1.0 }\n[[study]]\nname = \"b\"\nkind = \"bloch\"\ndraw = []";
+        let sheet = "mesh = \"cell.fold\"\ndomain = \"torus\"";
+        let ran = Scene::on(sheet, study).with("cell.fold", fold).ran();
+        let found = ran.bloch("b");
+        assert!(found.zero_lines.is_none(), "{second}: {:?}", found.zero_lines);
+        let why = found.no_zero_lines.as_deref().unwrap_or_default();
+        assert!(why.contains("touches zero along a line"), "{second}: {why}");
     }
 }

@@ -497,12 +497,45 @@ fn refusals() {
     }
 }
 
-/// Claim: a sheet whose rigid states are neither curves nor a surface has wells nevertheless, and reports that it has
-/// no rigid landscape.
+/// Claim: a sheet whose rigid states are neither curves nor a surface has wells nevertheless, the drawn one and that of
+/// the sheet turned inside out, and reports that it has no rigid landscape.
 #[test]
 fn rigid_states_of_other_dimensions() {
     let ran = scene(STAR, DRAWN, "starts = 2\nspread = 0.1\nrigid = true\ndraw = []").ran();
     let (study, wells) = (ran.study("a"), ran.wells("a"));
     assert!(!study.converged && study.reason.as_ref().unwrap().contains("dimensions"), "{study:?}");
-    assert!(wells.rigid.is_none() && wells.wells.len() == 1 && wells.wells[0].energy <= 1e-20, "{wells:?}");
+    assert!(wells.rigid.is_none() && wells.wells.len() == 2 && wells.wells[0].energy <= 1e-20, "{wells:?}");
+}
+
+/// Claim: pyramids over three, four and six sides, whose crease angles random starts do not turn over, have the drawn well
+/// and that of the pyramid turned inside out, whose energy is that of the mirrored pyramid relaxed. Source: symmetry of the
+/// bars; creases alone tell the two apart.
+#[test]
+fn stiff_pyramids_turn_inside_out() {
+    for sides in [3, 4, 6] {
+        let corner = |k: usize| {
+            let angle = 2.0 * PI * k as f64 / sides as f64;
+            format!(",[{:?},{:?},0]", angle.cos(), angle.sin())
+        };
+        let text = |height: f64| {
+            let corners: String = (0..sides).map(corner).collect();
+            let faces: Vec<String> = (0..sides).map(|k| format!("[0,{},{}]", k + 1, (k + 1) % sides + 1)).collect();
+            format!("{{\"vertices_coords\": [[0,0,{height}]{corners}], \"faces_vertices\": [{}]}}", faces.join(","))
+        };
+        let pyramid = |height: f64| on(fold::parse(&text(height), "pyramid.fold").unwrap(), [1, 1], Boundary::Patch);
+        let (drawn, mirrored) = (pyramid(0.4), pyramid(-0.4));
+        let terms = Terms::bars_and_creases(1e3, 0.1, drawn.drawn_angles().to_vec());
+        let starts = Starts { count: 4, seed: 1, spread: 1.0, options: Options::default() };
+        let energies =
+            relax_all(&drawn.with_terms(terms.clone()), &starts, &|| true).into_iter().filter_map(|outcome| {
+                let Outcome::Well(found) = outcome else { return None };
+                Some(found.relaxed.state.total())
+            });
+        let energies: Vec<f64> = energies.collect();
+        let inverted = foldwell::relax(&mirrored.with_terms(terms)).unwrap();
+        assert_eq!(inverted.negative_eigenvalues, Some(0));
+        let inverted = inverted.state.total();
+        let has = |energy: f64| energies.iter().any(|found| (found - energy).abs() < 1e-9 * inverted);
+        assert!(inverted > 0.01 && has(0.0) && has(inverted), "{sides} sides: {energies:?}, {inverted}");
+    }
 }

@@ -134,3 +134,27 @@ fn hinges_that_rest_flat_have_no_side() {
     let sides = folded.path("fold").branches[0].rest_sides.unwrap();
     assert_eq!((sides.hinges, sides.on_rest_side), (40, 40));
 }
+
+/// Claim: two sheets in one drawing fold to 100 % as one of them does: where what is held against rotations is chosen anew,
+/// each turns back by its own motion. Source: they do not touch each other.
+#[test]
+fn two_sheets_fold_beside_each_other() {
+    let square = |x: f64, letter: &str| {
+        let side = [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]].map(|[u, v]| [x + u, v]);
+        let rim: String = (0..4)
+            .map(|k| {
+                let ([a, b], [c, d]) = (side[k], side[(k + 1) % 4]);
+                format!("<line x1=\"{a}\" y1=\"{b}\" x2=\"{c}\" y2=\"{d}\" stroke=\"#000000\"/>")
+            })
+            .collect();
+        let end = x + 100.0;
+        format!("{rim}<line x1=\"{x}\" y1=\"50\" x2=\"{end}\" y2=\"50\" stroke=\"{letter}\"/>")
+    };
+    let drawing = square(0.0, "#ff0000") + &square(200.0, "#0000ff");
+    let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">{drawing}</svg>");
+    let energy = "bars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0, rest = \"assigned\" }\nfacets = { stiffness = 10.0 }";
+    let study = format!("[energy]\n{energy}\n[[study]]\nname = \"f\"\nkind = \"fold\"\ndraw = []");
+    let ran = Scene::on("mesh = \"two.svg\"", &study).with("two.svg", svg).converged();
+    let branch = &ran.path("f").branches[0];
+    assert!(branch.end == "arrived" && branch.energy.is_some_and(|energy| energy < 1e-20), "{branch:?}");
+}
