@@ -27,7 +27,8 @@ def draw_state(state: State, ax: Axes | None, paper: str, numbers: bool) -> Axes
     axes: Any = plt.figure().add_subplot(projection="3d") if ax is None else ax
     points, angles = state.positions, np.nan_to_num(state.fold_angles)
     paint = {"facecolors": paper, "edgecolors": paper, "linewidths": 0, "shade": True}
-    axes.add_collection3d(Poly3DCollection(points[state.faces], **paint, clip_on=False))  # from some sides it is wider than the axes
+    if len(state.faces):  # bars alone have none; from some sides the sheet is wider than the axes
+        axes.add_collection3d(Poly3DCollection(points[state.faces], **paint, clip_on=False))
     colours = np.where(angles > FOLDED, VALLEY, np.where(angles < -FOLDED, MOUNTAIN, OTHER))
     shown = state.kinds != "facet"
     axes.add_collection3d(Line3DCollection(points[state.edges[shown]], colors=colours[shown], linewidths=1.2, clip_on=False))

@@ -155,6 +155,8 @@ def test_plots_say_what_they_show(miura):
     pins = [{"vertex": 0, "axes": "xyz"}, {"vertex": 2, "axes": "xyz"}, {"vertex": 1, "axes": "xy"}]
     loads, drives = [{"vertex": 1, "force": (0.0, 0.0, -0.02)}], [{"name": "push", "load": True, "to": 1.0}]
     truss = fw.Assembly.patch(fw.generate("truss"), bars=1.0, pins=pins, loads=loads, drives=drives)
+    bars = fw.Sheet.from_arrays([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.5)], [], edges=[(0, 1), (1, 2)])
+    assert bars.plot() is not None
     axes = fw.path(truss).plot()
     assert (axes.get_xlabel(), axes.get_title()) == ("factor of the loads", "push: displacement of the loads against factor of the loads")
     assert {line.get_linestyle() for line in axes.lines} >= {"-", "--"}

@@ -53,6 +53,21 @@ def test_studies_know_it(soft, magnets):
     assert np.isfinite(followed.table["energy_magnets"]).all() and (followed.table["energy_magnets"] > 0.0).all()
 
 
+def test_energies_that_are_no_numbers_are_refused(soft):
+    """A term that has none as drawn is refused by name; one that has none on the way ends a path before it."""
+
+    def nothing(points):
+        return np.nan, np.zeros((2, 3)), np.zeros((6, 6))
+
+    with pytest.raises(ValueError, match=r"energy of `magnets` at the vertices \[0, 12\] is not a number"):
+        soft.with_term("magnets", [[0, 12]], nothing)
+    pins = [{"vertex": 0}, {"vertex": 2}, {"vertex": 1, "axes": "y"}]
+    drives = [{"name": "d", "vertices": [1], "axis": "z", "to": -0.6}]
+    truss = fw.Assembly.patch(fw.generate("truss"), bars=1.0, pins=pins, drives=drives)
+    followed = fw.path(truss.with_term("magnets", [[0, 1]], lambda p: poles(p) if p[1, 2] > -0.05 else nothing(p)), must_converge=False)
+    assert not followed.converged and np.isfinite(followed.table["energy_total"]).all()
+
+
 def test_it_is_pickled_if_its_function_is(magnets):
     x = magnets.start + 1e-2
     assert pickle.loads(pickle.dumps(magnets)).energy(x) == magnets.energy(x)

@@ -103,6 +103,10 @@ fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>)
         let help = format!("the faces of the mesh are 0 to {}", count - 1);
         return Err(file.error_at(span(), format!("there is no face {face}"), help));
     }
+    if spec.faces.as_ref().is_some_and(|faces| faces.is_empty()) {
+        let help = "name faces that close, or leave the key out: all faces have the pressure then";
+        return Err(file.error_at(span(), "the pressure is on no face", help));
+    }
     let on = |polygon: usize| spec.faces.as_ref().is_none_or(|faces| faces.contains(&face_of[polygon]));
     OwnTerm::pressure(assembly, spec.value.0, on).map_err(|error| {
         let help = match error {

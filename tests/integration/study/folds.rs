@@ -152,7 +152,8 @@ fn two_sheets_fold_beside_each_other() {
     };
     let drawing = square(0.0, "#ff0000") + &square(200.0, "#0000ff");
     let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">{drawing}</svg>");
-    let energy = "bars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0, rest = \"assigned\" }\nfacets = { stiffness = 10.0 }";
+    let energy =
+        "bars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0, rest = \"assigned\" }\nfacets = { stiffness = 10.0 }";
     let study = format!("[energy]\n{energy}\n[[study]]\nname = \"f\"\nkind = \"fold\"\ndraw = []");
     let ran = Scene::on("mesh = \"two.svg\"", &study).with("two.svg", svg).converged();
     let branch = &ran.path("f").branches[0];

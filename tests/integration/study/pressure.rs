@@ -195,6 +195,7 @@ fn a_wall_between_two_boxes_is_no_outside() {
         Scene::on("mesh = \"boxes.fold\"", &study).with("boxes.fold", &fold)
     };
     on("").refused("enclose no volume");
+    on("faces = []").refused("the pressure is on no face");
     let outside = on("faces = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]").converged();
     assert!(outside.relaxed("a").energy.total > 0.0);
 }
