@@ -70,7 +70,7 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> BalancedTensions 
 
 /// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness
 /// follow from their stretch.
-pub(crate) fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
+fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
     let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
     let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * at.sizes[row]).collect();
     let least = rank::without_null(&rigid.rows(), layout.unknowns, &layout.node, &forces).ok()?;

@@ -309,19 +309,21 @@ fn plate(load: f64) -> Assembly {
 }
 
 /// Claim: where rigid bars are redundant and another self stress would change the count of negative eigenvalues, there is
-/// none, wherever the relaxation begins; without loads, and under small ones, the flat plate is stable whatever the self
-/// stress. Source: at the load 1.8 the least stresses give one negative eigenvalue and others none, while the plate's only
+/// none, or 0, which proves a minimum, wherever the relaxation begins; without loads, and under small ones, the flat plate
+/// is stable whatever the self stress. Source: at the load 1.8 the least stresses give one negative eigenvalue and others none, while the plate's only
 /// real motions are stable up to 1.979 (quadric of the self stress, by hand).
 #[test]
 fn a_count_depends_on_no_self_stress() {
-    for (load, known) in [(0.0, Some(0)), (0.2, Some(0)), (1.8, None)] {
+    for (load, known) in [(0.0, true), (0.2, true), (1.8, false)] {
         let assembly = plate(load);
         for seed in 0..4 {
             let model = assembly.model(Gauge::Held);
             let mut numbers = Numbers::new(seed);
             let start = model.start().into_iter().map(|x| x + if seed > 0 { numbers.within(1e-4) } else { 0.0 });
             let found = relax_from(&model, start.collect::<Vec<f64>>(), Options::default(), &mut |_| true).unwrap();
-            assert_eq!((found.negative_eigenvalues, found.self_stresses), (known, Some(1)), "load {load}, seed {seed}");
+            let count = found.negative_eigenvalues;
+            assert!(count == Some(0) || (count.is_none() && !known), "load {load}, seed {seed}: {count:?}");
+            assert_eq!(found.self_stresses, Some(1));
         }
     }
 }

@@ -169,14 +169,14 @@ impl Bordered {
         (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
     }
 
-    /// Whether these tensions are those that balance the forces of the state alone, without a self stress of rigid
-    /// measures: those that the system finds from none, which it combines from motions.
-    pub fn is_relieved(&mut self, tension: &[f64]) -> bool {
+    /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the
+    /// system finds from none, which it combines from motions. `None` where `tension` is these.
+    pub fn relieved(&mut self, tension: &[f64]) -> Option<Vec<f64>> {
         let none = vec![0.0; tension.len()];
         let (force, missing) = (self.at.force(&none), self.at.missing(&none, &self.compliance));
         let found = self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt;
         let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-        off(tension, &found) <= SELF_STRESS * off(&found, &none)
+        (off(tension, &found) > SELF_STRESS * off(&found, &none)).then_some(found)
     }
 
     /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates

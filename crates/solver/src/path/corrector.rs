@@ -3,7 +3,6 @@
 use super::bordered::{Bordered, Plane, REFUSED_RESIDUAL};
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::problem::Residuals;
-use crate::tension::without_self_stress;
 use foldwell_numerics::factor::FactorError;
 use foldwell_numerics::vector::{add_scaled, larger, max_abs, norm_blocked};
 
@@ -121,10 +120,7 @@ fn relieved<P: ParametrizedProblem>(
     bordered: &mut Bordered,
     found: Corrected,
 ) -> Result<Corrected, FactorError> {
-    if bordered.is_relieved(&found.at.tension) {
-        return Ok(found);
-    }
-    let Some(tension) = without_self_stress(problem, &bordered.at, &found.at.tension) else { return Ok(found) };
+    let Some(tension) = bordered.relieved(&found.at.tension) else { return Ok(found) };
     bordered.linearize(problem, &found.at.x, &tension);
     let residuals = Residuals::new(problem, &bordered.at, &tension);
     if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {

@@ -5,23 +5,18 @@ use super::corrector::{Guess, complete, correct};
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
-use foldwell_numerics::vector::{add_scaled, dot};
+use foldwell_numerics::vector::{add_scaled, dot, norm_blocked};
 
 /// Length of the first step relative to the longest one, and the shortest one relative to it.
 const FIRST_STEP: f64 = 0.1;
 const SHORTEST_STEP: f64 = 1e-9;
 /// Error of a prediction relative to the step that is aimed at.
 const WANTED_ERROR: f64 = 0.02;
-/// Cosine of the largest angle between the tangents at both ends of a step, and between them and its chord.
+/// Cosine of the largest angle between the tangents at both ends of a step.
 const LEAST_TANGENT_COSINE: f64 = 0.8;
 /// Length of a step relative to the longest one below which a path whose stiffness jumps is taken to have a kink: there
 /// no step, however short, looks smooth.
 const KINK_STEP: f64 = 1e-3;
-/// Largest change of the number of negative eigenvalues in a step, that of a double branch point, and the length of a step
-/// relative to the longest one below which there may be more: where several curves cross near by, long steps go over to
-/// others.
-const MOST_CHANGED_EIGENVALUES: usize = 2;
-const STEP_OF_ANY_CHANGE: f64 = 0.05;
 /// Largest change of the measure of a soft element in a step: a fold angle in radians.
 const LARGEST_MEASURE_CHANGE: f64 = 0.5;
 /// Bounds of the ratio of one step to the one before.
@@ -80,25 +75,12 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// One step from the last of two states (or the only one) of about this length. Returns the state and the length
-    /// of the next step; `None` where no step leads on. Where many curves cross, as in a flat state, only one that is not
-    /// short may lead on.
+    /// of the next step; `None` where no step leads on.
     pub fn step(
         &mut self,
         before: Option<&PathState>,
         last: &PathState,
         length: f64,
-    ) -> Result<Option<(PathState, f64)>, PathError> {
-        let found = self.step_of(before, last, length, MOST_CHANGED_EIGENVALUES)?;
-        if found.is_some() { Ok(found) } else { self.step_of(before, last, length, usize::MAX) }
-    }
-
-    /// The same, which, where it is not short, changes at most so many signs of eigenvalues.
-    fn step_of(
-        &mut self,
-        before: Option<&PathState>,
-        last: &PathState,
-        length: f64,
-        most_changed: usize,
     ) -> Result<Option<(PathState, f64)>, PathError> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
@@ -108,16 +90,11 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
             let plane = self.plane(&last.tangent, at_kink);
             if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
                 let chord = Cubic::new(last, &state).chord();
-                let way = self.size(&chord);
-                // a state of another curve near by lies beside the tangents, however alike they are
-                let (first, second) = (&last.tangent, &state.tangent);
-                let turns = [self.cosine(first, second), self.cosine(first, &chord), self.cosine(&chord, second)];
+                let way = norm_blocked(&chord.x).hypot(chord.parameter / self.bordered.unit()) / unit_of_length;
+                let turn = self.cosine(&last.tangent, &state.tangent);
                 let folds = self.bordered.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);
-                let goes_on = turns.iter().all(|cosine| *cosine >= LEAST_TANGENT_COSINE);
-                let is_short = length < STEP_OF_ANY_CHANGE * self.settings.max_step;
-                let is_crossed = crossings(last, &state) > most_changed && !is_short;
-                let is_smooth = goes_on && error <= 10.0 * WANTED_ERROR && !is_crossed;
+                let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
                 if folds <= LARGEST_MEASURE_CHANGE && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
@@ -178,11 +155,6 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         // next to a state at which the parameter turns only planes across the path meet it well
         self.locate([from, to], &mut |_, state| state.parameter - parameter)
     }
-}
-
-/// Change of the number of negative eigenvalues from one state to the next; 0 where it is not known.
-fn crossings(from: &PathState, to: &PathState) -> usize {
-    from.negative_eigenvalues.zip(to.negative_eigenvalues).map_or(0, |(from, to)| from.abs_diff(to))
 }
 
 /// The state predicted at this arc length beyond the last of two states, or beyond the only one.
