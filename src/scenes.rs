@@ -15,7 +15,7 @@ const ITS_NAME: &str = "stdin";
 
 /// The reasons for which the scenes of a call cannot be computed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub(crate) enum ScenesError {
     #[error(transparent)]
     Run(RunError),

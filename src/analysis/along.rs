@@ -61,7 +61,7 @@ pub struct RelaxedTrajectory {
 
 /// Why there is no relaxed state beside a rigid one.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum AlongFailure {
     #[error(transparent)]
     Relaxation(#[from] Failure),

@@ -17,7 +17,7 @@ const NO_CURVATURE: f64 = 1e-7;
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum BranchesError {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),

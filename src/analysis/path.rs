@@ -23,7 +23,7 @@ use thiserror::Error;
 
 /// The reason for which a path cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum PathFailure {
     #[error(transparent)]
     Drive(#[from] DriveError),

@@ -6,7 +6,7 @@ use crate::sheet::Sheet;
 
 /// The reasons for which a kinematic quantity cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum KinematicsError {
     #[error("the faces around vertex {vertex} do not form one closed round")]
     BrokenRound { vertex: usize },

@@ -28,7 +28,7 @@ enum Operation {
 
 /// The reasons for which a text is no expression. Places are characters, counted from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum ExpressionError {
     #[error("`{name}` at character {at} is not known; there are {known}")]
     Unknown { name: String, at: usize, known: String },

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 /// The reason why an assembly cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum AssemblyError {
     #[error("the sheet has no lattice: it can only be a patch")]
     NoLattice,

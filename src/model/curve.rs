@@ -127,7 +127,7 @@ impl ForceCurve for Bilinear {
 
 /// The reason for which points are no curve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum CurveError {
     #[error("a curve has at least three points, one of them 0, 0")]
     TooFew,

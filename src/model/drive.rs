@@ -43,7 +43,7 @@ pub struct Drive {
 
 /// The reason for which a drive does nothing to a model.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum DriveError {
     #[error("there are no loads to drive")]
     NoLoads,

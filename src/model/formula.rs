@@ -26,7 +26,7 @@ pub struct Formula {
 
 /// The reasons for which a text is no formula of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum FormulaError {
     #[error(transparent)]
     Expression(#[from] ExpressionError),

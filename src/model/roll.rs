@@ -13,7 +13,7 @@ const CLOSED: f64 = 1e-6;
 
 /// The reason why a sheet is not drawn as a tube with a given seam.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum RollError {
     #[error("the sheet is not drawn as a tube: no screw motions repeat its cell")]
     NoScrews,

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// The reason why a file could not be written or read.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum OutputError {
     #[error("{}: cannot be written: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
@@ -26,7 +26,7 @@ pub enum OutputError {
 
 /// Parts of a picture or a table that are inconsistent.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum ShapeError {
     /// An array has the wrong length.
     #[error("array `{array}` has {found} entries, expected {expected}")]
@@ -51,7 +51,7 @@ pub enum ShapeError {
 
 /// A fault of the content of a VTU file.
 #[derive(Debug, Error, PartialEq, Eq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum VtuFault {
     #[error("not a readable VTU file: {0}")]
     Format(String),

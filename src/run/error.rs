@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// The reasons for which a run, a conversion or a generator has no result.
 #[derive(Debug, Error, Diagnostic)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// The reasons for which a scene, or a table that it names, is refused.
 #[derive(Debug, Error, Diagnostic)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum SceneError {
     #[error("{}: cannot be read: {source}", path.display())]
     Read { path: PathBuf, source: io::Error },
@@ -46,7 +46,7 @@ pub enum SceneError {
 
 /// The errors in a line of a table of angles, rates, stiffnesses or lengths.
 #[derive(Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum TableFault {
     #[error("the header is `{found}`, expected `i,j,n1,n2,{value}` or `cell1,cell2,i,j,n1,n2,{value}`")]
     Header { found: String, value: &'static str },

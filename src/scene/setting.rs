@@ -29,7 +29,7 @@ pub struct Setting {
 
 /// The reasons for which a key of a scene cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum SettingError {
     #[error("`{0}` sets no key of the scene; write KEY=VALUE, as in energy.bars.stiffness=1e4")]
     Form(String),

@@ -18,7 +18,7 @@ fn counted(count: &usize) -> String {
 
 /// The reasons for which a value of a scene is refused.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum ValueError {
     #[error("the list has {count}, expected {1} values", count = counted(.0))]
     Length(usize, usize),

@@ -17,7 +17,7 @@ impl fmt::Display for DrawnEdge {
 
 /// The reason why a file gives no sheet.
 #[derive(Debug, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum SheetError {
     #[error("{}: {source}", path.display())]
     Read { path: PathBuf, source: std::io::Error },
@@ -77,7 +77,7 @@ impl Defect {
 
 /// A problem of a mesh; the message says what would be right. Vertices and faces carry the file's own numbers.
 #[derive(Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum Problem {
     #[error("not a FOLD file: {message}; a FOLD file is one JSON object")]
     Syntax { message: String },

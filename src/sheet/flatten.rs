@@ -27,7 +27,7 @@ const UNFOLDED_RAD: f64 = 1e-6;
 
 /// The reason why a sheet has no crease pattern.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum NotDevelopable {
     #[error(
         "the sheet cannot be unfolded: the angles at vertex {vertex} sum to {:.6} rad, {defect:.2e} less than a full turn",

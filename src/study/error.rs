@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// The reasons for which a study cannot be computed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum StudyError {
     #[error(transparent)]
     Scene(#[from] SceneError),

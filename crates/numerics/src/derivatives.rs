@@ -30,7 +30,7 @@ const HIGHEST_ORDER: usize = 7;
 
 /// The reason for which a derivative did not pass.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum DerivativeError {
     #[error("entry ({row}, {column}) is {found:e}, differences give {expected:e}: off by more than {allowed:e}")]
     Entry { row: usize, column: usize, expected: f64, found: f64, allowed: f64 },

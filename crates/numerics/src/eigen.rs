@@ -17,7 +17,7 @@ const RELATIVE_RESIDUAL: f64 = 1e-13;
 
 /// The reason for which no eigenpairs were found.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum EigenError {
     #[error(transparent)]
     Factor(#[from] FactorError),

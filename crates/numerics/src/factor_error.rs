@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// The reason for which a factorization cannot be used.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum FactorError {
     #[error("the matrix has an entry that is not finite")]
     NotFinite,

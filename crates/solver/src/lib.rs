@@ -22,7 +22,7 @@
 //! | `stationary` | [`stationary_point`]: an equilibrium of any index near a state |
 //! | [`path`] | equilibria along a parameter, through limit points and branch points |
 //! | [`constrained`] | a separable quadratic function under local constraints |
-//! | `self_stress`, [`tension`] | tensions that balance each other, and tensions without them |
+//! | [`self_stress`], [`tension`] | tensions that balance each other, and tensions without them |
 //! | [`implicit`] | Newton's method onto the solutions of `F(x) = 0` |
 //! | [`continuation`], [`atlas`] | curves and surfaces of solutions |
 //!
@@ -109,7 +109,7 @@ mod linearization;
 mod newton;
 pub mod path;
 mod problem;
-mod self_stress;
+pub mod self_stress;
 mod stationary;
 mod tangent;
 pub mod tension;

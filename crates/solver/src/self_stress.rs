@@ -2,11 +2,18 @@
 
 use super::linearization::Linearization;
 use super::problem::Problem;
+use foldwell_numerics::random::symmetric;
 use foldwell_numerics::rank;
 use foldwell_numerics::sparse::{Cliques, Rows};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 
 /// Singular values of the stiff Jacobian below this, relative to its largest entry, count as zero.
 const ZERO_SINGULAR_VALUE: f64 = 1e-6;
+/// Seed of the random tensions of which a self stress is a part.
+const SEED: u64 = 1;
+/// Size of that part, relative to the random tensions, up to which it is rounding error and there is no self stress.
+const LEAST_SELF_STRESS: f64 = 1e-6;
 
 /// Number of self stresses at a linearization; `None` where no measure is rigid, or where they cannot be counted.
 pub(crate) fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usize> {
@@ -18,8 +25,36 @@ pub(crate) fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Opti
     Some(rigid.numbers.len() - rank)
 }
 
+/// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness
+/// follow from their stretch.
+pub(crate) fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
+    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
+    let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * at.sizes[row]).collect();
+    let least = rank::without_null(&rigid.rows(), layout.unknowns, &layout.node, &forces).ok()?;
+    let mut tension = tension.to_vec();
+    rigid.numbers.into_iter().zip(least).for_each(|(row, force)| tension[row] = force / at.sizes[row]);
+    Some(tension)
+}
+
+/// One of the self stresses of the rigid measures, taken at random, as large as these tensions of theirs; `None` if they
+/// have no self stress, or the tensions are zero.
+pub fn self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
+    let (mut random, compliance) = (ChaCha8Rng::seed_from_u64(SEED), problem.compliance());
+    let size = |of: &[f64]| {
+        let rigid = (0..of.len()).filter(|&row| compliance[row] == 0.0);
+        rigid.map(|row| (of[row] * at.sizes[row]).powi(2)).sum::<f64>().sqrt()
+    };
+    let rigid = (0..compliance.len()).map(|row| (compliance[row] == 0.0, at.sizes[row]));
+    let any: Vec<f64> = rigid.map(|(rigid, size)| if rigid { symmetric(&mut random) / size } else { 0.0 }).collect();
+    let least = without_self_stress(problem, at, &any)?;
+    let stress: Vec<f64> = any.iter().zip(&least).map(|(any, least)| any - least).collect();
+    let scale = size(tension) / size(&stress);
+    let is_one = size(&stress) > LEAST_SELF_STRESS * size(&any) && scale > 0.0;
+    is_one.then(|| stress.into_iter().map(|stress| scale * stress).collect())
+}
+
 /// The gradients of the rigid measures, each divided by its natural size.
-pub(super) struct RigidRows {
+struct RigidRows {
     /// Numbers of the rigid measures among the stiff ones.
     pub numbers: Vec<usize>,
     cliques: Cliques,

@@ -3,13 +3,9 @@
 use super::linearization::{HessianKind, Linearization};
 use super::newton::Equilibrium;
 use super::problem::{Problem, Residuals};
-use super::self_stress::{RigidRows, self_stresses};
+use super::self_stress::{self_stress, self_stresses, without_self_stress};
 use super::tangent::Tangent;
-use foldwell_numerics::random::symmetric;
-use foldwell_numerics::rank;
 use foldwell_numerics::vector::moved;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// Tensions without self stress are taken where the scaled residual force with them is at most this many times the one
 /// before.
@@ -17,12 +13,9 @@ const MOST_FORCE_RATIO: f64 = 10.0;
 /// Scaled residual force below which it may be rounding error alone.
 const ROUNDING_FORCE: f64 = 1e-13;
 
-/// Seed of a random self stress, and the part of random tensions from which on what balances itself is one.
-const SEED: u64 = 1;
-const LEAST_SELF_STRESS: f64 = 1e-6;
-
-/// Parts of a self stress, of both signs, with which negative eigenvalues are counted.
-const PARTS: [f64; 8] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
+/// Multiples of a self stress as large as the tensions, each with both signs, with which negative eigenvalues are counted
+/// again: those that hold a sheet may be several times as large.
+const MULTIPLES: [f64; 8] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
 
 /// A converged state's tensions.
 #[derive(Clone, Debug)]
@@ -68,34 +61,6 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> BalancedTensions 
     if unbalanced(&least, &at) <= allowed { least } else { before }
 }
 
-/// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness
-/// follow from their stretch.
-fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
-    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
-    let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * at.sizes[row]).collect();
-    let least = rank::without_null(&rigid.rows(), layout.unknowns, &layout.node, &forces).ok()?;
-    let mut tension = tension.to_vec();
-    rigid.numbers.into_iter().zip(least).for_each(|(row, force)| tension[row] = force / at.sizes[row]);
-    Some(tension)
-}
-
-/// A self stress of the rigid measures, one of random direction, as large as these tensions of theirs; `None` if they
-/// have none, or the tensions are zero.
-pub fn self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
-    let (mut random, compliance) = (ChaCha8Rng::seed_from_u64(SEED), problem.compliance());
-    let size = |of: &[f64]| {
-        let rigid = (0..of.len()).filter(|&row| compliance[row] == 0.0);
-        rigid.map(|row| (of[row] * at.sizes[row]).powi(2)).sum::<f64>().sqrt()
-    };
-    let rigid = (0..compliance.len()).map(|row| (compliance[row] == 0.0, at.sizes[row]));
-    let any: Vec<f64> = rigid.map(|(rigid, size)| if rigid { symmetric(&mut random) / size } else { 0.0 }).collect();
-    let least = without_self_stress(problem, at, &any)?;
-    let stress: Vec<f64> = any.iter().zip(&least).map(|(any, least)| any - least).collect();
-    let scale = size(tension) / size(&stress);
-    let is_one = size(&stress) > LEAST_SELF_STRESS * size(&any) && scale > 0.0;
-    is_one.then(|| stress.into_iter().map(|stress| scale * stress).collect())
-}
-
 /// Negative eigenvalues of an equilibrium with these tensions of least norm; `None` if their number cannot be
 /// established. Where rigid measures have self stresses, the Hessian is not the same for all of them. If any gives no
 /// negative eigenvalue, the state is a minimum; another number is known only if no self stress of a few sizes changes it.
@@ -108,6 +73,6 @@ pub fn negative_eigenvalues<P: Problem>(problem: &P, x: &[f64], least: &[f64]) -
     problem.linearize(x, least, HessianKind::GaussNewton, &mut at);
     let counted = count(least)?;
     let Some(stress) = self_stress(problem, &at, least).filter(|_| counted > 0) else { return Some(counted) };
-    let mut parts = PARTS.iter().flat_map(|part| [*part, -part]);
-    parts.all(|part| count(&moved(least, part, &stress)) == Some(counted)).then_some(counted)
+    let mut multiples = MULTIPLES.iter().flat_map(|multiple| [*multiple, -multiple]);
+    multiples.all(|multiple| count(&moved(least, multiple, &stress)) == Some(counted)).then_some(counted)
 }

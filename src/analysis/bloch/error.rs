@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// Why there is no answer about spatially varying modes.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum BlochError {
     #[error("a sheet without lattice vectors has no spatially varying modes")]
     NoLattice,

@@ -16,14 +16,6 @@ const STEPS: usize = 20;
 const LAST_STEP: f64 = 1e-12;
 /// Longest way from the point of the grid, in meshes.
 const FARTHEST: f64 = 2.0;
-/// Wavenumbers below this are near `q = 0`.
-const NEAR_ORIGIN: f64 = 0.5;
-/// Steps by which an interval is shortened to rounding errors.
-const THIRDS: usize = 80;
-/// Ratio of the second derivatives along and across from which on a zero is a single point, and no point of a line.
-const SINGLE: f64 = 1e-4;
-/// The determinant is zero where it is at most so many times what it is known to.
-const CERTAIN: f64 = 10.0;
 /// Extrema nearer to each other than this are one.
 const SAME_EXTREMUM_DISTANCE: f64 = 1e-8;
 
@@ -66,48 +58,11 @@ pub(crate) fn hidden(zone: &Zone, n: usize, positive: &[bool], steepness: &[f64]
     found
 }
 
-/// A wavenumber on a line along which the determinant touches zero without a change of sign, as a square does; `None` if
-/// none is found. From the points of an `n x n` grid where its magnitude is least among their neighbours, the least one
-/// along the gradient is found; it is on a line unless the second derivatives say that it is a single point.
-pub(crate) fn touched(zone: &Zone, n: usize) -> Option<[f64; 2]> {
-    let at = |k: usize| [wavenumber(k % n, n), wavenumber(k / n, n)];
-    let magnitudes: Vec<f64> = (0..n * n).map(|k| zone.at(at(k)).0.abs()).collect();
-    let mesh = TAU / n as f64;
-    let least = (0..n * n).filter(|&k| is_least(n, &magnitudes, k)).map(at);
-    // near q = 0, where all determinants vanish, no zero is told from its neighbours
-    least.filter(|q| q[0].hypot(q[1]) > NEAR_ORIGIN).find_map(|start| {
-        let gradient = zone.at(start).1;
-        let length = gradient[0].hypot(gradient[1]);
-        let along = if length > 0.0 { gradient.map(|slope| slope / length) } else { [1.0, 0.0] };
-        let place = |way: f64| [0, 1].map(|a| start[a] + way * along[a]);
-        let way = least_between([-mesh, mesh], |way| zone.at(place(way)).0.abs());
-        let q = place(way);
-        let [before, after] = [way - 0.1 * mesh, way + 0.1 * mesh].map(|way| zone.at(place(way)).0);
-        let [xx, yy, xy] = zone.curvature(q);
-        let (mean, half) = (0.5 * (xx + yy).abs(), (0.5 * (xx - yy)).hypot(xy));
-        let is_single = mean - half > SINGLE * (mean + half);
-        (zone.at(q).0.abs() <= CERTAIN * zone.uncertainty(q) && before * after > 0.0 && !is_single).then_some(q)
-    })
-}
-
-/// Where a function with one minimum between two numbers is least, by thirds.
-fn least_between([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..THIRDS {
-        let third = (high - low) / 3.0;
-        if value(low + third) < value(high - third) {
-            high -= third;
-        } else {
-            low += third;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// Whether no neighbour of a point of the grid has a smaller gradient.
-fn is_least(n: usize, steepness: &[f64], k: usize) -> bool {
+/// Whether no neighbour of a point of the grid has a smaller value.
+pub(super) fn is_least(n: usize, values: &[f64], k: usize) -> bool {
     let (i, j) = (k % n, k / n);
     let around = |by: usize| (0..3).map(move |step| (by + n + step - 1) % n);
-    around(j).all(|j| around(i).all(|i| steepness[k] <= steepness[j * n + i]))
+    around(j).all(|j| around(i).all(|i| values[k] <= values[j * n + i]))
 }
 
 /// The points of the grid at the corners of the mesh in which a point is.

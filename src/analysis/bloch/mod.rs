@@ -23,6 +23,7 @@ mod root;
 pub(crate) mod singular;
 pub mod strip;
 mod survey;
+mod touching;
 pub mod zero_lines;
 pub(crate) mod zone;
 

@@ -14,9 +14,10 @@ mod arc;
 mod line;
 mod region;
 
-use super::extrema::{Hidden, hidden, touched};
+use super::extrema::{Hidden, hidden};
 use super::laurent::wavenumber;
 use super::singular::Search;
+use super::touching::touched;
 use super::zone::{Zone, reduced};
 use super::{BlochError, Rigidity};
 use crate::numerics::larger;

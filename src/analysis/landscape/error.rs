@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// Why there is no landscape.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum LandscapeError {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),

@@ -62,7 +62,7 @@ impl Sample {
 
 /// Why a sample is missing.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum SampleError {
     #[error("a relaxation failed: {0}")]
     Relaxation(Failure),

@@ -17,7 +17,7 @@ pub(crate) const LEAST_GAP: f64 = 1e3;
 
 /// Why there are no modes.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum ModesError {
     #[error(transparent)]
     Dense(#[from] DenseError),

@@ -9,7 +9,8 @@ mod run;
 
 use super::state::State;
 use crate::model::{Assembly, Configuration, Gauge, Model};
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step, tension};
+use crate::solver::tension::{self, BalancedTensions};
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step};
 use certainty::{CERTAIN, uncertainty};
 pub use options::{IntrinsicFailure, Method, RelaxOptions};
 use recorder::KeptState;
@@ -189,9 +190,9 @@ fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
 fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
     let Run { mut model, start, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
     let branch_choice = BranchChoice::of(&model, &found.x, &start.angles, !soft_steps.is_empty());
-    let found = with_least_tensions(&model, found);
-    let found = straight_screw::counted(&mut model, found);
     let settled = tension::settle(&model, &found);
+    let found = with_least_tensions(&model, found, &settled);
+    let found = straight_screw::counted(&mut model, found);
     let state = State::new(&model, &found.x, &settled.tension);
     let (history, kept) = recorder.end(Some(&state));
     let relaxed = Relaxed {
@@ -214,15 +215,14 @@ fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
     (relaxed, model, found.x)
 }
 
-/// The equilibrium with tensions of least norm where self stresses leave a choice, and its negative eigenvalues with
-/// them.
-fn with_least_tensions(model: &Model, found: Equilibrium) -> Equilibrium {
-    let settled = tension::settle(model, &found);
+/// The equilibrium with its tensions of least norm where self stresses leave a choice, and with its negative eigenvalues
+/// counted by them.
+fn with_least_tensions(model: &Model, found: Equilibrium, settled: &BalancedTensions) -> Equilibrium {
     if settled.self_stresses.unwrap_or(0) == 0 {
         return found;
     }
     let negative_eigenvalues = tension::negative_eigenvalues(model, &found.x, &settled.tension);
-    Equilibrium { tension: settled.tension, negative_eigenvalues, ..found }
+    Equilibrium { tension: settled.tension.clone(), negative_eigenvalues, ..found }
 }
 
 /// The failure of a relaxation with its last state.

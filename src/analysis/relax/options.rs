@@ -43,7 +43,7 @@ impl From<Options> for RelaxOptions {
 
 /// Why a relaxation that was to be made in fold angles was made in positions alone.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum IntrinsicFailure {
     #[error(transparent)]
     Unsupported(#[from] Unsupported),

@@ -6,7 +6,7 @@ use crate::numerics::dense::DenseError;
 
 /// Why the linear response of a state cannot be computed.
 #[derive(Debug, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum ResponseError {
     #[error("the linear response is that of a periodic sheet: domain = \"torus\" or \"screw\"")]
     NotPeriodic,

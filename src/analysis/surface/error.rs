@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// Why there is no surface.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum SurfaceError {
     #[error("a surface of folded states needs domain \"screw\": its states are drawn in the space of lattice strains")]
     NotScrew,

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// Why there are no trajectories.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum TraceError {
     #[error(transparent)]
     Branches(#[from] BranchesError),

@@ -53,7 +53,7 @@ const SHORTEST: f64 = 1.05;
 
 /// Why there is no pass.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum BarrierError {
     #[error("barriers need linear bars and hinges and no other terms, and here is another: {term}")]
     NotLinear { term: String },

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// Why a model has no intrinsic form.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum Unsupported {
     #[error("only patches are solved in fold angles")]
     Domain,

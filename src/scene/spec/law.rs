@@ -15,7 +15,7 @@ use crate::sheet::angle::Angle;
 
 /// The reasons for which a number of a law is refused.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum LawFault {
     #[error("the exponents are {0} and {1}, expected two finite numbers that differ")]
     Exponents(f64, f64),

@@ -4,7 +4,7 @@ use crate::sheet::error::Defect;
 
 /// The reason why a pattern has no sheet for its parameters.
 #[derive(Debug, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum GenerateError {
     #[error("{message}")]
     Unknown { message: String, help: String },

@@ -9,7 +9,7 @@ const FLAT: f64 = 1e-9;
 
 /// The reason why a sheet is not a crease pattern that lines can draw.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum NotFlat {
     #[error("a crease pattern is flat, and the vertices of this sheet lie between z = {low} and z = {high}")]
     Raised { low: f64, high: f64 },

@@ -296,8 +296,7 @@ fn tensions_have_no_self_stress() {
 }
 
 /// A quadrilateral plate with a vertex inside: four triangles in a plane, whose eight bars have one self stress.
-const PLATE: &str = r#"{"vertices_coords": [[0, 0, 0], [2, 0, 0], [2.3, 1.5, 0], [0, 1.2, 0], [0.9, 0.5, 0]],
-    "faces_vertices": [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]}"#;
+const PLATE: &str = include_str!("../../cases/plate.fold");
 
 /// The plate with rigid bars, pressed along a diagonal.
 fn plate(load: f64) -> Assembly {

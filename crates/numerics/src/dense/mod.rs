@@ -21,7 +21,7 @@ pub(crate) const SMALLEST_GAP: f64 = 1e3;
 
 /// The reason for which a matrix was not decomposed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum DenseError {
     #[error("entry ({row}, {column}) of the matrix is {value}")]
     NotFinite { row: usize, column: usize, value: f64 },

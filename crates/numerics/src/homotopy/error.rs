@@ -4,7 +4,7 @@
 pub(super) const MOST_QUADRICS: usize = 16;
 /// Why a system of quadrics was not solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum HomotopyError {
     #[error("quadric {number} is zero, not finite, or of another size than the others")]
     Quadric { number: usize },

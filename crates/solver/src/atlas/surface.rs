@@ -125,7 +125,7 @@ impl Atlas {
 
 /// The reason for which a surface was not covered.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum AtlasError {
     #[error("start {start} is not on the surface, or the surface bends too sharply there")]
     Start { start: usize },

@@ -1,4 +1,4 @@
-//! What the iteration finds, and why it finds nothing.
+//! The minimum to which the iteration converges, and the reasons for which it does not converge.
 
 use crate::newton::Step;
 use foldwell_numerics::factor::FactorError;
@@ -28,7 +28,7 @@ pub struct Minimum {
 
 /// Why the iteration did not converge.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum ConstrainedFailure {
     #[error("no step shrinks the correction, which changes a variable by {correction:.1e}")]
     Stuck { correction: f64 },

@@ -60,7 +60,7 @@ pub struct Equilibrium {
 
 /// Why a minimisation did not converge.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum Failure {
     #[error("the rigid measures cannot be met: largest scaled gap {gap:.2e}")]
     Infeasible { gap: f64 },

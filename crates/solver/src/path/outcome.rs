@@ -124,7 +124,7 @@ pub struct MarkedState {
 
 /// The reason for which a path cannot be followed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum PathError {
     #[error("the start is not an equilibrium, and none is found next to it")]
     NoStart,

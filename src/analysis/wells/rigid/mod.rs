@@ -95,7 +95,7 @@ pub struct RigidLandscape {
 
 /// Why there is no landscape of this kind.
 #[derive(Debug, Error)]
-#[allow(missing_docs)] // the messages say it
+#[allow(missing_docs)] // each variant is documented by its message
 pub enum RigidError {
     #[error("the rigid states have {dimension} dimensions: wells are counted on curves and surfaces only")]
     Dimension { dimension: i64 },

@@ -3,7 +3,7 @@
 use super::DrivenModel;
 use super::effect::Effect;
 use crate::solver::path::ParametrizedProblem;
-use crate::solver::tension::self_stress;
+use crate::solver::self_stress::self_stress;
 use crate::solver::{Linearization, Tangent};
 
 /// Relative residual of the system of the rates.
