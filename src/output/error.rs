@@ -28,7 +28,6 @@ pub enum OutputError {
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[allow(missing_docs)] // each variant is documented by its message
 pub enum ShapeError {
-    /// An array has the wrong length.
     #[error("array `{array}` has {found} entries, expected {expected}")]
     Length {
         array: &'static str,
@@ -39,7 +38,6 @@ pub enum ShapeError {
     },
     #[error("point {point} is used, but there are {count}")]
     NoSuchPoint { point: usize, count: usize },
-    /// A row of a table has the wrong length.
     #[error("row {row} has {found} values, expected {expected} as in the header")]
     Row {
         /// Index of the row, counted from 0.

@@ -117,6 +117,17 @@ fn two_bars_have_a_loop() {
     assert!(all > 0.0 && (work - all).abs() < 1e-4 * all, "{work} {all}");
 }
 
+/// Claim: where the drive ends less than half a per cent beyond a limit point, the sheet snaps before that end and stays on
+/// its way to it. Source: the largest force on two bars, see above; the drive ends 1.5e-5 beyond it.
+#[test]
+fn a_snap_stays_within_the_drive() {
+    let ran = loaded("9.545e-3", "").converged();
+    let (branch, table) = (&ran.path("loaded").branches[0], ran.out.table("loaded.csv"));
+    assert!(branch.end == "arrived" && branch.events.iter().any(|event| event.event == "snap"), "{branch:?}");
+    let drives = table.column("drive");
+    assert!(drives.is_sorted() && drives.last() == Some(&9.545e-3), "{drives:?}");
+}
+
 /// Claim: stops count over snaps, values that are listed or at which to stop are not jumped over, a quantity that jumps over
 /// the value at which to stop ends the path behind the jump, and a sheet that snaps follows no branches. Source: the
 /// snap of two bars goes from a load of 9.5303e-3 to 9.6303e-3, and from a displacement of 0.129 to 0.649.
