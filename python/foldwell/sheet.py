@@ -241,7 +241,7 @@ def generate(
     *,
     a: float | None = None, b: float | None = None, c: float | None = None, d: float | None = None,
     width: float | None = None, height: float | None = None, radius: float | None = None, half_span: float | None = None,
-    fold: Angle | None = None, sector: Angle | None = None, twist: Angle | None = None,
+    fold: Angle | None = None, sector: Angle | None = None, twist: Angle | None = None, thickness: float | None = None, gap: float | None = None,
     ac: Angle | None = None, ad: Angle | None = None, bc: Angle | None = None, bd: Angle | None = None,
     cells: Pair | None = None, tubes: Pair | None = None, size: Pair | None = None, sides: int | None = None, levels: int | None = None, pleats: int | None = None,
     skew: float | None = None, jitter: float | None = None, seed: int | None = None, symmetry: str | None = None, closed: bool | None = None,

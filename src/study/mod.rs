@@ -55,8 +55,8 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
         supported::no_parts(context)?;
     }
     let folds_exactly = |kind: &StudyKind| {
-        use StudyKind::{Branches, Landscape, Response, Surface, Trace};
-        matches!(kind, Branches(_) | Landscape(_) | Response(_) | Surface(_) | Trace(_))
+        use StudyKind::{Branches, Landscape, Surface, Trace};
+        matches!(kind, Branches(_) | Landscape(_) | Surface(_) | Trace(_))
     };
     if folds_exactly(&context.study.kind) {
         supported::a_surface(context)?;

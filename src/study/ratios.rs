@@ -7,7 +7,7 @@ use crate::model::{Assembly, Domain};
 use crate::scene::Located;
 use crate::scene::spec::RatioColumns;
 
-/// Checks that the states of a study have ratios: those of one periodic cell without openings.
+/// Checks that the states of a study have ratios: those of one periodic cell.
 pub(crate) fn check(context: &Context<'_>, columns: Option<&Located<RatioColumns>>) -> Result<(), StudyError> {
     let Some(columns) = columns else { return Ok(()) };
     let assembly = context.assembly;
@@ -18,9 +18,6 @@ pub(crate) fn check(context: &Context<'_>, columns: Option<&Located<RatioColumns
     }
     if matches!(assembly.domain(), Domain::Tube { .. }) {
         return refuse("Poisson's ratios of a sheet that is rolled up are not known", "leave out `response`");
-    }
-    if !assembly.sheet().holes.is_empty() {
-        return refuse("Poisson's ratios of sheets with openings are not known", "leave out `response`");
     }
     Ok(())
 }

@@ -27,7 +27,7 @@ const SHOWN: f64 = 0.1;
 /// Components of a curvature below this part of the largest are shown as 0: they are rounding.
 const NOISE: f64 = 1e-12;
 
-/// Checks that the sheet is periodic without openings, and that the start is a state of one cell.
+/// Checks that the sheet is periodic, and that the start is a state of one cell.
 pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), StudyError> {
     start::check(context, spec.start.as_ref())?;
     let assembly = context.assembly;
@@ -35,10 +35,6 @@ pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), St
     if matches!(assembly.drawn().domain, Domain::Patch) {
         let help = "give domain = \"torus\" or \"screw\", of a mesh with the key `foldwell:lattice`";
         return refuse("the linear response is that of a periodic sheet", help);
-    }
-    if !assembly.sheet().holes.is_empty() {
-        let help = "closing the vertices does not close the rims of openings; take a sheet without them";
-        return refuse("studies of kind response do not know openings", help);
     }
     let Some(start) = spec.start.as_ref().filter(|start| !matches!(***start, StartSpec::Drawn)) else { return Ok(()) };
     if assembly.tiling().cells != [1, 1] {
@@ -159,7 +155,7 @@ fn add_pictures(answer: &mut Answer, context: &Context<'_>, response: &Response,
 /// Returns the velocities of a mode at the points of the picture.
 fn velocities(context: &Context<'_>, mode: &LinearMode, coordinates: &[f64]) -> Vec<Vec3> {
     match &mode.field {
-        Field::OfCells(_) => {
+        Field::OfCells { .. } => {
             let at = |&(vertex, cell): &(usize, [i32; 2])| mode.field.at(vertex, cell).unwrap_or_else(Vec3::zeros);
             context.view.places.iter().map(at).collect()
         }

@@ -32,8 +32,8 @@ pub(super) fn a_surface(context: &Context<'_>) -> Result<(), StudyError> {
     }
     let kind = context.study.kind.name();
     let message = format!("studies of kind {kind} fold surfaces with two sides exactly, and this sheet is none");
-    let help = "an edge has more than two faces or none, or the faces have one side: relax, path, fold, wells, modes and \
-                bands of bloch know such assemblies";
+    let help = "an edge has more than two faces or none, or the faces have one side: relax, path, fold, wells, modes, \
+                response and bands of bloch know such assemblies";
     Err(context.refuse(message, help).into())
 }
 

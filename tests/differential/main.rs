@@ -13,6 +13,7 @@ mod common;
 mod folded;
 mod grid;
 mod inertia;
+mod laws;
 #[path = "../common/redrawn.rs"]
 mod redrawn;
 mod relaxed;
@@ -37,6 +38,8 @@ const FELL_UNUSUAL: [u64; 9] = [139, 371, 679, 1015, 1549, 1767, 3115, 3422, 945
 const USUAL_UNUSUAL: u64 = 25;
 /// Cases where nothing else is asked for.
 const USUAL: u64 = 150;
+/// Cases with laws where nothing else is asked for.
+const USUAL_LAWS: u64 = 60;
 /// Assemblies whose negative eigenvalues are counted.
 const USUAL_COUNTS: u64 = 60;
 /// Folding is asked of one case in so many: it takes much longer than a relaxation.
@@ -122,6 +125,24 @@ fn two_ways_agree_for_unusual_sheets() {
         let [answered, unanswered] = report.made[kind];
         assert!(4 * answered >= 3 * (answered + unanswered), "{kind}: {answered} of {}", answered + unanswered);
     }
+    assert!(report.fell.is_empty(), "{} disagreements: {:#?}", report.fell.len(), report.fell);
+}
+
+/// Claim: the same for sheets whose bars and hinges have random laws: those of published programs, two slopes, a formula.
+#[test]
+fn two_ways_agree_with_laws() {
+    let (cases, first) = asked(USUAL_LAWS);
+    let seeds: Vec<u64> = (first..first + cases).collect();
+    let report = examine_all(&seeds, |seed| {
+        let mut report = Report::default();
+        relaxed::examine(seed, &laws::trial(seed), &mut report);
+        report.fell.iter().for_each(|fell| println!("{fell}"));
+        report
+    });
+    println!("{cases} cases; comparisons, and those without an answer: {:#?}", report.made);
+    println!("what was said where there was no answer: {:#?}", report.said);
+    let [answered, unanswered] = report.made["relaxed"];
+    assert!(4 * answered >= 3 * (answered + unanswered), "{answered} of {} have an answer", answered + unanswered);
     assert!(report.fell.is_empty(), "{} disagreements: {:#?}", report.fell.len(), report.fell);
 }
 

@@ -1,6 +1,7 @@
 //! One random sheet, and its answers.
 
 use crate::common::{self, Numbers, Testing, on};
+use crate::laws::RandomLaws;
 use crate::redrawn::redrawn;
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
@@ -32,6 +33,7 @@ pub struct Trial {
     pub cells: [usize; 2],
     pub bars: f64,
     pub facets: f64,
+    pub laws: RandomLaws,
     /// Rest angle less the drawn one of each edge of the cell.
     pub off: Vec<f64>,
     /// A locked edge of the cell, and its angle less the drawn one.
@@ -120,8 +122,8 @@ impl Trial {
         let locked = hinges[pick(hinges.len())];
         let off = numbers.many(sheet.edges.len(), 0.05);
         let lock = with_lock.then(|| (locked, numbers.within(0.05)));
-        let (loads, pins) = (vec![], vec![]);
-        let mut trial = Self { sheet, boundary, cells, bars, facets, off, lock, loads, pins, starts: STARTS };
+        let (loads, pins, laws) = (vec![], vec![], RandomLaws::default());
+        let mut trial = Self { sheet, boundary, cells, bars, facets, laws, off, lock, loads, pins, starts: STARTS };
         if boundary == Patch && with_loads {
             trial.load(numbers, pinned);
         }
@@ -138,11 +140,12 @@ impl Trial {
     }
 
     pub fn describe(&self) -> String {
-        let Self { boundary, cells, bars, facets, lock, loads, pins, sheet, .. } = self;
+        let Self { boundary, cells, bars, facets, laws, lock, loads, pins, sheet, .. } = self;
         let (lock, pins) = (lock.is_some(), pins.len());
         let force = loads.first().map_or(0.0, |(_, f)| f.norm());
         let title = &sheet.title;
-        format!("{title} {boundary:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}")
+        let case = format!("{title} {boundary:?} {cells:?} bars {bars:e} facets {facets}");
+        format!("{case} lock {lock} load {force:.0e} pins {pins} {laws:?}")
     }
 
     pub fn terms(&self, case: &Assembly) -> Terms {
@@ -155,8 +158,8 @@ impl Trial {
             locks.extend(copies.map(|k| (k, case.drawn_angles()[k] + off)));
         }
         let facets = if case.count(EdgeKind::Facet) > 0 { case.facets(self.facets) } else { None };
-        let (loads, pins) = (self.loads.clone(), self.pins.clone());
-        Terms { facets, locks, loads, pins, ..Terms::bars_and_creases(self.bars, 1.0, rest) }
+        let (loads, pins, laws) = (self.loads.clone(), self.pins.clone(), self.laws.of_terms());
+        Terms { facets, locks, loads, pins, laws, ..Terms::bars_and_creases(self.bars, 1.0, rest) }
     }
 
     pub fn case(&self) -> Assembly {
@@ -230,6 +233,9 @@ impl Trial {
         other.sheet.lattice = other.sheet.lattice.map(|lattice| lattice.map(&linear));
         other.loads.iter_mut().for_each(|(_, force)| *force = linear(*force));
         other.off.iter_mut().for_each(|off| *off *= sign);
+        if sign < 0.0 {
+            other.laws = other.laws.mirrored();
+        }
         other.lock = other.lock.map(|(edge, off)| (edge, sign * off));
         other
     }

@@ -104,6 +104,11 @@ impl PeriodicCell {
 
     /// Returns the elements of one cell.
     pub(super) fn elements<'a>(&'a self, assembly: &'a Assembly) -> Vec<CellElement<'a>> {
+        self.elements_of(assembly, &self.model)
+    }
+
+    /// Returns the elements that a model of the assembly has in one cell.
+    pub(super) fn elements_of<'a>(&'a self, assembly: &'a Assembly, model: &'a Model) -> Vec<CellElement<'a>> {
         let (edges, vertices) = (&assembly.tiling().edges, self.sheet.vertices.len());
         let place = |site: &Site| {
             let cell = [(site.vertex / vertices) % self.cells[0], (site.vertex / vertices) / self.cells[0]];
@@ -111,7 +116,7 @@ impl PeriodicCell {
             Site { vertex: site.vertex % vertices, shift }
         };
         // a law is a spring at rest: what it stores beyond that has no stiffness there
-        let springs = self.model.elements().filter(|element| !element.is_beyond_spring());
+        let springs = model.elements().filter(|element| !element.is_beyond_spring());
         let placed = |element: Element<'a>| {
             let edge = element.edge().filter(|edge| edges[*edge].cell == [0, 0])?;
             let places = element.sites().iter().map(place).collect();

@@ -15,6 +15,7 @@ use crate::math::Vec3;
 use crate::model::Local;
 use crate::numerics::{DenseMatrix, larger};
 use nalgebra::{Matrix2, Vector2};
+use std::f64::consts::SQRT_2;
 
 /// Components of strain and of curvature.
 pub(super) const MACROSCOPIC: usize = 6;
@@ -30,13 +31,34 @@ pub(super) struct Rates {
     pub terms: f64,
 }
 
+/// Returns the components of a strain and a curvature in their norm, that of tensors with lengths in this unit, per
+/// component of `[e11, e22, e12, k11, k22, k12]`.
+pub(super) fn units(length: f64) -> [f64; MACROSCOPIC] {
+    [1.0, 1.0, SQRT_2, length, length, SQRT_2 * length]
+}
+
+impl Rates {
+    /// Returns the rates by motions of the cell in which vertex 0 does not move: the velocities of the other vertices,
+    /// then strain and curvature in their norm, lengths in this unit.
+    pub(super) fn by_motions(&self, length: f64) -> DenseMatrix {
+        let (vertices, units) = (self.by_vertices.ncols() - 3, units(length));
+        DenseMatrix::from_fn(self.by_vertices.nrows(), vertices + MACROSCOPIC, |row, column| {
+            match column.checked_sub(vertices) {
+                Some(component) => self.by_lattice[(row, component)] / units[component] / length,
+                None => self.by_vertices[(row, column + 3)],
+            }
+        })
+    }
+}
+
 /// Returns the rates of the measures of these elements of a cell.
 pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates {
     let (vertices, length) = (cell.sheet.vertices.len(), cell.area().sqrt());
     let mut terms = 0.0;
     let mut by_vertices = DenseMatrix::zeros(elements.len(), 3 * vertices);
     let mut by_lattice = DenseMatrix::zeros(elements.len(), MACROSCOPIC);
-    let moving: Vec<[Moving; 2]> = (0..MACROSCOPIC).map(|component| lattice_motions(cell, component)).collect();
+    let unit = |k: usize| [0, 1, 2, 3, 4, 5].map(|component| f64::from(u8::from(component == k)));
+    let moving: Vec<[Moving; 2]> = (0..MACROSCOPIC).map(|component| lattice_motions(cell, unit(component))).collect();
     let mut local = Local::default();
     for (row, element) in elements.iter().enumerate() {
         element.element.local(&cell.coordinates, false, &mut local);
@@ -55,20 +77,15 @@ pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates 
     Rates { by_vertices, by_lattice, terms }
 }
 
-/// Returns the lattice motions at the unit rate of one component of strain or curvature.
-fn lattice_motions(cell: &PeriodicCell, component: usize) -> [Moving; 2] {
-    let tensor = match component % 3 {
-        0 => Matrix2::new(1.0, 0.0, 0.0, 0.0),
-        1 => Matrix2::new(0.0, 0.0, 0.0, 1.0),
-        _ => Matrix2::new(0.0, 1.0, 1.0, 0.0),
-    };
+/// Returns the lattice motions at these rates of `[e11, e22, e12, k11, k22, k12]`.
+pub(super) fn lattice_motions(cell: &PeriodicCell, [e11, e22, e12, k11, k22, k12]: [f64; MACROSCOPIC]) -> [Moving; 2] {
+    let [strain, curvature] = [Matrix2::new(e11, e12, e12, e22), Matrix2::new(k11, k12, k12, k22)];
     let [x, y] = cell.plane();
     let in_space = |v: Vector2<f64>| x * v[0] + y * v[1];
     let in_plane = |v: &Vec3| Vector2::new(x.dot(v), y.dot(v));
     cell.lattice.map(|l| {
-        let moved = in_space(tensor * in_plane(&l));
-        let (angular, chord) =
-            if component < 3 { (Vec3::zeros(), 0.5 * moved) } else { (moved.cross(&cell.normal()), Vec3::zeros()) };
+        let chord = 0.5 * in_space(strain * in_plane(&l));
+        let angular = in_space(curvature * in_plane(&l)).cross(&cell.normal());
         Moving { motion: Motion::shift(l), twist: Twist { angular, linear: chord - angular.cross(&l) } }
     })
 }

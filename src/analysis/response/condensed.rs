@@ -15,13 +15,12 @@
 //! the stiffness of the bars: no large number is subtracted from another, and rigid bars are the limit.
 
 use super::cell::{CellElement, PeriodicCell};
-use super::compatibility::{MACROSCOPIC, rates};
+use super::compatibility::{MACROSCOPIC, rates, units};
 use super::error::ResponseError;
 use super::moduli_matrices::{ModuliMatrices, Principal};
 use crate::numerics::dense::small::{CholeskyFactor, cholesky};
 use crate::numerics::dense::{DenseError, full_svd, null_space_of_sums, symmetric_eigen};
 use crate::numerics::{DenseMatrix, larger};
-use std::f64::consts::SQRT_2;
 
 /// Singular value that counts as zero, of rates in units of the cell.
 const ZERO: f64 = 1e-10;
@@ -66,25 +65,11 @@ impl Weighted {
     }
 }
 
-/// Returns the components of `m` per component of `[e11, e22, e12, k11, k22, k12]`.
-fn units(length: f64) -> [f64; MACROSCOPIC] {
-    [1.0, 1.0, SQRT_2, length, length, SQRT_2 * length]
-}
-
 impl Springs {
     /// Collects the springs of these elements.
     pub(super) fn new(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Self {
         let (area, found) = (cell.area(), rates(cell, elements));
-        let (length, units) = (area.sqrt(), units(area.sqrt()));
-        let vertices = found.by_vertices.ncols() - 3;
-        let angle = |row: usize| elements[row].element.is_angle();
-        // lengths in units of `length`; vertex 0 does not move
-        let rows = DenseMatrix::from_fn(elements.len(), vertices + MACROSCOPIC, |row, column| {
-            match column.checked_sub(vertices) {
-                Some(component) => found.by_lattice[(row, component)] / units[component] / length,
-                None => found.by_vertices[(row, column + 3)],
-            }
-        });
+        let (angle, rows) = (|row: usize| elements[row].element.is_angle(), found.by_motions(area.sqrt()));
         let spring = |row: usize| {
             let spring = elements[row].element.spring;
             let unit = if angle(row) { 1.0 } else { area };

@@ -65,9 +65,7 @@ struct Rolled<'a> {
 
 impl<'a> Rolled<'a> {
     fn new(assembly: &'a Assembly, coordinates: Vec<f64>) -> Self {
-        let locks = (0..assembly.edges()).filter(|&edge| !assembly.drawn_angles()[edge].is_nan());
-        let locks = locks.map(|edge| (edge, assembly.drawn_angles()[edge])).collect();
-        let hinges = assembly.with_terms(Terms { locks, ..Terms::default() }).model(Gauge::Free);
+        let hinges = hinges_of(assembly);
         let at = |shift| assembly.drawn().domain.point(&coordinates, Site { vertex: 0, shift });
         let chords = [[1, 0], [0, 1]].map(|shift| at(shift) - at([0, 0]));
         let shared = &coordinates[coordinates.len() - 6..];
@@ -166,6 +164,13 @@ impl<'a> Rolled<'a> {
             curvature,
         }
     }
+}
+
+/// Returns a model with a lock for every hinge, which measures fold angles.
+pub(super) fn hinges_of(assembly: &Assembly) -> Model {
+    let angles = assembly.drawn_angles().iter().copied().enumerate();
+    let locks = angles.filter(|(_, angle)| !angle.is_nan()).collect();
+    assembly.with_terms(Terms { locks, ..Terms::default() }).model(Gauge::Free)
 }
 
 /// Returns the components of a vector `[x, y]` along and across an axis at an angle from x.

@@ -87,8 +87,8 @@ pub fn response(assembly: &Assembly) -> Result<Response, ResponseError> {
 /// of the bars.
 ///
 /// # Errors
-/// [`ResponseError`] for a patch, for a state of several cells that is not the drawn one, for a sheet with openings,
-/// and where the number of modes or the rank of the table is not clear.
+/// [`ResponseError`] for a patch, for a state of several cells that is not the drawn one, and where the number of modes
+/// or the rank of the table is not clear.
 pub fn response_at(assembly: &Assembly, state: &Configuration) -> Result<Response, ResponseError> {
     let rigid = assembly.with_terms(rigid_terms(assembly));
     let cell = PeriodicCell::of_state(&rigid, &state.coordinates, rigid.model(Gauge::Free))?;
@@ -123,14 +123,14 @@ pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Res
     let Some(cell) = PeriodicCell::of_state(&free, coordinates, free.model(Gauge::Free))? else {
         return Ok([None, None]);
     };
-    let found = periodic::modes_of(&cell)?;
+    let found = periodic::modes_of(&free, &cell)?;
     Ok([found.poisson.in_plane.ratio(0.0).ok(), found.poisson.bending.ratio(0.0).ok()])
 }
 
 /// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
 ///
 /// # Errors
-/// [`ResponseError`] as [`response_at`], except that a sheet with openings may have moduli.
+/// [`ResponseError`] as [`response_at`].
 pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
     moduli::moduli_of(assembly, state)
 }

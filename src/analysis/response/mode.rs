@@ -2,10 +2,10 @@
 
 use super::error::ResponseError;
 use super::tensors::{Span, TensorSpace, flat};
-use crate::kinematics::Displacement;
+use crate::kinematics::Moving;
+use crate::kinematics::motion::Rigid;
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
-use crate::sheet::Corner;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,8 +31,13 @@ pub struct LinearMode {
 /// The velocities of a mode.
 #[derive(Clone, Debug)]
 pub enum Field {
-    /// Velocities of the vertices of all cells, of a spatially periodic state.
-    OfCells(Box<Displacement>),
+    /// Velocities of the vertices of a spatially periodic state.
+    OfCells {
+        /// Position and velocity of every vertex of the cell `[0, 0]`; vertex 0 is at rest in the origin.
+        vertices: Vec<[Vec3; 2]>,
+        /// The lattice motions with their twists.
+        lattice: Box<[Moving; 2]>,
+    },
     /// Rates of all coordinates of the assembly, of a cylinder.
     OfCoordinates(Vec<f64>),
 }
@@ -41,7 +46,10 @@ impl Field {
     /// Returns the velocity of a vertex of a cell, in the frame of the mesh file; `None` for a cylinder.
     pub fn at(&self, vertex: usize, cell: [i32; 2]) -> Option<Vec3> {
         match self {
-            Self::OfCells(displacement) => Some(displacement.corner(Corner { vertex, shift: cell }).1),
+            Self::OfCells { vertices, lattice } => {
+                let [place, velocity] = &vertices[vertex];
+                Some(Moving::lattice_power(lattice, cell).carry(place, velocity))
+            }
             Self::OfCoordinates(_) => None,
         }
     }

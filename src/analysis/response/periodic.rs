@@ -1,22 +1,30 @@
 //! The linear modes of a spatially periodic state, and its response.
+//!
+//! The modes are the motions of the vertices of the cell together with a strain and a curvature of the lattice that
+//! keep every length and every held angle ([`super::compatibility`]), for any assembly. Those of a surface obey
+//! reciprocity, which no equation here asks for.
 
 use super::cell::PeriodicCell;
+use super::compatibility::{MACROSCOPIC, lattice_motions, rates, units};
+use super::cylinder::hinges_of;
 use super::error::ResponseError;
 use super::mode::{Field, LinearMode, ModeTable, RawTable};
-use super::poisson::Poisson;
+use super::poisson::{Poisson, is_reciprocal};
 use super::result::{LatticeMotions, Response};
 use super::stresses;
 use super::symmetry_types;
 use super::tensors::mixed_determinant;
-use crate::kinematics::metric::LatticeFrame;
-use crate::kinematics::{Displacement, Embedding, FoldingModes, folding_modes_with_locked};
+use crate::math::Vec3;
 use crate::model::Assembly;
-use crate::numerics::larger;
-use nalgebra::DVector;
+use crate::numerics::dense::{full_svd, null_space_of_sums};
+use crate::numerics::{DenseMatrix, larger};
+
+/// Smallest folding of a motion that counts as one, relative to the largest.
+const FOLDS: f64 = 1e-9;
 
 /// Computes the response of a spatially periodic state; `self_stresses` is left to be counted.
 pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
-    let CellModes { modes, table, poisson, error } = modes_of(cell)?;
+    let CellModes { modes, table, poisson, error } = modes_of(assembly, cell)?;
     let lattice = LatticeMotions { chords: cell.lattice.map(Into::into), theta: [0.0; 2], axis: None, curvature: 0.0 };
     let stresses = stresses::of_cell(assembly, cell)?;
     let symmetries = symmetry_types::of_cell(cell, &modes, &stresses);
@@ -32,60 +40,102 @@ pub(super) struct CellModes {
     error: f64,
 }
 
-/// Computes the modes of a cell and their Poisson's ratios.
-pub(super) fn modes_of(cell: &PeriodicCell) -> Result<CellModes, ResponseError> {
-    let found = folding_modes_with_locked(&cell.sheet, &cell.locked)?;
-    let embedding = Embedding::new(&cell.sheet)?;
-    let mixed = |mix: DVector<f64>| mode(cell, &embedding, &found, mix);
-    let basis: Vec<LinearMode> = (0..found.count()).map(|k| mixed(unit(found.count(), k))).collect::<Result<_, _>>()?;
-    let raw = RawTable {
-        strains: basis.iter().map(|mode| mode.strain).collect(),
-        curvatures: basis.iter().map(|mode| mode.curvature).collect(),
-        length: cell.area().sqrt(),
-    };
-    let disagreement = basis.iter().map(|mode| match &mode.field {
-        Field::OfCells(field) => field.disagreement,
-        Field::OfCoordinates(_) => 0.0,
-    });
-    let error = larger(disagreement.fold(0.0, larger), defect_of_reciprocity(&raw));
-    let arranged = raw.arranged(larger(error, found.gap.recip()))?;
-    let columns = arranged.amplitudes.column_iter();
-    let modes: Vec<LinearMode> = columns.map(|mix| mixed(mix.into_owned())).collect::<Result<_, _>>()?;
+/// Computes the modes of a cell and their Poisson's ratios; `assembly` is the one of the cell, with rigid terms alone.
+pub(super) fn modes_of(assembly: &Assembly, cell: &PeriodicCell) -> Result<CellModes, ResponseError> {
+    let length = cell.area().sqrt();
+    let basis = Basis::new(assembly, cell, length)?;
+    let raw = basis.table(length);
+    let mut error = basis.error;
+    if is_reciprocal(&cell.sheet) {
+        error = larger(error, defect_of_reciprocity(&raw));
+    }
+    let arranged = raw.arranged(error)?;
+    let modes: Vec<LinearMode> = (0..arranged.amplitudes.ncols())
+        .map(|k| basis.mode(cell, &arranged.amplitudes.columns(k, 1).into_owned(), length))
+        .collect();
     let table = raw.ranks()?;
     let spaces = [arranged.in_plane, arranged.bending];
-    let poisson = Poisson::new(&cell.sheet, (&modes, spaces), &table, !cell.locked.is_empty(), raw.length);
+    let poisson = Poisson::new(&cell.sheet, (&modes, spaces), &table, !cell.locked.is_empty(), length);
     Ok(CellModes { modes, table, poisson, error })
 }
 
-fn unit(count: usize, k: usize) -> DVector<f64> {
-    DVector::from_fn(count, |row, _| f64::from(u8::from(row == k)))
+/// A basis of the modes of a cell, orthonormal in the rates of its fold angles; where motions fold nothing, as those of
+/// a truss, orthonormal in the motions.
+struct Basis {
+    /// Velocities of all vertices but the first, strain and curvature in their norm, a column for each mode.
+    motions: DenseMatrix,
+    /// Rates of the fold angles of the cell's edges.
+    folds: DenseMatrix,
+    /// Error of the modes: what they change of lengths and held angles, or what rounding may mix into them.
+    error: f64,
 }
 
-/// Returns the mode with these amplitudes along the basis.
-fn mode(
-    cell: &PeriodicCell,
-    embedding: &Embedding,
-    found: &FoldingModes,
-    mix: DVector<f64>,
-) -> Result<LinearMode, ResponseError> {
-    let rates = (&found.basis * &mix).as_slice().to_vec();
-    let curvature = &found.curvatures * &mix;
-    let field = Displacement::new(embedding, embedding.drawn_angles(), &rates);
-    let moving = field.lattice.ok_or(ResponseError::NotPeriodic)?;
-    let chords = [0, 1].map(|a| moving[a].twist.at(&cell.lattice[a]));
-    Ok(LinearMode {
-        rates,
-        strain: LatticeFrame::new(&cell.lattice).strain_rate(&cell.lattice, &chords),
-        curvature: [curvature[0], curvature[1], curvature[2]],
-        lattice_rotations: moving.map(|moving| moving.twist.angular),
-        field: Field::OfCells(Box::new(field)),
-    })
+impl Basis {
+    fn new(assembly: &Assembly, cell: &PeriodicCell, length: f64) -> Result<Self, ResponseError> {
+        let held = rates(cell, &cell.elements(assembly));
+        let rows = held.by_motions(length);
+        let null = null_space_of_sums(&rows, held.terms)?;
+        let (by_edges, hinges) = (cell.sheet.edges.len(), hinges_of(assembly));
+        let elements = cell.elements_of(assembly, &hinges);
+        let found = rates(cell, &elements);
+        let mut folding = DenseMatrix::zeros(by_edges, rows.ncols());
+        for (element, row) in elements.iter().zip(found.by_motions(length).row_iter()) {
+            folding.set_row(assembly.tiling().edges[element.edge].edge, &row);
+        }
+        let mut motions = null.basis;
+        let folded = full_svd(&(&folding * &motions))?;
+        let [most, least] = [0, motions.ncols().saturating_sub(1)].map(|k| folded.singular_values.get(k));
+        if most.zip(least).is_some_and(|(most, least)| *least > FOLDS * most) {
+            motions *= &folded.v;
+            motions.column_iter_mut().zip(&folded.singular_values).for_each(|(mut mode, value)| mode /= *value);
+        }
+        let error = larger((rows * &motions).amax(), null.gap.recip());
+        Ok(Self { folds: folding * &motions, motions, error })
+    }
+
+    /// The strain and the curvature of a motion.
+    fn tensors(motion: &[f64], length: f64) -> [f64; MACROSCOPIC] {
+        let (units, tensors) = (units(length), &motion[motion.len() - MACROSCOPIC..]);
+        [0, 1, 2, 3, 4, 5].map(|k| tensors[k] / units[k])
+    }
+
+    fn table(&self, length: f64) -> RawTable {
+        let (strains, curvatures) = (0..self.motions.ncols())
+            .map(|k| Self::tensors(self.motions.column(k).as_slice(), length))
+            .map(|[e11, e22, e12, k11, k22, k12]| ([e11, e22, e12], [k11, k22, k12]))
+            .unzip();
+        RawTable { strains, curvatures, length }
+    }
+
+    /// Returns the mode with these amplitudes.
+    fn mode(&self, cell: &PeriodicCell, amplitudes: &DenseMatrix, length: f64) -> LinearMode {
+        let motion = &self.motions * amplitudes;
+        let tensors = Self::tensors(motion.as_slice(), length);
+        let [e11, e22, e12, k11, k22, k12] = tensors;
+        let moved = |vertex: usize| {
+            let first = 3 * vertex.wrapping_sub(1);
+            if vertex == 0 {
+                Vec3::zeros()
+            } else {
+                length * Vec3::from_column_slice(&motion.as_slice()[first..first + 3])
+            }
+        };
+        let vertices = cell.sheet.vertices.iter().enumerate().map(|(k, place)| [*place, moved(k)]).collect();
+        let lattice = lattice_motions(cell, tensors);
+        LinearMode {
+            rates: (&self.folds * amplitudes).as_slice().to_vec(),
+            strain: [e11, e22, e12],
+            curvature: [k11, k22, k12],
+            lattice_rotations: lattice.map(|moving| moving.twist.angular),
+            field: Field::OfCells { vertices, lattice: Box::new(lattice) },
+        }
+    }
 }
 
 /// Returns the largest `cof(K') : E - cof(K) : E'` of two modes of norm 1.
 ///
-/// It is zero: the rates of a mode are a self stress of the bars, its forces on the lattice are `cof(K)/2` and its
-/// moments `-cof(E)/2`, and a self stress does no work on the other mode.
+/// It is zero for surfaces: the rates of a mode are a self stress of the bars, its forces on the lattice are `cof(K)/2`
+/// and its moments `-cof(E)/2`, and a self stress does no work on the other mode.
 fn defect_of_reciprocity(raw: &RawTable) -> f64 {
     let pairs = (0..raw.strains.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     let defect = |(a, b): (usize, usize)| {

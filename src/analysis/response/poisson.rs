@@ -62,6 +62,8 @@ pub enum Relation {
         /// one that has a ratio.
         least: f64,
     },
+    /// The sheet has openings, or is no surface with two sides: reciprocity says nothing of it.
+    NoReciprocity,
     /// Several modes strain the sheet without bending it: there is no single ratio in the plane.
     SeveralPlanarModes {
         /// Dimension of their strains.
@@ -114,6 +116,10 @@ impl Relation {
             Self::SeveralPlanarModes { strains } => {
                 return format!("the modes that do not bend the sheet have {strains} independent strains, not one");
             }
+            Self::NoReciprocity => {
+                "reciprocity holds for surfaces with two sides and without openings: of others only the sum of the ratios \
+                 tells how they are related"
+            }
             Self::NoStrain => "the modes that do not bend the sheet do not strain it either",
             Self::NoBendingMode { locked: true } => {
                 "no mode bends the sheet while rigid polygons and locks keep their angles; with a stiffness of the \
@@ -149,6 +155,7 @@ impl Poisson {
             }
             (_, 0, _) => Relation::NoStrain,
             (_, _, 0) => Relation::NoBendingMode { locked },
+            (_, strains, bendings) if strains + bendings <= 3 && !is_reciprocal(sheet) => Relation::NoReciprocity,
             (_, strains, bendings) if strains + bendings == 3 => {
                 Relation::Opposite { strains, four_parallelograms: is_four_parallelograms(sheet) }
             }
@@ -163,6 +170,11 @@ impl Poisson {
         let neutral_height = neutral_height(planar, bending, length);
         Self { in_plane, bending: bent, relation, sum, neutral_height }
     }
+}
+
+/// Whether the rates of folding modes are self stresses of the bars: on surfaces with two sides and without openings.
+pub(super) fn is_reciprocal(sheet: &Sheet) -> bool {
+    sheet.is_surface() && sheet.holes.is_empty()
 }
 
 /// Whether the cell consists of four parallelograms around four vertices.

@@ -137,9 +137,12 @@ impl DrivenModel {
         matches!(self.quantity, Driven::Loads | Driven::Rest | Driven::Stiffness(_))
     }
 
-    /// Whether extrema of the conjugate mean anything to a user: those of forces, torques and displacements do.
+    /// Whether extrema of the conjugate mean anything to a user: those of forces, torques and displacements do, where
+    /// there is anything that makes a force.
     pub fn has_conjugate_limits(&self) -> bool {
-        !matches!(self.quantity, Driven::Rest | Driven::Stiffness(_))
+        let model = &self.model;
+        let stores = model.soft_elements() > 0 || model.compliance().iter().any(|compliance| *compliance > 0.0);
+        (stores || !model.loads.is_empty()) && !matches!(self.quantity, Driven::Rest | Driven::Stiffness(_))
     }
 }
 

@@ -65,29 +65,29 @@ impl Default for MiuraPatch {
 }
 
 /// The four lengths from which every vertex is computed; see [`Miura`].
-struct Shape {
-    s: f64,
-    l: f64,
-    v: f64,
-    h: f64,
+pub(super) struct MiuraShape {
+    pub s: f64,
+    pub l: f64,
+    pub v: f64,
+    pub h: f64,
 }
 
-impl Shape {
-    fn vertex(&self, [i, j]: [usize; 2]) -> Vec3 {
+impl MiuraShape {
+    pub fn vertex(&self, [i, j]: [usize; 2]) -> Vec3 {
         let odd = |n: usize| (n % 2) as f64;
         Vec3::new(self.s * i as f64, self.l * j as f64 + self.v * odd(i), self.h * odd(j))
     }
 }
 
 impl Miura {
-    fn shape(&self) -> Result<Shape, GenerateError> {
+    pub(super) fn shape(&self) -> Result<MiuraShape, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
         let t = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
         let g = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
         let rise = libm::sin(t) * libm::sin(g);
         let run = libm::cos(g) * libm::tan(t);
         let q = (1.0 + run * run).sqrt();
-        Ok(Shape { s: b * run / q, l: a * (1.0 - rise * rise).sqrt(), v: b / q, h: a * rise })
+        Ok(MiuraShape { s: b * run / q, l: a * (1.0 - rise * rise).sqrt(), v: b / q, h: a * rise })
     }
 
     fn parameters(&self) -> String {

@@ -23,6 +23,7 @@ mod random;
 mod resch;
 mod square_twist;
 mod symmetric;
+mod thick_miura;
 mod truss;
 mod tube_block;
 mod tubes;
@@ -48,6 +49,7 @@ pub use random::{Random, RandomDevelopable};
 pub use resch::Resch;
 pub use square_twist::SquareTwist;
 pub use symmetric::{CellSymmetry, Symmetric};
+pub use thick_miura::ThickMiura;
 pub use truss::Truss;
 pub use tube_block::TubeBlock;
 pub use tubes::MiuraTubes;
@@ -86,6 +88,8 @@ patterns! {
     "miura": Miura(Miura::sheet),
     /// A finite Miura-ori.
     "miura-patch": MiuraPatch(MiuraPatch::sheet),
+    /// One cell of Miura-ori of thick panels.
+    "thick-miura": ThickMiura(ThickMiura::sheet),
     /// One cell of the eggbox.
     "eggbox": Eggbox(Eggbox::sheet),
     /// One cell of four parallelograms of any lengths and angles.

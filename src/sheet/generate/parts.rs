@@ -24,16 +24,24 @@ impl Parts {
 
     /// Makes a sheet with these words for the joints of edges of more than two faces.
     pub(super) fn glued(self, parameters: String, glue: Vec<GluedEdge>) -> Result<Sheet, GenerateError> {
+        Ok(build(&Drawing { glue, ..draw(&self.bare(parameters)) })?)
+    }
+
+    /// Makes a sheet with these openings.
+    pub(super) fn open(self, parameters: String, holes: Vec<Vec<Corner>>) -> Result<Sheet, GenerateError> {
+        Ok(build(&draw(&Sheet { holes, ..self.bare(parameters) }))?)
+    }
+
+    fn bare(self, parameters: String) -> Sheet {
         let Self { title, source, vertices, lattice, polygons } = self;
-        let bare = Sheet {
+        Sheet {
             title: title.to_owned(),
             description: format!("{source} {parameters} Unit of length: any."),
             vertices,
             lattice,
             polygons,
             ..Sheet::default()
-        };
-        Ok(build(&Drawing { glue, ..draw(&bare) })?)
+        }
     }
 
     /// Makes a flat sheet whose edges fold to these angles, in radians, valley positive: each gets the letter of its

@@ -183,7 +183,8 @@ fn random_cells() {
 }
 
 /// Claim: every pattern has the Euler characteristic of its surface: 0 for a torus and a ring, 1 for a disc, 2
-/// for a closed drum, -1 for two coupled tubes, 9 - 12 = -3 for the lines and walls of a block of four.
+/// for a closed drum, -1 for two coupled tubes, 9 - 12 = -3 for the lines and walls of a block of four,
+/// -4 for a torus with four openings.
 #[test]
 fn euler_characteristics() {
     for name in Pattern::names() {
@@ -192,6 +193,7 @@ fn euler_characteristics() {
             "miura-patch" | "truss" | "hypar" => 1,
             "aligned-tubes" | "zipper-tubes" => -1,
             "tube-block" => -3,
+            "thick-miura" => -4,
             _ => 0,
         };
         assert_eq!(info.euler_characteristic, expected, "{name}");

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use kurbo::{Arc, BezPath, Circle, Point, Shape, Vec2};
+use kurbo::{Affine, Arc, BezPath, Circle, Point, Shape, Vec2};
 
 use super::bspline::BSpline;
 use super::colour;
@@ -55,6 +55,10 @@ const KNOT: i32 = 40;
 const WEIGHT: i32 = 41;
 const FIRST: [i32; 2] = [10, 20];
 const SECOND: [i32; 2] = [11, 21];
+/// z of the normal of the plane in which a flat entity lies; x is the other way where it points down.
+const NORMAL: i32 = 230;
+/// The entities that lie in such a plane; others have coordinates of the drawing.
+const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
 
 /// Largest distance of the cubic curves of an arc from it, relative to its radius.
 const ROUND: f64 = 1e-6;
@@ -90,10 +94,11 @@ pub(super) fn lines(text: &str) -> Lines {
             (name, "ENTITIES") if !IGNORED.contains(&name) => {
                 let (line, named) = entity.meaning(&colours).map_err(located)?;
                 grey += usize::from(line.auxiliary && !named);
+                let placed = entity.placed().map_err(located)?;
                 if name == "POLYLINE" {
-                    open = Some(Polyline { corners: vec![], closed: entity.is_closed(), line, named });
+                    open = Some(Polyline { corners: vec![], closed: entity.is_closed(), placed, line, named });
                 } else {
-                    outlines.push(Outline { path: entity.outline().map_err(located)?, line, named });
+                    outlines.push(Outline { path: placed * entity.outline().map_err(located)?, line, named });
                 }
             }
             _ => {}
@@ -109,13 +114,14 @@ pub(super) fn lines(text: &str) -> Lines {
 struct Polyline {
     corners: Vec<(Point, f64)>,
     closed: bool,
+    placed: Affine,
     line: Line,
     named: bool,
 }
 
 impl Polyline {
     fn outline(self) -> Outline {
-        Outline { path: polyline(&self.corners, self.closed), line: self.line, named: self.named }
+        Outline { path: self.placed * polyline(&self.corners, self.closed), line: self.line, named: self.named }
     }
 }
 
@@ -157,8 +163,18 @@ impl<'t> Entity<'t> {
         self.first(code).map_or(Ok(0.0), number)
     }
 
-    fn point(&self, [x, y]: [i32; 2]) -> Result<Point, PatternFault> {
-        Ok(Point::new(self.number(x)?, self.number(y)?))
+    fn point(&self, at: [i32; 2]) -> Result<Point, PatternFault> {
+        if let Some(code) = at.into_iter().find(|code| self.first(*code).is_none()) {
+            let element = format!("a {} without the number {code}", self.name);
+            return Err(PatternFault::Element { element, right: "every point should have its x and its y" });
+        }
+        Ok(Point::new(self.number(at[0])?, self.number(at[1])?))
+    }
+
+    /// Returns the map from the plane in which the entity lies to the drawing.
+    fn placed(&self) -> Result<Affine, PatternFault> {
+        let turned = FLAT.contains(&self.name) && self.number(NORMAL)? < 0.0;
+        Ok(if turned { Affine::FLIP_X } else { Affine::IDENTITY })
     }
 
     fn is_closed(&self) -> bool {

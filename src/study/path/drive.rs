@@ -67,10 +67,12 @@ pub(super) fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     Err(context.file.error_at(span, message, help).into())
 }
 
-/// Checks that the values of which the study lists the states lie on the way of the drive. A sheet that snaps under
+/// Checks that the values of which the study lists the states, and the one at which it stops, lie on the way of the drive. A sheet that snaps under
 /// loads may also need loads of the other sign.
 pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
-    if spec.at.is_empty() {
+    let stop = spec.stop.as_ref().and_then(|stop| stop.drive.as_ref());
+    let asked = || spec.at.iter().chain(stop);
+    if asked().next().is_none() {
         return Ok(());
     }
     let drive = drive(context, spec)?;
@@ -83,7 +85,7 @@ pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     let [from, to] = [then.iter().fold(from, nearer), then.iter().fold(to, farther)];
     let before = |value: f64| drive.quantity != Driven::Loads && (value - from) * (to - from) < 0.0;
     let beyond = |value: f64| (value - to) * (to - from) > 0.0;
-    let Some(off) = spec.at.iter().find(|value| before(value.0) || beyond(value.0)) else { return Ok(()) };
+    let Some(off) = asked().find(|value| before(value.0) || beyond(value.0)) else { return Ok(()) };
     let [value, from, to] = [off.0, from, to].map(|number| rounded(number, 12));
     let message =
         format!("the drive `{}` does not pass {value}: it goes from {from} to {to}", drive_name(context, spec));

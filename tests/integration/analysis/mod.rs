@@ -21,6 +21,7 @@ mod planar_curves;
 mod random_folds;
 mod response;
 mod response_moduli;
+mod response_of_assemblies;
 mod restarts;
 mod routes;
 mod screw_cells;

@@ -94,3 +94,25 @@ fn holes_are_counted() {
         assert_eq!((sheet.polygons.len(), sheet.record.redrawing.holes), (8, 1));
     }
 }
+
+/// Claim: a polyline that lies in a plane whose normal points down has its x the other way, as the "DXF Reference" has
+/// it, so that it meets lines, which have coordinates of the drawing; and a point without a coordinate is refused.
+#[test]
+fn entities_seen_from_below_are_turned_over() {
+    let line = |[x1, y1, x2, y2]: [f64; 4]| format!("0\nLINE\n8\nValley\n10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}\n");
+    let corners = [[-1.0, 0.0], [-4.0, 0.0], [-3.0, 2.0], [-1.0, 3.0]];
+    let polyline = |normal: &str| {
+        let points: String = corners.iter().map(|[x, y]| format!("10\n{x}\n20\n{y}\n")).collect();
+        format!("0\nLWPOLYLINE\n8\nCut\n90\n4\n70\n1\n{normal}{points}")
+    };
+    let parse = |entities: &str| {
+        let text = format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n");
+        pattern::parse(&text, "a", Format::Dxf)
+    };
+    let below = polyline("210\n0\n220\n0\n230\n-1\n");
+    let sheet = parse(&(below + &line([1.0, 0.0, 3.0, 2.0]))).unwrap();
+    assert_eq!((sheet.polygons.len(), sheet.vertices.len()), (2, 4));
+    assert!(parse(&(polyline("") + &line([1.0, 0.0, 3.0, 2.0]))).is_err(), "the line is beside the outline");
+    let refused = parse(&line([1.0, 0.0, 3.0, 2.0]).replace("21\n2\n", "")).unwrap_err().to_string();
+    assert!(refused.contains("a LINE without the number 21"), "{refused}");
+}

@@ -233,14 +233,14 @@ fn stiffness_is_driven_to_rigid() {
     assert!(table.field(table.len() - 1, "drive") == "inf" && energy.abs() < 1e-20, "{energy}");
 }
 
-/// Claim: values of `at` that lie off the way of the drive are refused with the way and before anything is computed; one
-/// that a path does not reach, since it ends early, is named.
+/// Claim: values of `at` that lie off the way of the drive are refused with the way and before anything is computed, and
+/// so is a stop at which the drive never is; one that a path does not reach, since it ends early, is named.
 #[test]
 fn listed_values_lie_on_the_way() {
     let scene = Scene::of("two-bars-push");
-    for (at, value) in [("[0.1]", "0.1"), ("[-0.2, -0.9]", "\u{2212}0.9")] {
+    for (at, value) in [("at = [0.1]", "0.1"), ("at = [-0.2, -0.9]", "\u{2212}0.9"), ("stop = { drive = 50 }", "50")] {
         let words = format!("the drive `push` does not pass {value}: it goes from 0 to \u{2212}0.7");
-        scene.clone().replaced("kind = \"path\"", &format!("kind = \"path\"\nat = {at}")).refused(&words);
+        scene.clone().replaced("kind = \"path\"", &format!("kind = \"path\"\n{at}")).refused(&words);
     }
     let early = "kind = \"path\"\nat = [-0.1, -0.4]\nstop = { drive = -0.3 }";
     let ran = scene.clone().replaced("kind = \"path\"", early).converged();

@@ -96,7 +96,6 @@ fn what_has_no_response_is_refused() {
     };
     let miura = "generate = { pattern = \"miura\" }\n";
     refused(&format!("{miura}domain = \"patch\""), "", "that of a periodic sheet");
-    refused("mesh = \"kirigami.fold\"\ndomain = \"torus\"", "", "openings");
     let torus = format!("{miura}domain = \"torus\"\ncells = [2, 2]");
     refused(&torus, "start = { random = 0.1, seed = 1 }\n", "one cell");
     refused(&torus, "directions = 0\n", "the number is 0");
