@@ -49,6 +49,7 @@ FIGURES = {
     "miura-flat-folded": "miura-flat-folded/folded",
     "miura-lock": "miura-lock/folded",
     "miura-membrane": "miura-membrane/pressed",
+    "thick-miura": "thick-miura/folded",
     "miura-panels": "miura-panels/twisted",
     "miura-pull": "miura-pull/pulled",
     "miura-pull-reaction": "miura-pull/pulled-reaction",

@@ -9,6 +9,11 @@ pub trait ForceCurve: fmt::Debug + Send + Sync {
     /// Returns the energy and its first two derivatives, that is torque and stiffness. The energy is 0 at 0.
     fn at(&self, off: f64) -> [f64; 3];
 
+    /// Whether its stiffness jumps; see [`Law::has_kinks`].
+    fn has_kinks(&self) -> bool {
+        false
+    }
+
     /// Returns the curve of an element with this memory; see [`Law::remembering`].
     fn remembering(&self, _memory: Memory) -> Option<Self>
     where
@@ -37,6 +42,10 @@ impl<C: ForceCurve + 'static> Law for OfAngle<C> {
         self.0.at(angle - rest)
     }
 
+    fn has_kinks(&self) -> bool {
+        self.0.has_kinks()
+    }
+
     fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
         Some(Box::new(OfAngle(self.0.remembering(memory)?)))
     }
@@ -57,6 +66,10 @@ pub struct OfStrain<C>(pub C);
 impl<C: ForceCurve + 'static> Law for OfStrain<C> {
     fn at(&self, length: f64, rest: f64) -> [f64; 3] {
         of_stretch(rest, self.0.at((length - rest) / rest))
+    }
+
+    fn has_kinks(&self) -> bool {
+        self.0.has_kinks()
     }
 
     fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
@@ -122,6 +135,10 @@ impl ForceCurve for Bilinear {
         let (beyond, inside) = (off - limit, 0.5 * limit * limit);
         let stiffness = if beyond == 0.0 { 1.0 } else { self.ratio };
         [inside + limit * beyond + 0.5 * self.ratio * beyond * beyond, limit + self.ratio * beyond, stiffness]
+    }
+
+    fn has_kinks(&self) -> bool {
+        true
     }
 }
 

@@ -8,6 +8,9 @@ use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+/// Distance from rest at which the stiffness on both sides is asked for: a strain, or an angle in radians.
+const BESIDE_REST: f64 = 1e-6;
+
 /// The kind of the elements of a term. Code that treats kinds differently must match all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TermKind {
@@ -300,12 +303,22 @@ impl<'a> Element<'a> {
         self.term.stored(self.index).is_law()
     }
 
-    /// Whether it has no force at its rest value, and the stiffness of its spring there.
+    /// Whether it has no force at its rest value, and the stiffness of its spring there and on both sides.
     pub(crate) fn is_spring_at_rest(&self) -> bool {
-        let [_, force, stiffness] = self.term.stored(self.index).at(self.spring.rest, self.spring, Memory::default());
-        let expected = if self.is_beyond_spring() { 0.0 } else { self.spring.stiffness };
-        let known = 1e-9 * self.spring.stiffness;
-        !self.has_law() || (force.abs() <= known * self.spring.rest.abs() && (stiffness - expected).abs() <= known)
+        let Spring { stiffness: of_spring, rest } = self.spring;
+        let at = |value: f64| self.term.stored(self.index).at(value, self.spring, Memory::default());
+        let expected = if self.is_beyond_spring() { 0.0 } else { of_spring };
+        let is_off = |value: f64, known: f64| (at(value)[2] - expected).abs() > known * of_spring;
+        let beside = BESIDE_REST * if self.is_angle() { 1.0 } else { rest };
+        !self.has_law()
+            || (at(rest)[1].abs() <= 1e-9 * of_spring * rest.abs()
+                && !is_off(rest, 1e-9)
+                && ![rest - beside, rest + beside].into_iter().any(|value| is_off(value, 1e-3)))
+    }
+
+    /// Whether its stiffness jumps at some values.
+    pub(crate) fn has_kinks(&self) -> bool {
+        self.term.stored(self.index).has_kinks()
     }
 
     /// Puts value and gradient at the coordinates `x` into `out`, and the Hessian if it is wanted.

@@ -62,6 +62,11 @@ pub trait Law: fmt::Debug + Send + Sync {
         None
     }
 
+    /// Whether its stiffness jumps at some values: a path may have a kink there.
+    fn has_kinks(&self) -> bool {
+        false
+    }
+
     /// Returns the memory of an element that has gone to a value, steadily from the one at which it got its memory.
     fn after(&self, _value: f64, _rest: f64) -> Memory {
         Memory::default()
@@ -186,6 +191,11 @@ impl Stored {
     /// Whether a law is part of the energy.
     pub(super) fn is_law(&self) -> bool {
         !matches!(self, Self::Spring)
+    }
+
+    /// Whether the stiffness of the law jumps.
+    pub(super) fn has_kinks(&self) -> bool {
+        matches!(self, Self::Law(law) | Self::BeyondSpring(law) if law.has_kinks())
     }
 
     /// Whether elements have a memory.

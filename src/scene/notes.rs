@@ -15,6 +15,9 @@ pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
         notes.push(TURNED_OVER.to_owned());
     }
     notes.extend(assembled(assembly.sheet()));
+    if !assembly.sheet().is_repeated() && file.scene.sheet.cells.as_deref().is_some_and(|cells| cells.0 != [1, 1]) {
+        notes.push("`cells` has no effect: the mesh is a finite sheet, which is not repeated".to_owned());
+    }
     let [against, folded] = assembly.sheet().drawn_against_targets();
     if against > 0 {
         notes.push(format!(

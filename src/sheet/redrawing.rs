@@ -44,8 +44,9 @@ impl Redrawing {
         let mut said = Vec::new();
         if let Some([distance, default]) = self.enlarged {
             said.push(format!(
-                "points up to {distance:.3e} apart were merged: with {default:.3e} lines end beside each other; `merge` in \
-                 [sheet] of a scene and `foldwell convert --merge` set the distance"
+                "points up to {distance:.3e} apart were merged: with {default:.3e} {}; `merge` in [sheet] of a scene and \
+                 `foldwell convert --merge` set the distance",
+                if distance > default { "lines end beside each other" } else { "others would be one that are two" }
             ));
         }
         if let Some(Gap { ends, distance, merged }) = self.gap {

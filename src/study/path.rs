@@ -15,6 +15,7 @@ use super::error::StudyError;
 use super::sides::RestSides;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
+use super::supported::small_tolerance;
 use super::{ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
@@ -42,6 +43,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
         let help = "give bars, creases or facets a stiffness";
         return Err(context.refuse("there is no energy whose equilibria a path could follow", help).into());
     }
+    small_tolerance(context, spec.tolerance.as_ref())?;
     ratios::check(context, spec.response.as_ref())?;
     moves(context, spec)?;
     has_effect(context, spec)?;

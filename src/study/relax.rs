@@ -9,6 +9,7 @@ use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
+use super::supported::small_tolerance;
 use super::{branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
@@ -34,6 +35,7 @@ const NO_BALANCE: &str = "the pattern does not fold rigidly as far as its rest a
 
 /// Checks that the model has an energy and that a start file fits the sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
+    small_tolerance(context, spec.tolerance.as_ref())?;
     if !context.assembly.terms().has_energy() {
         return Err(context.refuse("there is no energy to relax", "give bars, creases or facets a stiffness").into());
     }

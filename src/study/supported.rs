@@ -3,10 +3,14 @@
 use super::context::Context;
 use super::error::StudyError;
 use crate::model::Domain;
+use crate::scene::Located;
 use crate::scene::spec::StudyKind;
+use crate::scene::values::Positive;
 
 /// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
+/// Largest tolerance of relative residuals with which events and stability still mean something.
+const LARGEST_TOLERANCE: f64 = 1e-3;
 /// Advice for a study of the ways in which a tube folds.
 const MOTIONS_OF_A_TUBE: &str = "use domain = \"screw\"; `modes` counts the motions of a tube";
 
@@ -35,6 +39,14 @@ pub(super) fn a_surface(context: &Context<'_>) -> Result<(), StudyError> {
     let help = "an edge has more than two faces or none, or the faces have one side: relax, path, fold, wells, modes, \
                 response and bands of bloch know such assemblies";
     Err(context.refuse(message, help).into())
+}
+
+/// Checks that a tolerance bounds residuals, which are relative to the largest force and the mean edge.
+pub(super) fn small_tolerance(context: &Context<'_>, given: Option<&Located<Positive>>) -> Result<(), StudyError> {
+    let Some(wrong) = given.filter(|given| given.0 > LARGEST_TOLERANCE) else { return Ok(()) };
+    let message = format!("the tolerance is {}, and states are no equilibria then", wrong.0);
+    let help = format!("expected a number up to {LARGEST_TOLERANCE}; leave it out for the usual one");
+    Err(context.file.error_at(wrong.span(), message, help).into())
 }
 
 /// Checks that each term has one stiffness.

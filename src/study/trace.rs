@@ -9,6 +9,7 @@ use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::summary::StudyResult;
+use super::supported::small_tolerance;
 use super::{branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;
@@ -39,6 +40,7 @@ const STATES_ON_PAGE: usize = 200;
 
 /// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet; or from a tube.
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
+    small_tolerance(context, spec.tolerance.as_ref())?;
     branches::check(context)?;
     let assembly = context.assembly;
     if *assembly.domain() == Domain::Patch && assembly.sheet().is_repeated() {

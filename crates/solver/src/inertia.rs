@@ -74,7 +74,7 @@ pub(super) fn negative_eigenvalues(
     at: &Linearization,
     compliance: &[f64],
 ) -> Result<Option<usize>, FactorError> {
-    let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
+    let zero = larger(ZERO_EIGENVALUE * largest_weighted_entry(at, compliance), ZERO_IN_PROJECTION * at.rest_stiffness);
     // with those that may be zero
     let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
     if at.gradient.len() <= DENSE_LIMIT {
@@ -120,7 +120,7 @@ pub(super) fn negative_eigenvalues(
 /// values of which it cannot be told whether they are zero make a difference. No weights of rigid measures spoil small
 /// eigenvalues here: those above minus [`ZERO_IN_PROJECTION`] of the largest diagonal entry count as zero.
 fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usize> {
-    let zero = ZERO_IN_PROJECTION * hessian_size(at);
+    let zero = ZERO_IN_PROJECTION * larger(hessian_size(at), at.rest_stiffness);
     let rows = Rows { cliques: at.rows().cliques, values: &at.scaled_jacobian() };
     let rows = dense::from_rows(&rows, at.gradient.len());
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
@@ -141,7 +141,7 @@ pub(super) fn falling_motion(
     at: &Linearization,
     compliance: &[f64],
 ) -> Result<Option<Vec<f64>>, FactorError> {
-    let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
+    let zero = larger(ZERO_EIGENVALUE * largest_weighted_entry(at, compliance), ZERO_IN_PROJECTION * at.rest_stiffness);
     let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
     let mut motions = Motions::new(system, at, compliance, -zero);
     motions.negative(in_doubt.min(MOST_CONFIRMED_BY_MOTIONS));

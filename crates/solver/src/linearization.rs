@@ -57,6 +57,9 @@ pub struct Linearization {
     pub sizes: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
+    /// Largest stiffness of a single soft element at rest on a single unknown: what is rounding error beside it counts as
+    /// zero, also where all stiffness vanishes, as that of powers does at rest.
+    pub rest_stiffness: f64,
     /// The part of the soft Hessian that is contained.
     pub kind: HessianKind,
     layout: Arc<Layout>,
@@ -78,6 +81,7 @@ impl Linearization {
             soft_stiffness: vec![0.0; layout.soft.len()],
             soft_sizes: vec![1.0; layout.soft.len()],
             largest_force: 0.0,
+            rest_stiffness: 0.0,
             kind: HessianKind::Full,
             layout: layout.clone(),
             plan,
@@ -89,6 +93,7 @@ impl Linearization {
         self.kind = kind;
         self.energy = 0.0;
         self.largest_force = 0.0;
+        self.rest_stiffness = 0.0;
         self.gradient.fill(0.0);
         self.hessian.fill(0.0);
     }
@@ -182,8 +187,9 @@ impl Linearization {
         &self.jacobian[self.layout.stiff.range(measure)]
     }
 
-    /// The Jacobian of the stiff measures with every row divided by its natural size.
-    pub(super) fn scaled_jacobian(&self) -> Vec<f64> {
+    /// The Jacobian of the stiff measures with every row divided by its natural size, so that no unit of length decides
+    /// which rows are large.
+    pub fn scaled_jacobian(&self) -> Vec<f64> {
         let mut values = self.jacobian.clone();
         for (row, size) in self.sizes.iter().enumerate() {
             values[self.layout.stiff.range(row)].iter_mut().for_each(|v| *v /= size);

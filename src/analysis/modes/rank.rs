@@ -19,7 +19,8 @@ pub(super) fn rigid_part(terms: &Terms) -> Terms {
 pub(super) fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, Option<f64>), ModesError> {
     let layout = model.layout();
     let at = linearized(model, &vec![0.0; layout.stiff.len()]);
-    let rows = at.rows();
+    let values = at.scaled_jacobian();
+    let rows = Rows { cliques: at.rows().cliques, values: &values };
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
         return rank_by_counting(&rows, layout.unknowns, &layout.node, observe);
     }

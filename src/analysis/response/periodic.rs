@@ -19,7 +19,8 @@ use crate::model::Assembly;
 use crate::numerics::dense::{full_svd, null_space_of_sums};
 use crate::numerics::{DenseMatrix, larger};
 
-/// Smallest folding of a motion that counts as one, relative to the largest.
+/// Smallest folding in radians of a motion of norm 1, lengths over the root of the cell's area, that is no rounding
+/// error.
 const FOLDS: f64 = 1e-9;
 
 /// Computes the response of a spatially periodic state; `self_stresses` is left to be counted.
@@ -75,17 +76,16 @@ impl Basis {
         let held = rates(cell, &cell.elements(assembly));
         let rows = held.by_motions(length);
         let null = null_space_of_sums(&rows, held.terms)?;
-        let (by_edges, hinges) = (cell.sheet.edges.len(), hinges_of(assembly));
+        let hinges = hinges_of(assembly);
         let elements = cell.elements_of(assembly, &hinges);
-        let found = rates(cell, &elements);
-        let mut folding = DenseMatrix::zeros(by_edges, rows.ncols());
-        for (element, row) in elements.iter().zip(found.by_motions(length).row_iter()) {
+        let mut folding = DenseMatrix::zeros(cell.sheet.edges.len(), rows.ncols());
+        for (element, row) in elements.iter().zip(rates(cell, &elements).by_motions(length).row_iter()) {
             folding.set_row(assembly.tiling().edges[element.edge].edge, &row);
         }
         let mut motions = null.basis;
         let folded = full_svd(&(&folding * &motions))?;
-        let [most, least] = [0, motions.ncols().saturating_sub(1)].map(|k| folded.singular_values.get(k));
-        if most.zip(least).is_some_and(|(most, least)| *least > FOLDS * most) {
+        let least = motions.ncols().checked_sub(1).and_then(|last| folded.singular_values.get(last));
+        if least.is_some_and(|least| *least > FOLDS) {
             motions *= &folded.v;
             motions.column_iter_mut().zip(&folded.singular_values).for_each(|(mut mode, value)| mode /= *value);
         }

@@ -223,6 +223,10 @@ impl ParametrizedProblem for DrivenModel {
         self.model.remembers()
     }
 
+    fn may_have_kinks(&self) -> bool {
+        self.has_kinks() || self.model.elements().any(|element| element.has_kinks())
+    }
+
     fn conjugate_integral(&self, x: &[f64], tension: &[f64]) -> f64 {
         let of_stiff = self.model.compliance().iter().zip(tension).map(|(c, t)| 0.5 * c * t * t).sum::<f64>();
         let potential = self.model.energy(x) + of_stiff;

@@ -16,6 +16,8 @@ const LEAST_ANGLE: f64 = 1e-3;
 const LARGEST_CHANGE_RAD: f64 = 0.3;
 /// Mean edges over the shortest height of a triangle whose forces count in full where residuals are made relative.
 const SHORTEST_ARMS: f64 = 1e4;
+/// Least stiffness of an element in the metric, over that at rest.
+const LEAST_METRIC: f64 = 1e-9;
 /// Gap of a stiff measure, relative to its natural size, below which its force counts as that of this gap where no soft
 /// element and no load gives forces a size.
 const LEAST_GAP: f64 = 1e-3;
@@ -198,7 +200,9 @@ impl Model {
         self.add_soft_terms(all, kind == HessianKind::Full, responds, out);
     }
 
-    /// Adds the soft elements with these energies, forces, stiffnesses, and stiffnesses in the metric, at their values.
+    /// Adds the soft elements with these energies, forces, stiffnesses, and stiffnesses at rest, at their values. In the
+    /// metric an element whose law softens has the stiffness that it has there, by tangent or secant: with that at rest a
+    /// shift would outweigh the stiffness of powers, which vanishes at rest, and the iteration would creep.
     fn add_soft_terms(
         &self,
         all: &[f64],
@@ -219,8 +223,12 @@ impl Model {
                 out.energy += energy;
                 let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * force.abs().max(stiffness * LEAST_ANGLE));
-                let (gradient, hessian, excess) = (&local.gradient, &local.hessian, second - stiffness);
-                out.add_soft(first + k, &SoftElement { stiffness, excess, force, size, gradient, hessian });
+                out.rest_stiffness = out.rest_stiffness.max(stiffness * largest * largest);
+                let (gradient, hessian) = (&local.gradient, &local.hessian);
+                let secant = force / (local.value - element.spring.rest);
+                let metric = stiffness.min(second.max(secant).max(LEAST_METRIC * stiffness));
+                let excess = second - metric;
+                out.add_soft(first + k, &SoftElement { stiffness: metric, excess, force, size, gradient, hessian });
             };
             parallel::compute_and_consume(term.len(), self.locals((first, term), all, full), add);
         }

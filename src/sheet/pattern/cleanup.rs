@@ -3,7 +3,8 @@
 //! Without a distance of its own a drawing is read with a small one. Where the lines are no crease pattern with it, or
 //! where points are left that are close to each other, larger ones are tried step by step. One of them is taken if its
 //! mesh leaves no doubt: all points that are left are far apart in comparison to it, and no line vanished but those
-//! far shorter than all that is left. So good drawings keep their details, and careless ones are read.
+//! far shorter than all that is left. So good drawings keep their details, and careless ones are read. Where no larger
+//! one helps either, points may be nearer to each other than the first: smaller ones are tried then.
 
 use super::line::Line;
 use super::mesh::{Meshed, Misdrawn, mesh};
@@ -12,6 +13,7 @@ use crate::sheet::build::Drawing;
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::Problem;
 use crate::sheet::pattern_fault::PatternFault;
+use std::iter;
 
 /// Distance within which points of a drawing of lines are one point, relative to its extent: drawing programs write two
 /// decimals of a point or pixel, 1e-5 of a usual page.
@@ -24,6 +26,10 @@ const STEP: f64 = 1.5;
 /// Largest distance that is tried without being asked for, relative to the extent; Origami Simulator's, 3 units, is
 /// 0.005 of a usual drawing.
 const COARSEST_TRIED: f64 = 0.03;
+
+/// Smaller distances that are tried last, relative to the first: exact drawings of many crossings have points near to
+/// each other.
+const FINER: [f64; 3] = [1e-1, 1e-2, 1e-3];
 
 /// Largest distance of merging that may be asked for, relative to the extent.
 const COARSEST: f64 = 0.1;
@@ -62,11 +68,16 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
     if found.as_ref().is_err_and(|(_, problem)| matches!(**problem, Problem::Pattern(PatternFault::TooMany { .. }))) {
         return found.map(|meshed| meshed.sheet);
     }
-    let (mut distance, mut cure) = (first * STEP, None);
-    while cure.is_none() && distance <= COARSEST_TRIED * extent && compared <= MOST_COMPARED {
+    let coarser = iter::successors(Some(first * STEP), |distance| Some(distance * STEP));
+    let coarser = coarser.take_while(|distance| *distance <= COARSEST_TRIED * extent);
+    let finer = FINER.map(|part| part * first).into_iter().filter(|_| found.is_err());
+    let mut cure = None;
+    for distance in coarser.chain(finer) {
+        if cure.is_some() || compared > MOST_COMPARED {
+            break;
+        }
         let meshed = mesh(lines, distance, cleanup.split, head, &mut compared).ok().filter(is_clear);
         cure = meshed.map(|meshed| (distance, meshed.sheet));
-        distance *= STEP;
     }
     match (found, cure) {
         (_, Some((distance, mut sheet))) if cleanup.merge.is_none() => {

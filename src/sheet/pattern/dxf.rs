@@ -6,7 +6,7 @@
 //!
 //! The file is pairs of lines, a number that says what follows and a value (Autodesk, "DXF Reference", 2012).
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use kurbo::{Affine, Arc, BezPath, Circle, Point, Shape, Vec2};
@@ -57,6 +57,12 @@ const FIRST: [i32; 2] = [10, 20];
 const SECOND: [i32; 2] = [11, 21];
 /// z of the normal of the plane in which a flat entity lies; x is the other way where it points down.
 const NORMAL: i32 = 230;
+/// Number that is 1 for entities that are not drawn, and for those of a page beside the drawing.
+const INVISIBLE: i32 = 60;
+const ON_PAGE: i32 = 67;
+/// Flag of a layer that is frozen, and of a corner that only shapes the curve through others.
+const FROZEN: u32 = 1;
+const OF_FRAME: u32 = 16;
 /// The entities that lie in such a plane; others have coordinates of the drawing.
 const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
 
@@ -74,6 +80,7 @@ struct Entity<'t> {
 pub(super) fn lines(text: &str) -> Lines {
     let entities = entities(text)?;
     let mut colours: HashMap<String, &str> = HashMap::new();
+    let mut hidden: HashSet<String> = HashSet::new();
     let mut outlines: Vec<Outline> = Vec::new();
     let mut grey = 0;
     let (mut section, mut open) = ("", None);
@@ -84,13 +91,19 @@ pub(super) fn lines(text: &str) -> Lines {
             ("ENDSEC", _) => section = "",
             ("LAYER", "TABLES") => {
                 let name = entity.first(2).unwrap_or_default().to_lowercase();
+                let colour = entity.first(COLOUR).unwrap_or_default();
+                if entity.has_flag(FROZEN) || colour.starts_with('-') {
+                    hidden.insert(name.clone());
+                }
                 colours.extend(entity.first(COLOUR).map(|colour| (name, colour)));
             }
+            ("VERTEX", "ENTITIES") if entity.has_flag(OF_FRAME) => {}
             ("VERTEX", "ENTITIES") => {
                 let corner = entity.corners().map_err(located)?;
                 open.iter_mut().for_each(|polyline: &mut Polyline| polyline.corners.extend(corner.iter()));
             }
             ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(Polyline::outline)),
+            (_, "ENTITIES") if entity.is_hidden(&hidden) => {}
             (name, "ENTITIES") if !IGNORED.contains(&name) => {
                 let (line, named) = entity.meaning(&colours).map_err(located)?;
                 grey += usize::from(line.auxiliary && !named);
@@ -177,8 +190,18 @@ impl<'t> Entity<'t> {
         Ok(if turned { Affine::FLIP_X } else { Affine::IDENTITY })
     }
 
+    fn has_flag(&self, flag: u32) -> bool {
+        self.first(FLAGS).and_then(|flags| flags.parse::<u32>().ok()).is_some_and(|flags| flags & flag != 0)
+    }
+
     fn is_closed(&self) -> bool {
-        self.first(FLAGS).and_then(|flags| flags.parse::<u32>().ok()).is_some_and(|flags| flags & 1 == 1)
+        self.has_flag(1)
+    }
+
+    /// Whether the entity is not displayed: by itself, on a page, or on a layer that is frozen or off.
+    fn is_hidden(&self, layers: &HashSet<String>) -> bool {
+        let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
+        layers.contains(&layer) || [INVISIBLE, ON_PAGE].iter().any(|code| self.first(*code) == Some("1"))
     }
 
     /// Returns the corners of a polyline, each with the bulge of the side that begins there: the tangent of a quarter
@@ -224,10 +247,12 @@ impl<'t> Entity<'t> {
         let long = self.point(SECOND)?.to_vec2();
         let [from, to] = [self.number(PARAMETERS[0])?, self.number(PARAMETERS[1])?];
         let sweep = (to - from).rem_euclid(TAU);
+        // seen from below, the short half axis and the parameters go the other way round
+        let side = if self.number(NORMAL)? < 0.0 { -1.0 } else { 1.0 };
         let radii = (long.hypot(), self.number(RADIUS)? * long.hypot());
         // a whole ellipse goes from 0 to 2 pi, whose remainder may be a rounding error
         let sweep = if sweep < ROUND { TAU } else { sweep };
-        Ok(Arc::new(self.point(FIRST)?, radii, from, sweep, long.atan2()).to_path(ROUND * long.hypot()))
+        Ok(Arc::new(self.point(FIRST)?, radii, side * from, side * sweep, long.atan2()).to_path(ROUND * long.hypot()))
     }
 
     /// Returns the curve of control points, which have no weights or equal ones.

@@ -83,11 +83,15 @@ impl<'d, 'input> Drawing<'d, 'input> {
                 let element = format!("`{}` with a `viewBox` of its own", node.tag_name().name());
                 Err(located(PatternFault::Element { element, right: "only the outermost `svg` should have one" }))
             }
-            "svg" | "g" | "a" | "switch" | "symbol" => {
+            // without languages or features of its own the first child is the one that applies
+            "switch" => node.first_element_child().map_or(Ok(()), |child| self.read(child, &here, depth + 1)),
+            "svg" | "g" | "a" | "symbol" => {
                 if depth > 0 && node.tag_name().name() == "svg" {
                     here.shift(node).map_err(located)?;
                 }
-                node.children().filter(Node::is_element).try_for_each(|child| self.read(child, &here, depth + 1))
+                // symbols are drawn where they are used
+                let drawn = node.children().filter(|child| child.is_element() && child.tag_name().name() != "symbol");
+                drawn.into_iter().try_for_each(|child| self.read(child, &here, depth + 1))
             }
             "use" => {
                 here.shift(node).map_err(located)?;
@@ -126,6 +130,11 @@ impl<'d, 'input> Drawing<'d, 'input> {
     }
 }
 
+/// Whether a list of lengths is that of the origin.
+fn is_origin(text: &str) -> bool {
+    text.split_whitespace().all(|length| ["0", "0px", "0%"].contains(&length))
+}
+
 /// Returns the target angle in degrees of a line of this opacity.
 fn angle(letter: Assignment, opacity: f64, colour: Color) -> Option<f64> {
     let folded = opacity * f64::from(colour.alpha) / 255.0 * 180.0;
@@ -144,6 +153,13 @@ impl Around {
         let Some(text) = properties.get("transform").filter(|text| **text != "none") else {
             return Ok(Self { style, ..*self });
         };
+        if let Some(origin) = properties.get("transform-origin").filter(|origin| !is_origin(origin)) {
+            return Err(value(
+                origin,
+                "origin of a transform that is read",
+                "`0 0`, and the shift a part of `transform`",
+            ));
+        }
         let wrong = |_| value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like");
         let Transform { a, b, c, d, e, f } = text.parse().map_err(wrong)?;
         Ok(Self { style, transform: self.transform * Affine::new([a, b, c, d, e, f]) })

@@ -10,7 +10,8 @@ use super::cp::value;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// The properties that are used here.
-const USED: [&str; 7] = ["stroke", "stroke-opacity", "opacity", "display", "visibility", "color", "transform"];
+const USED: [&str; 8] =
+    ["stroke", "stroke-opacity", "opacity", "display", "visibility", "color", "transform", "transform-origin"];
 
 /// How elements are drawn, as far as a crease pattern needs it.
 #[derive(Clone, Copy, Debug)]

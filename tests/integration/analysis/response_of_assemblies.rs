@@ -3,7 +3,7 @@
 use crate::common;
 use foldwell::analysis::response::{Relation, Response, moduli, response};
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, RIGID};
+use foldwell::model::{Assembly, Bilinear, OfStrain, RIGID};
 use foldwell::sheet::build::{Drawing, build, draw};
 use foldwell::sheet::generate::{Miura, ThickMiura};
 use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
@@ -142,5 +142,54 @@ fn a_slab_of_tubes_folds_along_them() {
         let poisson = found.poisson.unwrap();
         assert!(poisson.in_plane.ratio(0.0).unwrap().abs() <= 1e-10, "{fold}");
         assert!(matches!(poisson.relation, Relation::NoReciprocity | Relation::NoBendingMode { .. }), "{poisson:?}");
+    }
+}
+
+/// Claim: two sheets above each other that nothing joins have three modes more, in which one moves as a whole and nothing
+/// folds: these neither strain nor bend, whatever rounding leaves of them.
+#[test]
+fn loose_sheets_do_not_bend() {
+    let sheet = common::mesh("open-star");
+    let drawing = draw(&sheet);
+    let (count, mut both) = (drawing.coords.len(), drawing.clone());
+    both.coords.extend(drawing.coords.iter().map(|point| point + Vec3::new(0.1, 0.2, 3.0)));
+    both.faces.extend(drawing.faces.iter().map(|face| face.iter().map(|corner| corner + count).collect::<Vec<_>>()));
+    let both = build(&both).unwrap();
+    let other = |facets: f64| Assembly::torus(both.clone(), [1, 1]).bars(RIGID).facets(facets).build().unwrap();
+    let loose = response(&other(1.0)).unwrap();
+    let one = response(&Assembly::torus(sheet, [1, 1]).bars(RIGID).facets(1.0).build().unwrap()).unwrap();
+    assert_eq!(
+        (one.table.rank, loose.modes.len(), loose.table.rank),
+        (3, 3, 0),
+        "the same lattice, bent in one way each"
+    );
+    assert!(loose.error <= 1e-10, "{:e}", loose.error);
+}
+
+/// Claim: the response of rigid panels does not depend on the unit of length. Tolerance: rounding.
+#[test]
+fn panels_have_no_unit() {
+    for unit in [1e-4, 1e-3, 1e3, 1e5] {
+        let panels = ThickMiura { a: unit, b: unit, thickness: 0.1 * unit, fold: 0.6, ..ThickMiura::default() };
+        let found = of_rigid_panels(generate(&Pattern::ThickMiura(panels)).unwrap());
+        let same = ThickMiura { thickness: 0.1, fold: 0.6, ..ThickMiura::default() };
+        let expected = of_rigid_panels(generate(&Pattern::ThickMiura(same)).unwrap());
+        let ratio = |found: &Response| found.poisson.as_ref().unwrap().in_plane.ratio(0.0).unwrap();
+        assert_eq!((found.modes.len(), found.self_stresses), (expected.modes.len(), expected.self_stresses));
+        assert!((ratio(&found) - ratio(&expected)).abs() <= 1e-10, "{unit}");
+    }
+}
+
+/// Claim: cables, which only pull, have no moduli: their stiffness at rest is that of one side.
+#[test]
+fn cables_have_no_moduli() {
+    let lattice = Some([Vec3::x(), Vec3::y()]);
+    let coords = vec![Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::new(1.0, 1.0, 0.0)];
+    let net = build(&Drawing { coords, bars: vec![[0, 1], [0, 2], [0, 3]], lattice, ..Drawing::default() }).unwrap();
+    for (ratio, refused) in [(0.0, true), (0.5, true), (1.0, false)] {
+        let law = OfStrain(Bilinear { ratio, at: [0.0, f64::INFINITY] });
+        let cables = Assembly::torus(net.clone(), [1, 1]).bars(8.0).bar_law(law).build().unwrap();
+        let error = moduli(&cables).err().map(|error| error.to_string());
+        assert_eq!(error.is_some_and(|error| error.contains("springs at rest")), refused, "{ratio}");
     }
 }

@@ -3,7 +3,9 @@
 use crate::common::{Testing, mesh, on};
 use approx::assert_relative_eq;
 use foldwell::analysis::relax::{Relaxed, relax_from};
-use foldwell::model::{Assembly, Boundary, Gauge, Terms};
+use foldwell::math::Vec3;
+use foldwell::model::{Assembly, Boundary, Gauge, RIGID, Terms};
+use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::Random;
 use foldwell::solver::{Options, Problem, Start};
 use foldwell::{Pattern, Rest, generate, relax};
@@ -42,6 +44,33 @@ fn shallow_saddles_are_left() {
     assert!(relaxed.history.len() <= 40, "{}", relaxed.history.len());
     let saddle = relaxed.history[relaxed.routes[0].iterations].energy;
     assert!(relaxed.state.total() < saddle * (1.0 - 1e-7), "{} and {saddle}", relaxed.state.total());
+}
+
+/// Claim: a flat plate of rigid bars that is pushed against its hinged side turns over and comes to rest in tension on the
+/// other side, whichever diagonals it has: flat it is a saddle, which no step on its bars leaves to first order, but one
+/// on bars that stretch. Source: mirror image. Tolerance: rounding of a rotation by half a turn.
+#[test]
+fn pushed_plates_turn_over() {
+    for diagonals in 0..64 {
+        let point = |i: usize, j: usize| 4 * j + i;
+        let squares = (0..6).flat_map(|k| {
+            let [i, j] = [k % 3, k / 3];
+            let [a, b, c, d] = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+            if diagonals >> k & 1 == 0 { [vec![a, b, c], vec![a, c, d]] } else { [vec![a, b, d], vec![b, c, d]] }
+        });
+        let coords: Vec<Vec3> = (0..12).map(|k| Vec3::new((k % 4) as f64, (k / 4) as f64, 0.0)).collect();
+        let sheet = build(&Drawing { coords: coords.clone(), faces: squares.collect(), ..Drawing::default() }).unwrap();
+        let case = on(sheet, [1, 1], Boundary::Patch);
+        let pins = (0..3).map(|j| (point(0, j), [true; 3])).collect();
+        let loads = (0..3).map(|j| (point(3, j), Vec3::new(-0.68, 0.0, 0.0))).collect();
+        let terms = Terms { pins, loads, ..Terms::bars_and_creases(RIGID, 1.0, vec![0.0; case.edges()]) };
+        let model = case.with_terms(terms).model(Gauge::Held);
+        let relaxed = relax_from(&model, model.start(), Options::default(), &mut |_| true).unwrap();
+        assert_eq!(relaxed.negative_eigenvalues, Some(0), "{diagonals}: {:?}", names(&relaxed));
+        let turned = coords.iter().flat_map(|point| [-point.x, point.y, point.z]);
+        let off = turned.zip(&relaxed.state.coordinates).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off <= 1e-7, "{diagonals}: {off:e}");
+    }
 }
 
 /// Claim: the same saddle is an answer where tensions are known, here those of the drawn state, which are none.

@@ -1,5 +1,6 @@
 //! Drawings in which no colour and no layer says what is a crease, and faces that are holes.
 
+use crate::common::Numbers;
 use foldwell::sheet::pattern::{self, Format};
 use foldwell::sheet::{Assignment, Sheet, fold};
 
@@ -115,4 +116,77 @@ fn entities_seen_from_below_are_turned_over() {
     assert!(parse(&(polyline("") + &line([1.0, 0.0, 3.0, 2.0]))).is_err(), "the line is beside the outline");
     let refused = parse(&line([1.0, 0.0, 3.0, 2.0]).replace("21\n2\n", "")).unwrap_err().to_string();
     assert!(refused.contains("a LINE without the number 21"), "{refused}");
+}
+
+/// Claim: what a DXF drawing does not display is left out: entities that are invisible or on a page, those of layers that
+/// are frozen or off, and the corners that only shape the curve of a polyline. An ellipse in a plane that is seen from
+/// below has its arc on the other side of its long axis.
+#[test]
+fn what_is_not_displayed_is_left_out() {
+    let line = |more: &str, layer: &str, [x1, y1, x2, y2]: [f64; 4]| {
+        format!("0\nLINE\n8\n{layer}\n{more}10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}\n")
+    };
+    let square = "0\nLWPOLYLINE\n8\nCut\n90\n4\n70\n1\n10\n0\n20\n0\n10\n4\n20\n0\n10\n4\n20\n4\n10\n0\n20\n4\n";
+    let layers = "0\nSECTION\n2\nTABLES\n0\nLAYER\n2\nIce\n70\n1\n62\n1\n0\nLAYER\n2\nDark\n70\n0\n62\n-1\n0\nENDSEC\n";
+    let parse = |entities: &str| {
+        let text = format!("{layers}0\nSECTION\n2\nENTITIES\n{square}{entities}0\nENDSEC\n0\nEOF\n");
+        pattern::parse(&text, "a", Format::Dxf).unwrap()
+    };
+    let across = [0.0, 2.0, 4.0, 2.0];
+    assert_eq!(parse(&line("", "Valley", across)).polygons.len(), 2);
+    for (more, layer) in [("60\n1\n", "Valley"), ("67\n1\n", "Valley"), ("", "Ice"), ("", "dark")] {
+        let hidden = line(more, layer, [2.0, 0.0, 2.0, 4.0]) + &line("", "Valley", across);
+        assert_eq!(parse(&hidden).polygons.len(), 2, "{more:?} {layer}");
+    }
+    let vertex = |[x, y]: [f64; 2], flag: u32| format!("0\nVERTEX\n8\nValley\n10\n{x}\n20\n{y}\n70\n{flag}\n");
+    let corners = vertex([1.0, 3.0], 16) + &vertex([0.0, 2.0], 8) + &vertex([3.0, 1.0], 16) + &vertex([4.0, 2.0], 8);
+    let fitted = parse(&format!("0\nPOLYLINE\n8\nValley\n70\n4\n{corners}0\nSEQEND\n"));
+    assert_eq!((fitted.polygons.len(), fitted.vertices.len()), (2, 6));
+    // from the middle of the left side to that of the lower one, round the corner, or away from it
+    let arc = |normal: &str, [from, to]: [f64; 2]| {
+        let ellipse = "0\nELLIPSE\n8\nValley\n10\n0\n20\n0\n11\n2\n21\n0\n40\n1\n";
+        parse(&format!("{ellipse}{normal}41\n{from}\n42\n{to}\n"))
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let above = arc("", [0.0, quarter]);
+    let below = arc("210\n0\n220\n0\n230\n-1\n", [3.0 * quarter, 4.0 * quarter]);
+    assert_eq!((above.polygons.len(), below.polygons.len(), above.vertices.len()), (2, 2, below.vertices.len()));
+}
+
+/// Claim: of a `switch` the first child is drawn, a `symbol` only where it is used, and a shape whose transform has
+/// another origin is refused; twenty exact chords of a square, of which two end close to each other, are read as Euler's
+/// formula says.
+#[test]
+fn shapes_are_drawn_as_browsers_draw_them() {
+    let svg = |inner: &str| {
+        let rim = "<rect width=\"100\" height=\"100\" stroke=\"black\"/>";
+        let text = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 100\">{rim}{inner}</svg>");
+        pattern::parse(&text, "a", Format::Svg)
+    };
+    let line = |x1: f64, y1: f64, x2: f64, y2: f64| {
+        format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" stroke=\"red\"/>")
+    };
+    let (level, upright) = (line(0.0, 50.0, 100.0, 50.0), line(50.0, 0.0, 50.0, 100.0));
+    assert_eq!(svg(&format!("<switch>{level}{upright}</switch>")).unwrap().polygons.len(), 2);
+    assert_eq!(svg(&format!("<symbol id=\"s\">{upright}</symbol>{level}")).unwrap().polygons.len(), 2);
+    let used = format!("<symbol id=\"s\">{upright}</symbol>{level}<use href=\"#s\"/>");
+    assert_eq!(svg(&used).unwrap().polygons.len(), 4);
+    let turned = level.replace("<line", "<line transform=\"rotate(90)\" transform-origin=\"50 50\"");
+    assert!(svg(&turned).unwrap_err().to_string().contains("origin of a transform"));
+    let mut numbers = Numbers::new(4);
+    let mut chords = vec![[[0.0, 81.078], [35.577, 0.0]], [[0.0, 81.062], [100.0, 2.13]]];
+    chords.extend((0..18).map(|_| {
+        let [a, b, c, d] = [0; 4].map(|_| 50.0 + numbers.within(49.0));
+        if numbers.within(1.0) > 0.0 { [[0.0, a], [100.0, b]] } else { [[c, 0.0], [d, 100.0]] }
+    }));
+    let crossings = |k: usize| (0..k).filter(|l| cross(chords[k], chords[*l])).count();
+    let faces = 1 + chords.len() + (0..chords.len()).map(crossings).sum::<usize>();
+    let drawn: String = chords.iter().map(|[[x1, y1], [x2, y2]]| line(*x1, *y1, *x2, *y2)).collect();
+    assert_eq!(svg(&drawn).unwrap().polygons.len(), faces);
+}
+
+/// Whether two chords cross.
+fn cross([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }

@@ -7,6 +7,7 @@ use foldwell::model::{
     Assembly, Bilinear, Builder, Drive, Driven, Formula, GreenLagrange, Law, Length, Measured, OfAngle, OfStrain,
     Ogden, OwnTerm, Power, Site, Spring, Stiffening,
 };
+use foldwell::sheet::generate::Random;
 use foldwell::sheet::{EdgeKind, Sheet, fold};
 use foldwell::solver::Options;
 use foldwell::{Pattern, RIGID, Rest, generate, relax};
@@ -395,4 +396,58 @@ fn wells_have_the_energy_of_all_terms() {
             assert!(total > 1e-3 && (well.energy - total).abs() <= 1e-12 * total, "{} {total}", well.energy);
         }
     }
+}
+
+/// Claim: creases without stiffness at rest unfold a Miura-ori and relax a random sheet, for every power and stiffness of
+/// the bars. Steps shrink by a constant factor at worst, `1 - 1/p` of the angles left, so that 1e-10 of a force takes
+/// some `10 ln 10 / (p ln(p / (p - 1)))` of them, 12 to 19. Tolerance: five times that, where rigid bars nearly depend
+/// on each other in the flat sheet. With the stiffness of a spring in the shift 200 were not enough.
+#[test]
+fn powers_converge() {
+    for exponent in [4.0 / 3.0, 1.5, 2.0, 3.0] {
+        for bars in [1e2, 1e6, RIGID] {
+            for name in ["miura", "random"] {
+                let sheet = generate(&Pattern::named(name).unwrap()).unwrap();
+                let hinges = Assembly::patch(sheet, [3, 3]).bars(bars).creases(1.0).rest(Rest::Flat).facets(10.0);
+                let assembly = hinges.crease_law(OfAngle(Power { exponent })).build().unwrap();
+                let found = relax(&assembly).unwrap();
+                assert!(found.iterations <= 100, "{name} {exponent} {bars}: {} iterations", found.iterations);
+                assert!(name == "random" || found.state.total() < 1e-13, "{}", found.state.total());
+            }
+        }
+    }
+}
+
+/// Claim: sheets of creases without stiffness at rest are minima where they are drawn, at rest: the energy is never
+/// negative. Rounding errors of tensions, beside which nothing is stiff there, are no negative eigenvalues.
+#[test]
+fn powers_are_stable_at_rest() {
+    for exponent in [4.0 / 3.0, 1.5, 2.0, 3.0] {
+        for seed in 0..12 {
+            let sheet = generate(&Pattern::Random(Random { seed, ..Random::default() })).unwrap();
+            let hinges = Assembly::patch(sheet, [3, 3]).bars(50.0).creases(1.0).rest(Rest::Drawn);
+            let assembly = hinges.crease_law(OfAngle(Power { exponent })).build().unwrap();
+            let found = relax(&assembly).unwrap();
+            assert!(found.negative_eigenvalues == Some(0) && found.state.total() < 1e-24, "{exponent} {seed}");
+        }
+    }
+}
+
+/// Claim: a path goes on where creases come to the limit of one of their two stiffnesses, for every step, to the same
+/// state. Tolerance: rounding.
+#[test]
+fn paths_pass_kinks() {
+    let sheet = fold::parse(include_str!("../../cases/kink.fold"), "kink.fold").unwrap();
+    let hinges = Assembly::patch(sheet, [1, 1]).bars(20.0).creases(1.0);
+    let hinges = hinges.crease_law(OfAngle(Bilinear { ratio: 0.3, at: [-0.3, 0.3] }));
+    let corners = [0, 2, 6, 8].into_iter();
+    let assembly = corners.fold(hinges, |hinges, at| hinges.pin(at, [0, 0], [true; 3])).build().unwrap();
+    let drive = Drive { quantity: Driven::Vertices { vertices: vec![4], direction: Vec3::z() }, to: -0.8 };
+    let ends = [0.05, 0.02, 0.005].map(|max_step| {
+        let options = PathOptions { max_step, ..PathOptions::default() };
+        let branches = follow_path(&assembly, &drive, None, &options, &mut |_, _| true).unwrap();
+        assert_eq!(branches[0].end, PathEnd::Arrived, "{max_step}");
+        branches[0].points.last().unwrap().state.total()
+    });
+    assert!(ends.iter().all(|end| (end - ends[0]).abs() <= 1e-9 * ends[0]), "{ends:?}");
 }

@@ -248,3 +248,13 @@ fn listed_values_lie_on_the_way() {
     let said = ran.report.summary.studies[0].sentence();
     assert!(said.contains("not passed: \u{2212}0.4 of `at`"), "{said}");
 }
+
+/// Claim: a tolerance with which no state is an equilibrium is refused, and cells of a finite sheet are said to have no
+/// effect.
+#[test]
+fn settings_that_mean_nothing_are_said() {
+    let scene = Scene::of("two-bars-push");
+    scene.clone().replaced("kind = \"path\"", "kind = \"path\"\ntolerance = 0.1").refused("states are no equilibria");
+    let ran = scene.replaced("[energy]", "cells = [2, 2]\n[energy]").converged();
+    assert!(ran.report.summary.notes.iter().any(|note| note.contains("`cells` has no effect")));
+}

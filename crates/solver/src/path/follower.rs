@@ -28,13 +28,15 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
     pub problem: &'a mut P,
     pub bordered: Bordered,
     pub settings: PathSettings,
+    /// Whether stiffness may jump on the way.
+    kinks: bool,
 }
 
 impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// Makes room for the systems of a problem.
     pub fn new(problem: &'a mut P, settings: PathSettings) -> Result<Self, PathError> {
-        let bordered = Bordered::new(problem)?;
-        Ok(Self { problem, bordered, settings })
+        let (bordered, kinks) = (Bordered::new(problem)?, problem.may_have_kinks());
+        Ok(Self { problem, bordered, settings, kinks })
     }
 
     /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
@@ -68,7 +70,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
 
     /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
     pub fn settle(&mut self, guess: Guess, plane: &Plane, arc: f64) -> Result<Option<(PathState, f64)>, PathError> {
-        let Self { problem, bordered, settings } = self;
+        let Self { problem, bordered, settings, .. } = self;
         let Some(found) = correct(*problem, bordered, guess, plane, settings.tolerance)? else { return Ok(None) };
         let off = found.off;
         Ok(Some((complete(*problem, bordered, found, plane, arc)?, off)))
@@ -86,7 +88,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         let unit_of_length = self.bordered.length();
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
-            let at_kink = self.problem.has_kinks() && length < KINK_STEP * self.settings.max_step;
+            let at_kink = self.kinks && length < KINK_STEP * self.settings.max_step;
             let plane = self.plane(&last.tangent, at_kink);
             if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
                 let chord = Cubic::new(last, &state).chord();

@@ -33,6 +33,10 @@ pub trait ParametrizedProblem: Problem {
     fn has_kinks(&self) -> bool {
         false
     }
+    /// Whether stiffness jumps at some states: steps to there need not look smooth.
+    fn may_have_kinks(&self) -> bool {
+        self.has_kinks()
+    }
     /// The integral of the conjugate over the parameter, up to a constant, of problems that have kinks.
     fn conjugate_integral(&self, _x: &[f64], _tension: &[f64]) -> f64 {
         f64::NAN

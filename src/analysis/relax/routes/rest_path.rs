@@ -122,7 +122,7 @@ fn follow_minima(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, mut st
 fn minimum(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: f64, start: Start) -> Option<Ending> {
     drive_to(run, drive, parameter);
     let settled = run.minimize(start);
-    let left = saddle::leave(run, settled);
+    let left = saddle::left_at_once(run, settled);
     let is_wanted = match &left {
         Ok(found) => found.negative_eigenvalues == Some(0),
         Err(error) => is_interruption(error),

@@ -1,33 +1,49 @@
 //! An equilibrium that is no minimum is left along a motion on which its energy falls, both ways, to the lower side.
+//!
+//! In a flat sheet of rigid bars a motion that meets the bars to first order may meet them on no way to second: from
+//! there the sheet is followed with bars that stretch.
 
+use super::soft_bars;
 use crate::analysis::relax::run::{Ending, Run, is_better};
 use crate::model::Model;
 use crate::numerics::vector::{larger, max_abs, moved};
 use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 
-/// Length of the step that leaves a saddle: the largest change of a soft measure (an angle, in radians), and the
-/// largest change of an unknown in units of length.
+/// Length of the step that leaves a saddle: the largest change of a soft measure (an angle, in radians), and the largest
+/// change of an unknown in units of length.
 const LEAVING_STEP: f64 = 0.1;
+/// The ways out of a saddle, tried one after the other until one leads lower: lengths of the step, and whether rigid bars
+/// stretch after it. A long step may pass over the well beside a saddle.
+const WAYS: [(f64, bool); 3] = [(LEAVING_STEP, false), (0.1 * LEAVING_STEP, false), (LEAVING_STEP, true)];
 /// Largest number of saddles that are left one after the other.
 const MOST_SADDLES: usize = 20;
 
-/// Whether the equilibrium has negative eigenvalues. A start that knows its tensions asks for the equilibrium next to
-/// it, whatever its stability.
+/// Whether the equilibrium has negative eigenvalues, or may have some. A start that knows its tensions asks for the
+/// equilibrium next to it, whatever its stability.
 pub(super) fn is_reached(run: &Run<'_>, ending: &Ending) -> bool {
     !run.is_restarted() && ending.as_ref().is_ok_and(is_saddle)
 }
 
 fn is_saddle(found: &Equilibrium) -> bool {
-    found.negative_eigenvalues.is_some_and(|count| count > 0)
+    found.negative_eigenvalues != Some(0)
 }
 
 /// The minimum below a saddle, or the last saddle from which nothing lower is reached.
 pub(super) fn leave(run: &mut Run<'_>, ending: Ending) -> Ending {
+    left(run, ending, &WAYS)
+}
+
+/// The same along a path, which goes on where a step as it is leads no lower.
+pub(super) fn left_at_once(run: &mut Run<'_>, ending: Ending) -> Ending {
+    left(run, ending, &WAYS[..1])
+}
+
+fn left(run: &mut Run<'_>, ending: Ending, ways: &[(f64, bool)]) -> Ending {
     let mut found = ending?;
     for _ in 0..MOST_SADDLES {
         let energy = found.energy;
         if is_saddle(&found) {
-            found = lower_side(run, found)?;
+            found = lower_side(run, found, ways)?;
         }
         if found.energy == energy {
             break;
@@ -37,26 +53,36 @@ pub(super) fn leave(run: &mut Run<'_>, ending: Ending) -> Ending {
 }
 
 /// The lower one of the equilibria on both sides of a saddle; the saddle itself where none is lower.
-fn lower_side(run: &mut Run<'_>, saddle: Equilibrium) -> Ending {
-    let Some(step) = leaving_step(&run.model, &saddle) else { return Ok(saddle) };
-    let (place, x, tension) = (run.model.clone(), saddle.x.clone(), saddle.tension.clone());
+fn lower_side(run: &mut Run<'_>, saddle: Equilibrium, ways: &[(f64, bool)]) -> Ending {
+    let Some(motion) = falling_motion(&run.model, &saddle) else { return Ok(saddle) };
+    let (place, x, tension, energy) = (run.model.clone(), saddle.x.clone(), saddle.tension.clone(), saddle.energy);
     let mut found = Ok(saddle);
-    for side in [1.0, -1.0] {
-        let beside = |run: &mut Run<'_>| {
-            run.model.clone_from(&place);
-            Some(run.minimize(Start { x: moved(&x, side, &step), tension: Some(tension.clone()) }))
-        };
-        found = run.prefer(found, beside, is_better);
+    for &(length, soft) in ways.iter().filter(|(_, soft)| !soft || place.has_rigid_bars()) {
+        for step in [length, -length] {
+            let beside = |run: &mut Run<'_>| {
+                run.model.clone_from(&place);
+                let x = moved(&x, step, &motion);
+                Some(if soft {
+                    soft_bars::from(run, &x, &soft_bars::RATIOS)
+                } else {
+                    run.minimize(Start { x, tension: Some(tension.clone()) })
+                })
+            };
+            found = run.prefer(found, beside, is_better);
+        }
+        if found.as_ref().map_or(true, |found| found.energy < energy) {
+            break;
+        }
     }
     found
 }
 
-/// A step along a motion on which the energy of a saddle falls.
-fn leaving_step(model: &Model, saddle: &Equilibrium) -> Option<Vec<f64>> {
+/// A motion on which the energy of a saddle falls, of length 1.
+fn falling_motion(model: &Model, saddle: &Equilibrium) -> Option<Vec<f64>> {
     let mut tangent = Tangent::at_state(model, &saddle.x, &saddle.tension, HessianKind::Full).ok()?;
     model.hold(&saddle.tension, &mut tangent.at);
     let motion = tangent.falling_motion().ok()??;
     let length = max_abs(&motion) / model.unit_of_length();
     let size = larger(tangent.at.largest_measure_change(&motion), length);
-    Some(motion.iter().map(|rate| LEAVING_STEP / size * rate).collect())
+    Some(motion.iter().map(|rate| rate / size).collect())
 }

@@ -23,7 +23,7 @@ use std::ops::RangeInclusive;
 
 /// Stiffnesses of the bars, one after the other, over that of the softest hinge. From 1e2 on or with three of them,
 /// some flat-foldable patterns of 20 to 120 edges end in states of higher energy; from 1e4 on, some end in none.
-const RATIOS: [f64; 2] = [1e3, 1e5];
+pub(super) const RATIOS: [f64; 2] = [1e3, 1e5];
 /// Tolerance of the states in between.
 const INTERMEDIATE_TOLERANCE: f64 = 1e-6;
 /// Further such ratios, tried where the state of the last of [`RATIOS`] does not lead to one of rigid bars, and the
@@ -127,7 +127,12 @@ pub(super) fn leave(run: &mut Run<'_>, _: Ending) -> Ending {
 /// Relaxes from the start with bars that stretch, then with rigid ones.
 pub(super) fn from_the_start(run: &mut Run<'_>, ratios: &[f64]) -> Ending {
     let start = run.begin_anew();
-    let mut coordinates = run.model.coordinates(&start);
+    from(run, &start, ratios)
+}
+
+/// Relaxes from these unknowns with bars that stretch, then with rigid ones.
+pub(super) fn from(run: &mut Run<'_>, x: &[f64], ratios: &[f64]) -> Ending {
+    let mut coordinates = run.model.coordinates(x);
     let loose = Options { tolerance: INTERMEDIATE_TOLERANCE, ..run.options };
     for &ratio in ratios {
         coordinates = match with_soft_bars(run, ratio, (&coordinates, None), loose) {
