@@ -16,9 +16,7 @@ use super::{Located, SceneError, SceneFile, drives, laws, loads, ties};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Cleanup, Format};
-use crate::sheet::similar::did_you_mean;
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj, stl};
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
@@ -35,6 +33,10 @@ pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
 /// # Errors
 /// [`SceneError`] if the scene refers to a part of the sheet that does not exist.
 pub fn assembly_of(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
+    built(file, sheet).map_err(|error| file.placed(error))
+}
+
+fn built(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
     let sheet = super::material::with_panels(file, sheet)?;
     let boundary = boundary(file, &sheet)?;
     super::memory::check(file, &sheet)?;
@@ -89,7 +91,7 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     if let Some(mesh) = &spec.mesh {
         let path = file.resolve(mesh);
         return mesh_of(file, &path).map_err(|error| match error {
-            SceneError::Mesh(_) if !path.exists() => no_mesh(file, mesh.span(), &path),
+            SceneError::Mesh(_) if !path.exists() => file.no_file(mesh.span(), &path),
             error => error,
         });
     }
@@ -100,20 +102,10 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     found.map_err(|error| file.error_at(table.span(), error.to_string(), error.help()))
 }
 
-/// Returns the error of a mesh that is not there, with the name of a file beside it that may be meant.
-fn no_mesh(file: &SceneFile, span: Range<usize>, path: &Path) -> SceneError {
-    let beside = path.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
-    let beside: Vec<String> = beside.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let question = did_you_mean(&name, beside.iter().map(String::as_str));
-    let help = format!("{question}paths are relative to the folder of the scene");
-    file.error_at(span, format!("there is no file {}", path.display()), help)
-}
-
 /// Returns another sheet that a study names, from its mesh.
 pub(crate) fn other_sheet(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
     let path = file.resolve(path);
-    Ok(fold::read(&path)?)
+    fold::read(&path).map_err(|error| file.placed(error.into()))
 }
 
 /// Reads the mesh at `path` in the format of its ending; FOLD if that is unknown.

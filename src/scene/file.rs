@@ -1,6 +1,7 @@
 //! The types of a scene read from its text, which is kept for messages.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,7 +15,8 @@ use super::error::SceneError;
 use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::setting::{Setting, apply};
 use super::spec::Scene;
-use crate::sheet::similar::did_you_mean_of;
+use crate::sheet::SheetError;
+use crate::sheet::similar::{did_you_mean, did_you_mean_of};
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.
@@ -105,6 +107,29 @@ impl SceneFile {
     /// `help` proposes a correction.
     pub fn error_at(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> SceneError {
         error_at(&self.text, span, message.into(), Some(help.into()))
+    }
+
+    /// Returns the error of a file that is not there, with the name of a file beside it that may be meant.
+    pub(super) fn no_file(&self, span: Range<usize>, path: &Path) -> SceneError {
+        let beside = path.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+        let beside: Vec<String> = beside.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let question = did_you_mean(&name, beside.iter().map(String::as_str));
+        let help = format!("{question}paths are relative to the folder of the scene");
+        self.error_at(span, format!("there is no file {}", path.display()), help)
+    }
+
+    /// Returns an error about a file that is not there with the place in the scene that names it.
+    pub(super) fn placed(&self, error: SceneError) -> SceneError {
+        let path = match &error {
+            SceneError::Read { path, .. } | SceneError::Mesh(SheetError::Read { path, .. }) if !path.exists() => path,
+            _ => return error,
+        };
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        match self.text().find(&*name).filter(|_| !name.is_empty()) {
+            Some(at) => self.no_file(at..at + name.len(), path),
+            None => error,
+        }
     }
 }
 

@@ -155,7 +155,9 @@ impl Poisson {
             }
             (_, 0, _) => Relation::NoStrain,
             (_, _, 0) => Relation::NoBendingMode { locked },
-            (_, strains, bendings) if strains + bendings <= 3 && !is_reciprocal(sheet) => Relation::NoReciprocity,
+            (_, strains, bendings) if (strains == 1 || strains + bendings <= 3) && !is_reciprocal(sheet) => {
+                Relation::NoReciprocity
+            }
             (_, strains, bendings) if strains + bendings == 3 => {
                 Relation::Opposite { strains, four_parallelograms: is_four_parallelograms(sheet) }
             }

@@ -43,7 +43,7 @@ impl Axis {
     }
 
     fn of_table(file: &SceneFile, spec: &SweepAxis, path: PathBuf) -> Result<Self, SceneError> {
-        let rows::Rows { header, rows, lines } = rows::read(&path)?;
+        let rows::Rows { header, rows, lines } = rows::read(&path).map_err(|error| file.placed(error))?;
         header.iter().try_for_each(|key| check_key(file, spec, key))?;
         Ok(Self { keys: header, span: spec.key.span(), values: rows, table: Some((path, lines)) })
     }

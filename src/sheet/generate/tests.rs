@@ -35,11 +35,11 @@ fn folded_states_are_isometric() {
     }
 }
 
-/// Claim: the polygons are planar, so that the fold angles of their diagonals vanish. Tolerance: rounding, over
-/// heights of 0.1.
+/// Claim: the polygons but those of thick panels are planar, so that the fold angles of their diagonals vanish.
+/// Tolerance: rounding, over heights of 0.1.
 #[test]
 fn polygons_are_planar() {
-    for name in Pattern::names() {
+    for name in Pattern::names().filter(|name| *name != "thick-miura") {
         let sheet = generate(&Pattern::named(name).unwrap()).unwrap();
         for edge in sheet.edges.iter().filter(|e| e.kind == EdgeKind::Facet) {
             assert!(sheet.drawn_angle(edge).unwrap().abs() < 1e-14, "{name} {edge:?}");

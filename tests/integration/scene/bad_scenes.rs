@@ -398,7 +398,7 @@ fn faults_of_named_files_name_the_file() {
     let cases = [
         (mesh("none.fold"), "FOLDER/scene.toml:2:8: there is no file FOLDER/none.fold"),
         (mesh("torn.fold"), "FOLDER/torn.fold:"),
-        (rest("none.csv"), "FOLDER/none.csv: cannot be read"),
+        (rest("none.csv"), "FOLDER/scene.toml:4:45: there is no file FOLDER/none.csv"),
         (rest("strange.csv"), "FOLDER/strange.csv:3: the sheet has no crease [0, 1, 5, 0]"),
         (rest("far.csv"), "FOLDER/far.csv:2: there is no crease [0, 1, 0, 0] in cell [7, 7]"),
         (rest("rates.csv"), "FOLDER/rates.csv:1: the header is `i,j,n1,n2,rate`, expected `i,j,n1,n2,angle`"),
