@@ -126,7 +126,8 @@ impl SceneFile {
             _ => return error,
         };
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        match self.text().find(&*name).filter(|_| !name.is_empty()) {
+        let ends_a_text = |at: &usize| self.text()[at + name.len()..].starts_with(['"', '\'']);
+        match self.text().match_indices(&*name).map(|(at, _)| at).find(ends_a_text) {
             Some(at) => self.no_file(at..at + name.len(), path),
             None => error,
         }

@@ -6,9 +6,9 @@ use super::pattern_fault::LineName;
 /// in units of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Redrawing {
-    /// Distance within which points were merged, and the smaller one with which the lines were no crease pattern or
-    /// had points close to each other; `None` where the first distance was kept.
-    pub enlarged: Option<[f64; 2]>,
+    /// Distance within which points were merged, and the first one that was tried, with which the lines were no crease
+    /// pattern or had points close to each other; `None` where the first distance was kept.
+    pub merged: Option<[f64; 2]>,
     /// Two vertices that are close enough to be meant as one.
     pub gap: Option<Gap>,
     /// Number of curves, and the distance within which polylines follow them.
@@ -42,7 +42,7 @@ impl Redrawing {
     /// Returns a sentence for each thing that was done or is in doubt.
     pub(crate) fn said(&self) -> Vec<String> {
         let mut said = Vec::new();
-        if let Some([distance, default]) = self.enlarged {
+        if let Some([distance, default]) = self.merged {
             said.push(format!(
                 "points up to {distance:.3e} apart were merged: with {default:.3e} {}; `merge` in [sheet] of a scene and \
                  `foldwell convert --merge` set the distance",

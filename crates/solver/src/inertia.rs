@@ -74,7 +74,7 @@ pub(super) fn negative_eigenvalues(
     at: &Linearization,
     compliance: &[f64],
 ) -> Result<Option<usize>, FactorError> {
-    let zero = larger(ZERO_EIGENVALUE * largest_weighted_entry(at, compliance), ZERO_IN_PROJECTION * at.rest_stiffness);
+    let zero = zero_eigenvalue(at, compliance);
     // with those that may be zero
     let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
     if at.gradient.len() <= DENSE_LIMIT {
@@ -116,6 +116,11 @@ pub(super) fn negative_eigenvalues(
     Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance) } else { None })
 }
 
+/// Size up to which an eigenvalue of the factored matrix may be zero.
+fn zero_eigenvalue(at: &Linearization, compliance: &[f64]) -> f64 {
+    larger(ZERO_EIGENVALUE * largest_weighted_entry(at, compliance), ZERO_IN_PROJECTION * at.rest_stiffness)
+}
+
 /// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where singular
 /// values of which it cannot be told whether they are zero make a difference. No weights of rigid measures spoil small
 /// eigenvalues here: those above minus [`ZERO_IN_PROJECTION`] of the largest diagonal entry count as zero.
@@ -141,7 +146,7 @@ pub(super) fn falling_motion(
     at: &Linearization,
     compliance: &[f64],
 ) -> Result<Option<Vec<f64>>, FactorError> {
-    let zero = larger(ZERO_EIGENVALUE * largest_weighted_entry(at, compliance), ZERO_IN_PROJECTION * at.rest_stiffness);
+    let zero = zero_eigenvalue(at, compliance);
     let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
     let mut motions = Motions::new(system, at, compliance, -zero);
     motions.negative(in_doubt.min(MOST_CONFIRMED_BY_MOTIONS));

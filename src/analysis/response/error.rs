@@ -1,7 +1,6 @@
 //! The reasons for which a state has no linear response.
 
 use crate::analysis::modes::ModesError;
-use crate::kinematics::KinematicsError;
 use crate::numerics::dense::DenseError;
 
 /// Why the linear response of a state cannot be computed.
@@ -16,8 +15,10 @@ pub enum ResponseError {
     UnevenCells { edge: usize },
     #[error("the linear response is that of springs at rest, where the law of the {term} has another stiffness")]
     NoSpringAtRest { term: &'static str },
-    #[error(transparent)]
-    Kinematics(#[from] KinematicsError),
+    #[error(
+        "the number of modes is not clear: motions that count as modes change lengths or held angles by up to {change:.1e}"
+    )]
+    UnclearModes { change: f64 },
     #[error(transparent)]
     Modes(#[from] ModesError),
     #[error(transparent)]

@@ -18,7 +18,11 @@ use crate::math::Vec3;
 use crate::model::Assembly;
 use crate::numerics::dense::{full_svd, null_space_of_sums};
 use crate::numerics::{DenseMatrix, larger};
+use std::iter;
 
+/// Largest change of lengths over the root of the cell's area, or of held angles in radians, by motions of norm 1 that
+/// count as modes: more is no rounding error. Next to a flat state motions that are none change lengths by as little.
+const LARGEST_CHANGE: f64 = 3e-10;
 /// Smallest folding in radians of a motion of norm 1, lengths over the root of the cell's area, that is no rounding
 /// error.
 const FOLDS: f64 = 1e-9;
@@ -43,20 +47,19 @@ pub(super) struct CellModes {
 
 /// Computes the modes of a cell and their Poisson's ratios; `assembly` is the one of the cell, with rigid terms alone.
 pub(super) fn modes_of(assembly: &Assembly, cell: &PeriodicCell) -> Result<CellModes, ResponseError> {
-    let length = cell.area().sqrt();
-    let basis = Basis::new(assembly, cell, length)?;
-    let raw = basis.table(length);
+    let basis = Basis::new(assembly, cell)?;
+    let raw = basis.table();
     let mut error = basis.error;
     if is_reciprocal(&cell.sheet) {
         error = larger(error, defect_of_reciprocity(&raw));
     }
     let arranged = raw.arranged(error)?;
     let modes: Vec<LinearMode> = (0..arranged.amplitudes.ncols())
-        .map(|k| basis.mode(cell, &arranged.amplitudes.columns(k, 1).into_owned(), length))
+        .map(|k| basis.mode(cell, &arranged.amplitudes.columns(k, 1).into_owned()))
         .collect();
     let table = raw.ranks()?;
     let spaces = [arranged.in_plane, arranged.bending];
-    let poisson = Poisson::new(&cell.sheet, (&modes, spaces), &table, !cell.locked.is_empty(), length);
+    let poisson = Poisson::new(&cell.sheet, (&modes, spaces), &table, !cell.locked.is_empty(), raw.length);
     Ok(CellModes { modes, table, poisson, error })
 }
 
@@ -67,15 +70,22 @@ struct Basis {
     motions: DenseMatrix,
     /// Rates of the fold angles of the cell's edges.
     folds: DenseMatrix,
+    /// Unit of length, the root of the cell's area.
+    length: f64,
     /// Error of the modes: what they change of lengths and held angles, or what rounding may mix into them.
     error: f64,
 }
 
 impl Basis {
-    fn new(assembly: &Assembly, cell: &PeriodicCell, length: f64) -> Result<Self, ResponseError> {
+    fn new(assembly: &Assembly, cell: &PeriodicCell) -> Result<Self, ResponseError> {
+        let length = cell.area().sqrt();
         let held = rates(cell, &cell.elements(assembly));
         let rows = held.by_motions(length);
         let null = null_space_of_sums(&rows, held.terms)?;
+        let change = null.singular_values.get(null.rank).copied().unwrap_or(0.0);
+        if change > LARGEST_CHANGE {
+            return Err(ResponseError::UnclearModes { change });
+        }
         let hinges = hinges_of(assembly);
         let elements = cell.elements_of(assembly, &hinges);
         let mut folding = DenseMatrix::zeros(cell.sheet.edges.len(), rows.ncols());
@@ -90,37 +100,31 @@ impl Basis {
             motions.column_iter_mut().zip(&folded.singular_values).for_each(|(mut mode, value)| mode /= *value);
         }
         let error = larger((rows * &motions).amax(), null.gap.recip());
-        Ok(Self { folds: folding * &motions, motions, error })
+        Ok(Self { folds: folding * &motions, motions, length, error })
     }
 
     /// The strain and the curvature of a motion.
-    fn tensors(motion: &[f64], length: f64) -> [f64; MACROSCOPIC] {
-        let (units, tensors) = (units(length), &motion[motion.len() - MACROSCOPIC..]);
+    fn tensors(&self, motion: &[f64]) -> [f64; MACROSCOPIC] {
+        let (units, tensors) = (units(self.length), &motion[motion.len() - MACROSCOPIC..]);
         [0, 1, 2, 3, 4, 5].map(|k| tensors[k] / units[k])
     }
 
-    fn table(&self, length: f64) -> RawTable {
+    fn table(&self) -> RawTable {
         let (strains, curvatures) = (0..self.motions.ncols())
-            .map(|k| Self::tensors(self.motions.column(k).as_slice(), length))
+            .map(|k| self.tensors(self.motions.column(k).as_slice()))
             .map(|[e11, e22, e12, k11, k22, k12]| ([e11, e22, e12], [k11, k22, k12]))
             .unzip();
-        RawTable { strains, curvatures, length }
+        RawTable { strains, curvatures, length: self.length }
     }
 
     /// Returns the mode with these amplitudes.
-    fn mode(&self, cell: &PeriodicCell, amplitudes: &DenseMatrix, length: f64) -> LinearMode {
+    fn mode(&self, cell: &PeriodicCell, amplitudes: &DenseMatrix) -> LinearMode {
         let motion = &self.motions * amplitudes;
-        let tensors = Self::tensors(motion.as_slice(), length);
+        let tensors = self.tensors(motion.as_slice());
         let [e11, e22, e12, k11, k22, k12] = tensors;
-        let moved = |vertex: usize| {
-            let first = 3 * vertex.wrapping_sub(1);
-            if vertex == 0 {
-                Vec3::zeros()
-            } else {
-                length * Vec3::from_column_slice(&motion.as_slice()[first..first + 3])
-            }
-        };
-        let vertices = cell.sheet.vertices.iter().enumerate().map(|(k, place)| [*place, moved(k)]).collect();
+        let others = motion.as_slice().chunks_exact(3).map(|rates| self.length * Vec3::from_column_slice(rates));
+        let velocities = iter::once(Vec3::zeros()).chain(others);
+        let vertices = cell.sheet.vertices.iter().zip(velocities).map(|(place, velocity)| [*place, velocity]).collect();
         let lattice = lattice_motions(cell, tensors);
         LinearMode {
             rates: (&self.folds * amplitudes).as_slice().to_vec(),

@@ -1,7 +1,5 @@
 //! Miura-ori of thick panels, whose creases lie at several heights.
 
-use std::f64::consts::{FRAC_PI_3, PI};
-
 use serde::{Deserialize, Serialize};
 
 use super::super::angle::radians;
@@ -25,14 +23,14 @@ const SOURCE: &str =
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ThickMiura {
-    /// Side `a` of the parallelograms, across the zigzags. Default 1.
+    /// As of [`Miura`].
     pub a: f64,
-    /// Side `b` of the parallelograms, along the zigzags. Default 1.
+    /// As of [`Miura`].
     pub b: f64,
-    /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+    /// As of [`Miura`].
     #[serde(deserialize_with = "radians")]
     pub sector: f64,
-    /// Angle `g` between the panels and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    /// As of [`Miura`].
     #[serde(deserialize_with = "radians")]
     pub fold: f64,
     /// Thickness of the panels, from the lowest hinge to the highest; above 0 and so small that the cell keeps a length
@@ -44,7 +42,8 @@ pub struct ThickMiura {
 
 impl Default for ThickMiura {
     fn default() -> Self {
-        Self { a: 1.0, b: 1.0, sector: FRAC_PI_3, fold: PI / 12.0, thickness: 0.1, gap: 0.1 }
+        let Miura { a, b, sector, fold } = Miura::default();
+        Self { a, b, sector, fold, thickness: 0.1, gap: 0.1 }
     }
 }
 
@@ -119,6 +118,7 @@ impl ThickMiura {
 mod tests {
     use super::*;
     use crate::sheet::EdgeKind;
+    use std::f64::consts::FRAC_PI_3;
 
     /// Claim: the panels are rigid: all their bars, diagonals included, have the same length at every fold, for every
     /// thickness; four panels, eight hinges and four openings in a cell. Tolerance: rounding.
@@ -142,10 +142,11 @@ mod tests {
     }
 
     /// Claim: panels that are too thick for the fold are refused with the largest thickness, at which the cell has no
-    /// length: `s n / (v h) = 2 cos g tan t / (tan t sin g)` for unit sides.
+    /// length: `b tan t / tan g`. Tolerance: rounding.
     #[test]
     fn too_thick_panels_are_refused() {
         let error = ThickMiura { fold: 1.2, thickness: 0.9, ..ThickMiura::default() }.sheet().unwrap_err();
-        assert!(matches!(error, GenerateError::Number { name: "thickness", high, .. } if high < 0.9), "{error}");
+        let GenerateError::Number { name: "thickness", high, .. } = error else { panic!("{error}") };
+        assert!((high - f64::tan(FRAC_PI_3) / f64::tan(1.2)).abs() <= 1e-14, "{high}");
     }
 }

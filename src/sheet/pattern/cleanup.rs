@@ -81,7 +81,7 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
     }
     match (found, cure) {
         (_, Some((distance, mut sheet))) if cleanup.merge.is_none() => {
-            sheet.record.redrawing.enlarged = Some([distance, first]);
+            sheet.record.redrawing.merged = Some([distance, first]);
             Ok(sheet)
         }
         (Ok(meshed), _) => Ok(meshed.sheet),

@@ -57,14 +57,14 @@ const FIRST: [i32; 2] = [10, 20];
 const SECOND: [i32; 2] = [11, 21];
 /// z of the normal of the plane in which a flat entity lies; x is the other way where it points down.
 const NORMAL: i32 = 230;
+/// The entities that lie in such a plane; others have coordinates of the drawing.
+const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
 /// Number that is 1 for entities that are not drawn, and for those of a page beside the drawing.
 const INVISIBLE: i32 = 60;
 const ON_PAGE: i32 = 67;
 /// Flag of a layer that is frozen, and of a corner that only shapes the curve through others.
 const FROZEN: u32 = 1;
 const OF_FRAME: u32 = 16;
-/// The entities that lie in such a plane; others have coordinates of the drawing.
-const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
 
 /// Largest distance of the cubic curves of an arc from it, relative to its radius.
 const ROUND: f64 = 1e-6;

@@ -67,8 +67,8 @@ pub(super) fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     Err(context.file.error_at(span, message, help).into())
 }
 
-/// Checks that the values of which the study lists the states, and the one at which it stops, lie on the way of the drive. A sheet that snaps under
-/// loads may also need loads of the other sign.
+/// Checks that the values of which the study lists the states, and the one at which it stops, lie on the way of the
+/// drive. A sheet that snaps under loads may also need loads of the other sign.
 pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
     let stop = spec.stop.as_ref().and_then(|stop| stop.drive.as_ref());
     let asked = || spec.at.iter().chain(stop);

@@ -1,7 +1,7 @@
 //! The linear response of periodic sheets that are no surfaces: with openings, and with edges of three faces.
 
 use crate::common;
-use foldwell::analysis::response::{Relation, Response, moduli, response};
+use foldwell::analysis::response::{Relation, Response, ResponseError, moduli, response};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Bilinear, OfStrain, RIGID};
 use foldwell::sheet::build::{Drawing, build, draw};
@@ -165,6 +165,21 @@ fn loose_sheets_do_not_bend() {
         "the same lattice, bent in one way each"
     );
     assert!(loose.error <= 1e-10, "{:e}", loose.error);
+}
+
+/// Claim: next to a flat state, where motions change lengths so little that they may be modes of the flat sheet, no number
+/// of modes is given. Source: Miura-ori has three modes at every fold, and six where it is flat.
+#[test]
+fn nearly_flat_cells_have_no_count() {
+    let at = |fold: f64| {
+        let sheet = generate(&Pattern::Miura(Miura { fold, ..Miura::default() })).unwrap();
+        response(&Assembly::torus(sheet, [1, 1]).bars(RIGID).facets(1.0).build().unwrap())
+    };
+    assert_eq!([0.0, 1e-6, 1e-2].map(|fold| at(fold).unwrap().modes.len()), [6, 3, 3]);
+    for fold in [1e-8, 1e-9] {
+        let found = at(fold).map(|found| found.modes.len());
+        assert!(matches!(found, Err(ResponseError::UnclearModes { .. })), "{fold}: {found:?}");
+    }
 }
 
 /// Claim: the response of rigid panels does not depend on the unit of length. Tolerance: rounding.

@@ -93,7 +93,7 @@ fn lines_that_nearly_meet() {
     assert!(Info::new(&close).to_string().contains(said), "{}", Info::new(&close));
     let cured = read(&format!("{square}2 0.1 0 400 400\n")).unwrap();
     assert_eq!((cured.vertices.len(), cured.record.redrawing.gap), (4, None));
-    let [merged, first] = cured.record.redrawing.enlarged.unwrap();
+    let [merged, first] = cured.record.redrawing.merged.unwrap();
     assert!((merged - 0.09).abs() < 1e-12 && (first - 0.04).abs() < 1e-15, "{merged} {first}");
     let apart = format!("{square}2 0 0 200 200.03\n3 199.97 199.97 400 400\n");
     assert_eq!(read(&apart).unwrap().vertices.len(), 5);

@@ -249,6 +249,14 @@ fn listed_values_lie_on_the_way() {
     assert!(said.contains("not passed: \u{2212}0.4 of `at`"), "{said}");
 }
 
+/// Claim: panels that fold without energy have no limit point: all their forces are rounding errors.
+#[test]
+fn sheets_without_energy_have_no_limits() {
+    let ran = Scene::of("thick-miura").converged();
+    let branch = branch(&ran, "folded");
+    assert!(branch.end == "arrived" && branch.events.is_empty(), "{:?}", branch.events);
+}
+
 /// Claim: a tolerance with which no state is an equilibrium is refused, and cells of a finite sheet are said to have no
 /// effect.
 #[test]
