@@ -241,8 +241,8 @@ fn random_drawings_come_to_an_end() {
 }
 
 /// Claim: ten thousand lines that all cross are refused, and those of a careless tessellation, five thousand through one
-/// point, and ten thousand that lie side by side within the usual distance of merging, are read, within 30 s. Source: processor time of a
-/// busy machine, several times as much as a usual one needs; without a bound of the work it takes minutes.
+/// point, and ten thousand that lie side by side within the usual distance of merging, are read, within 30 s. Source:
+/// processor time of a busy machine, several times as much as a usual one needs; unbounded work takes minutes.
 #[test]
 fn ten_thousand_lines_take_seconds() {
     let random = &mut Numbers::new(3);
