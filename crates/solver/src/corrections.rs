@@ -28,6 +28,9 @@ impl Patience {
 }
 
 const MOST_CORRECTIONS: usize = 30;
+/// Change of the residual by a correction after a slow one, relative to the residual that it answers, that is rounding
+/// error, as that of a self stress of rigid measures, which no tension takes away.
+const LEAST_CHANGE: f64 = 1e-6;
 
 /// A vector of a system with two block rows: unknowns and tensions, or forces and stretches.
 #[derive(Clone, Debug)]
@@ -39,6 +42,10 @@ pub trait NearlySolved {
     fn product(&self, found: &Pair) -> Pair;
     /// An approximate solution for this right-hand side.
     fn solve(&mut self, right: &Pair) -> Pair;
+    /// Number of corrections in a row that make little progress, after which there is no further one.
+    fn most_slow(&self) -> usize {
+        1
+    }
 }
 
 /// The result of corrections.
@@ -63,13 +70,12 @@ pub fn correct(
 ) -> RefinedSolution {
     let per_unit = units.map(reciprocal);
     let mut left = right.minus(&system.product(&found)).scaled(per_unit);
-    let (mut before, mut last): (Vec<Correction>, f64) = (vec![], f64::INFINITY);
+    let (mut before, mut last, mut slow): (Vec<Correction>, f64, usize) = (vec![], f64::INFINITY, 0);
     loop {
         let residual = larger(norm_blocked(&left.0), norm_blocked(&left.1));
-        if residual <= tolerance
-            || !(residual < patience.slowest_contraction() * last)
-            || before.len() == MOST_CORRECTIONS
-        {
+        slow = if residual < patience.slowest_contraction() * last { 0 } else { slow + 1 };
+        let enough = residual <= tolerance || residual.is_nan();
+        if enough || slow == system.most_slow() || before.len() == MOST_CORRECTIONS {
             return RefinedSolution { found, residual, corrections: before.len() };
         }
         last = residual;
@@ -79,6 +85,9 @@ pub fn correct(
             let part = earlier.projection(&change);
             change.add(-part, &earlier.change);
             motion.add(-part, &earlier.motion);
+        }
+        if slow > 0 && change.dot(&change).sqrt() <= LEAST_CHANGE * residual {
+            return RefinedSolution { found, residual, corrections: before.len() };
         }
         let correction = Correction { per_square: reciprocal(change.dot(&change)), motion, change };
         let part = correction.projection(&left);

@@ -167,6 +167,14 @@ impl KktSystem {
         self.weights.iter().zip(&self.compliance).all(|(weight, c)| *weight >= 1.0 / c)
     }
 
+    /// Number of slow corrections after which there is no further one. Where measures of finite stiffness have less
+    /// than that as weight, the first one leaves most of their self stresses, which only the next one sees apart from
+    /// the rest.
+    pub(super) fn most_slow(&self) -> usize {
+        let mut measures = self.weights.iter().zip(&self.compliance);
+        1 + usize::from(measures.any(|(weight, c)| *c > 0.0 && *weight < 1.0 / c))
+    }
+
     /// Factors the values, which contain `part` times the soft elements' Gauss-Newton Hessian.
     fn factor_filled(&mut self, at: &Linearization, part: f64) -> Result<Inertia, FactorError> {
         self.factorizations += 1;
@@ -315,5 +323,9 @@ impl NearlySolved for Equations<'_> {
     fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
         let (dx, dt) = self.system.apply(a, &multiplied(b, &self.at.sizes));
         Pair(dx, multiplied(&dt, &self.at.sizes))
+    }
+
+    fn most_slow(&self) -> usize {
+        self.system.most_slow()
     }
 }

@@ -14,6 +14,11 @@ pub trait Problem {
     fn compliance(&self) -> &[f64];
     /// Natural size of each stiff measure's gap: a length for lengths, 1 for angles.
     fn gap_scale(&self) -> &[f64];
+    /// Compliances of the stiff measures in proportion to each other, as if all were made of one material. Tensions
+    /// that self stresses of rigid measures leave free are those of measures that are very stiff in this proportion.
+    fn proportions(&self) -> Vec<f64> {
+        vec![1.0; self.compliance().len()]
+    }
     /// Natural size of the unknowns, which are lengths.
     fn unit_of_length(&self) -> f64 {
         1.0

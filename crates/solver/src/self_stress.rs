@@ -17,7 +17,7 @@ const LEAST_SELF_STRESS: f64 = 1e-6;
 
 /// Number of self stresses at a linearization; `None` where no measure is rigid, or where they cannot be counted.
 pub(crate) fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usize> {
-    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
+    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at, &at.sizes));
     if rigid.numbers.is_empty() {
         return None;
     }
@@ -25,14 +25,15 @@ pub(crate) fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Opti
     Some(rigid.numbers.len() - rank)
 }
 
-/// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness
-/// follow from their stretch.
+/// Tensions that make the same forces, of which those of rigid measures store the least energy if they are very stiff,
+/// in the proportion of [`Problem::proportions`]: those of finite stiffness follow from their stretch.
 pub(crate) fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
-    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
-    let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * at.sizes[row]).collect();
+    let units: Vec<f64> = problem.proportions().into_iter().map(f64::sqrt).collect();
+    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at, &units));
+    let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * units[row]).collect();
     let least = rank::without_null(&rigid.rows(), layout.unknowns, &layout.node, &forces).ok()?;
     let mut tension = tension.to_vec();
-    rigid.numbers.into_iter().zip(least).for_each(|(row, force)| tension[row] = force / at.sizes[row]);
+    rigid.numbers.into_iter().zip(least).for_each(|(row, force)| tension[row] = force / units[row]);
     Some(tension)
 }
 
@@ -53,7 +54,7 @@ pub fn self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64])
     is_one.then(|| stress.into_iter().map(|stress| scale * stress).collect())
 }
 
-/// The gradients of the rigid measures, each divided by its natural size.
+/// The gradients of the rigid measures, each in a unit of its own.
 struct RigidRows {
     /// Numbers of the rigid measures among the stiff ones.
     pub numbers: Vec<usize>,
@@ -62,14 +63,14 @@ struct RigidRows {
 }
 
 impl RigidRows {
-    /// Collects those of a problem at a linearization.
-    pub fn new<P: Problem>(problem: &P, at: &Linearization) -> Self {
+    /// Collects those of a problem at a linearization, each divided by its unit.
+    pub fn new<P: Problem>(problem: &P, at: &Linearization, units: &[f64]) -> Self {
         let (layout, compliance) = (problem.layout(), problem.compliance());
         let numbers: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
         let (mut cliques, mut values) = (Cliques::new(), vec![]);
         for &row in &numbers {
             cliques.push(layout.stiff.members(row).iter().copied());
-            values.extend(at.stiff_gradient(row).iter().map(|entry| entry / at.sizes[row]));
+            values.extend(at.stiff_gradient(row).iter().map(|entry| entry / units[row]));
         }
         Self { numbers, cliques, values }
     }

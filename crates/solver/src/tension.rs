@@ -20,7 +20,7 @@ const MULTIPLES: [f64; 8] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
 /// A converged state's tensions.
 #[derive(Clone, Debug)]
 pub struct BalancedTensions {
-    /// Tensions, of least norm where rigid measures leave a self stress free.
+    /// Tensions, of least energy where rigid measures leave a self stress free.
     pub tension: Vec<f64>,
     /// Number of self stresses of the rigid measures; `None` where no measure is rigid or they could not be counted.
     pub self_stresses: Option<usize>,
@@ -61,7 +61,7 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> BalancedTensions 
     if unbalanced(&least, &at) <= allowed { least } else { before }
 }
 
-/// Negative eigenvalues of an equilibrium with these tensions of least norm; `None` if their number cannot be
+/// Negative eigenvalues of an equilibrium with these tensions of least energy; `None` if their number cannot be
 /// established. Where rigid measures have self stresses, the Hessian is not the same for all of them. If any gives no
 /// negative eigenvalue, the state is a minimum; another number is known only if no self stress of a few sizes changes it.
 pub fn negative_eigenvalues<P: Problem>(problem: &P, x: &[f64], least: &[f64]) -> Option<usize> {
@@ -69,10 +69,13 @@ pub fn negative_eigenvalues<P: Problem>(problem: &P, x: &[f64], least: &[f64]) -
         let mut tangent = Tangent::at_state(problem, x, tension, HessianKind::Full).ok()?;
         tangent.negative_eigenvalues().ok()?
     };
+    let counted = count(least)?;
+    if counted == 0 || !problem.compliance().contains(&0.0) {
+        return Some(counted);
+    }
     let mut at = Linearization::new(problem.layout());
     problem.linearize(x, least, HessianKind::GaussNewton, &mut at);
-    let counted = count(least)?;
-    let Some(stress) = self_stress(problem, &at, least).filter(|_| counted > 0) else { return Some(counted) };
+    let Some(stress) = self_stress(problem, &at, least) else { return Some(counted) };
     let mut multiples = MULTIPLES.iter().flat_map(|multiple| [*multiple, -multiple]);
     multiples.all(|multiple| count(&moved(least, multiple, &stress)) == Some(counted)).then_some(counted)
 }

@@ -111,7 +111,7 @@ impl PathPoint {
 
 /// Makes the point of a state, but for what depends on those before.
 pub(super) fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoint {
-    let MarkedState { state, mark, .. } = marked;
+    let MarkedState { state, mark, negative_eigenvalues, .. } = marked;
     let PathState { x, tension, parameter, conjugate: [conjugate, _], .. } = state;
     PathPoint {
         arc_length: f64::NAN,
@@ -126,7 +126,7 @@ pub(super) fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize)
         memory: driven.model.memory_after(x),
         residual_force: state.residual_force,
         residual_length: state.residual_length,
-        negative_eigenvalues: state.negative_eigenvalues,
+        negative_eigenvalues: *negative_eigenvalues,
         iterations: state.iterations,
         event: mark.and_then(|mark| event(driven, mark)),
         branch_point: mark.and_then(branch_point),

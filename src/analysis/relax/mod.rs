@@ -27,7 +27,7 @@ use thiserror::Error;
 pub struct Relaxed {
     /// The state with the energy and force of every edge.
     pub state: State,
-    /// The same state as a start of other analyses. Its tensions are of least norm where they are not unique.
+    /// The same state as a start of other analyses. Its tensions are the limit of stiff ones where they are not unique.
     pub configuration: Configuration,
     /// Accepted Newton steps, those of the continuation included.
     pub iterations: usize,
@@ -215,8 +215,8 @@ fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
     (relaxed, model, found.x)
 }
 
-/// The equilibrium with its tensions of least norm where self stresses leave a choice, and with its negative eigenvalues
-/// counted by them.
+/// The equilibrium with the limit of stiff tensions where self stresses leave a choice, and with its negative
+/// eigenvalues counted by them.
 fn with_least_tensions(model: &Model, found: Equilibrium, settled: &BalancedTensions) -> Equilibrium {
     if settled.self_stresses.unwrap_or(0) == 0 {
         return found;

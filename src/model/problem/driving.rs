@@ -364,6 +364,10 @@ impl Problem for DrivenModel {
         self.model.gap_scale()
     }
 
+    fn proportions(&self) -> Vec<f64> {
+        self.model.proportions()
+    }
+
     fn unit_of_length(&self) -> f64 {
         self.model.unit_of_length()
     }

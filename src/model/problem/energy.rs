@@ -1,6 +1,6 @@
 //! The model as the problem that the solver minimises: energies, gaps and their derivatives, summed over the terms.
 
-use super::{Model, POSE};
+use super::{Equations, Model, POSE};
 use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, TermKind, continued};
 use crate::numerics::parallel;
@@ -16,6 +16,9 @@ const LEAST_ANGLE: f64 = 1e-3;
 const LARGEST_CHANGE_RAD: f64 = 0.3;
 /// Mean edges over the shortest height of a triangle whose forces count in full where residuals are made relative.
 const SHORTEST_ARMS: f64 = 1e4;
+/// Compliance of supports in proportion to that of a bar of the mean edge: next to none, since they are rigid where
+/// bars are only stiff.
+const SUPPORT: f64 = 1e-6;
 /// Least stiffness of an element in the metric, over that at rest.
 const LEAST_METRIC: f64 = 1e-9;
 /// Gap of a stiff measure, relative to its natural size, below which its force counts as that of this gap where no soft
@@ -42,6 +45,21 @@ impl Problem for Model {
 
     fn gap_scale(&self) -> &[f64] {
         &self.gap_scale
+    }
+
+    fn proportions(&self) -> Vec<f64> {
+        let Equations { domain, drawn, mean_edge, .. } = &*self.equations;
+        let of_hinge = |sites: &[Site]| {
+            let [a, b] = domain.points(drawn, &[sites[0], sites[1]]);
+            (b - a).norm().recip()
+        };
+        let of_terms = self.stiff().map(|element| match element.spring.rest {
+            _ if element.is_angle() => of_hinge(element.sites()),
+            length if length > 0.0 => length,
+            _ => *mean_edge,
+        });
+        let of_support = |angle: bool| SUPPORT * if angle { mean_edge.recip() } else { *mean_edge };
+        of_terms.chain(self.supports.iter().map(|support| of_support(support.is_angle))).collect()
     }
 
     fn unit_of_length(&self) -> f64 {

@@ -3,14 +3,15 @@
 
 use crate::common::{Numbers, Testing, eigenvalues, jacobian, linearized, mesh, on};
 use foldwell::RIGID;
+use foldwell::analysis::path::{PathEnd, PathEvent, PathOptions, follow_path};
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Rest, Terms};
+use foldwell::model::{Assembly, Boundary, Drive, Driven, Gauge, Hinges, Model, Rest, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Hypar;
 use foldwell::sheet::{self, Corner, Sheet, fold};
-use foldwell::solver::{Failure, Options, Problem};
+use foldwell::solver::{Equilibrium, Failure, Options, Problem, minimize};
 use foldwell::{Pattern, generate, relax};
 use std::f64::consts::PI;
 
@@ -47,11 +48,9 @@ fn pressed(rectangles: usize, stiffness: [f64; 2], load: f64) -> (Assembly, Term
 
 /// Negative eigenvalues on the null space of the rigid rows, by a singular value decomposition of nalgebra; `None`
 /// where a singular value is neither rounding error nor clearly above it.
-fn projected(case: &Assembly, terms: &Terms, found: &Relaxed) -> Option<usize> {
-    let mut model = case.model_of(terms, Gauge::Held);
-    let x = model.start_from(found.state.coordinates.clone());
-    let at = linearized(&model, &x, found.configuration.tensions());
-    let (rows, mut whole) = (jacobian(&model, &at), at.pattern().to_dense(&at.hessian));
+fn projected(model: &Model, found: &Equilibrium) -> Option<usize> {
+    let at = linearized(model, &found.x, &found.tension);
+    let (rows, mut whole) = (jacobian(model, &at), at.pattern().to_dense(&at.hessian));
     let unknowns = rows.ncols();
     let is_rigid = |row: &usize| model.compliance()[*row] == 0.0;
     for row in (0..rows.nrows()).filter(|row| !is_rigid(row)) {
@@ -106,8 +105,11 @@ fn negative_eigenvalues_are_those_of_a_projection() {
         for facets in [1e5, 1e7, 1e9, RIGID] {
             let bars = 10f64.powf(3.5 + numbers.within(1.0));
             let load = 4.0 * (1 + cases % 4) as f64 * (PI / rectangles as f64).powi(2) * (1.0 + numbers.within(0.8));
-            let (case, terms, found) = pressed(rectangles, [bars, facets], load);
-            let expected = projected(&case, &terms, &found);
+            let (case, terms) = column(rectangles, [bars, facets], load);
+            let mut model = case.model_of(&terms, Gauge::Held);
+            let start = model.start();
+            let found = minimize(&mut model, start, Options::default(), &mut |_| true).unwrap();
+            let expected = projected(&model, &found);
             let counted = found.negative_eigenvalues;
             let what = format!("{rectangles} rectangles, bars {bars:e}, facets {facets:e}, load {load}: {expected:?}");
             // between rounding errors and errors of the state nobody can tell whether a gradient depends on the others
@@ -118,7 +120,7 @@ fn negative_eigenvalues_are_those_of_a_projection() {
         }
     }
     println!("{cases} cases, {unstable} unstable");
-    assert!(unstable >= 5 && unstable < cases);
+    assert!(unstable >= 15 && unstable < cases);
 }
 
 /// Relaxes the pleated hyperbolic paraboloid of ten pleats, folded to a fraction by its letters.
@@ -307,10 +309,11 @@ fn plate(load: f64) -> Assembly {
     case.with_terms(Terms { pins, loads: vec![(0, push), (2, -push)], ..Terms::bars_and_creases(RIGID, 1.0, rest) })
 }
 
-/// Claim: where rigid bars are redundant and another self stress would change the count of negative eigenvalues, there is
-/// none, or 0, which proves a minimum, wherever the relaxation begins; without loads, and under small ones, the flat plate
-/// is stable whatever the self stress. Source: at the load 1.8 the least stresses give one negative eigenvalue and others none, while the plate's only
-/// real motions are stable up to 1.979 (quadric of the self stress, by hand).
+/// Claim: where rigid bars are redundant and another self stress would change the count of negative eigenvalues, there
+/// is none, or 0, which proves a minimum, wherever the relaxation begins; without loads, and under small ones, the
+/// flat plate is stable whatever the self stress. Source: at the load 1.8 the least stresses give one negative
+/// eigenvalue and others none, while the plate's only real motions are stable up to 1.979 (quadric of the self stress,
+/// by hand).
 #[test]
 fn a_count_depends_on_no_self_stress() {
     for (load, known) in [(0.0, true), (0.2, true), (1.8, false)] {
@@ -324,5 +327,21 @@ fn a_count_depends_on_no_self_stress() {
             assert!(count == Some(0) || (count.is_none() && !known), "load {load}, seed {seed}: {count:?}");
             assert_eq!(found.self_stresses, Some(1));
         }
+    }
+}
+
+/// Claim: along a path too a count of negative eigenvalues that hangs on a self stress is not known: none is more than 0
+/// below the load 1.979 up to which the plate's real motions are stable, although the least stresses let it go before.
+/// Source: as above.
+#[test]
+fn counts_along_a_path_depend_on_no_self_stress() {
+    let load = Drive { quantity: Driven::Loads, to: 1.9 };
+    let branches = follow_path(&plate(1.0), &load, None, &PathOptions::default(), &mut |_, _| true).unwrap();
+    let branch = &branches[0];
+    assert_eq!(branch.end, PathEnd::Arrived);
+    let let_go = branch.points.iter().find(|point| point.event == Some(PathEvent::BranchPoint)).unwrap().drive;
+    for point in branch.points.iter().filter(|point| point.event.is_none()) {
+        let expected = if point.drive < let_go { Some(0) } else { None };
+        assert_eq!(point.negative_eigenvalues, expected, "{} and {let_go}", point.drive);
     }
 }

@@ -6,7 +6,7 @@
 //! lengths `l` and `l0`, whatever N; by the symmetry of the polygon half branches leave along its 2N half axes of
 //! reflection.
 
-use crate::common::{case_folder, turned};
+use crate::common::{Numbers, case_folder, turned};
 use foldwell::analysis::path::{
     HalfBranches, PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStop, follow_path,
 };
@@ -263,4 +263,47 @@ fn a_stiffness_is_driven_from_a_relaxed_state() {
     assert_eq!(branches[0].end, PathEnd::Arrived);
     let first = branches[0].points[0].state.total();
     assert!((first - relaxed.state.total()).abs() <= 1e-12 * first, "{first} {}", relaxed.state.total());
+}
+
+/// Claim: the loads under which flat plates of redundant bars buckle are the same for every stiffness of the bars, up
+/// to exactly rigid ones. Plates of 3 x 2 quadrilaterals with vertices at random, one side pinned, the other one pushed.
+/// Source: bars of 1e6 to 1e10 have no choice of tensions. Tolerance: 1e-5, first order in the softness and the rounding
+/// of stretches of 1e-10.
+#[test]
+fn plates_buckle_alike_at_every_stiffness() {
+    for seed in 1..4 {
+        let loads = |stiffness: f64| {
+            let load = Drive { quantity: Driven::Loads, to: 2.5 };
+            let branches = followed(&braced_plate(seed, stiffness), &load, &PathOptions::default());
+            assert_eq!(branches[0].end, PathEnd::Arrived, "seed {seed}, {stiffness:e}");
+            branch_points(&branches[0]).iter().map(|point| point.drive).collect::<Vec<_>>()
+        };
+        let rigid = loads(RIGID);
+        assert!(rigid.len() >= 2, "{rigid:?}");
+        for stiffness in [1e6, 1e8, 1e10] {
+            let stiff = loads(stiffness);
+            let same = stiff.len() == rigid.len() && stiff.iter().zip(&rigid).all(|(a, b)| (a / b - 1.0).abs() <= 1e-5);
+            assert!(same, "seed {seed}, {stiffness:e}: {stiff:?}, rigid {rigid:?}");
+        }
+    }
+}
+
+/// A flat plate of 3 x 2 quadrilaterals, each cut along its diagonal, whose inner vertices are moved at random; its left
+/// side is pinned, and its right side, which stays in line with it, is pushed towards it.
+fn braced_plate(seed: u64, bars: f64) -> Assembly {
+    let mut numbers = Numbers::new(seed);
+    let mut vertices = vec![];
+    for j in 0..3 {
+        for i in 0..4 {
+            let mut moved = |inside: bool| if inside { numbers.within(0.2) } else { 0.0 };
+            let inside = j == 1 && (1..3).contains(&i);
+            vertices.push([f64::from(i) + moved(inside), 0.9 * f64::from(j) + moved(inside), 0.0]);
+        }
+    }
+    let corners = (0..8).filter(|k| k % 4 < 3);
+    let faces: Vec<Vec<usize>> = corners.flat_map(|k| [vec![k, k + 1, k + 5], vec![k, k + 5, k + 4]]).collect();
+    let plate = Assembly::patch(sheet(&vertices, &faces), [1, 1]).bars(bars).creases(1.0).rest(Rest::Angle(0.0));
+    let held = [0, 4, 8].map(|k| (k, [true; 3])).into_iter().chain([3, 7, 11].map(|k| (k, [false, true, true])));
+    let plate = held.fold(plate, |plate, (vertex, axes)| plate.pin(vertex, [0, 0], axes));
+    [3, 7, 11].into_iter().fold(plate, |plate, vertex| plate.load(vertex, [0, 0], [-1.0, 0.0, 0.0])).build().unwrap()
 }

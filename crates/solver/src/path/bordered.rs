@@ -19,14 +19,19 @@ use crate::linearization::{HessianKind, Linearization};
 use foldwell_numerics::DenseMatrix;
 use foldwell_numerics::dense::small::solve_square;
 use foldwell_numerics::factor::{FactorError, Inertia};
+use foldwell_numerics::random::symmetric;
 use foldwell_numerics::sparse::symmetric_product;
-use foldwell_numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
+use foldwell_numerics::vector::{add_scaled, dot, max_abs, moved, norm_blocked};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 
 /// Relative residual to which bordered systems are solved, and the one above which a solution is not used.
 const WANTED_RESIDUAL: f64 = 1e-12;
 pub(super) const REFUSED_RESIDUAL: f64 = 1e-3;
 /// Part of the tensions above which what balances no force is a self stress, and not rounding.
 const SELF_STRESS: f64 = 1e-6;
+/// Seed of the random part of tensions with which a self stress is sought.
+const SEED: u64 = 1;
 /// Shift of the Hessian where a pivot of the factorization without shift vanishes.
 const SINGULAR_SHIFT: f64 = 1e-6;
 /// Pivots up to this, relative to the largest one, are rounding errors of zero, as of motions that cost nothing.
@@ -169,14 +174,14 @@ impl Bordered {
         (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
     }
 
-    /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the
-    /// system finds from none, which it combines from motions. `None` where `tension` is these.
-    pub fn relieved(&mut self, tension: &[f64]) -> Option<Vec<f64>> {
-        let none = vec![0.0; tension.len()];
-        let (force, missing) = (self.at.force(&none), self.at.missing(&none, &self.compliance));
-        let found = self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt;
-        let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-        (off(tension, &found) > SELF_STRESS * off(&found, &none)).then_some(found)
+    /// Whether forces balance with other tensions too, so that rigid measures have a self stress: with those that the
+    /// system finds when it begins with a part of these, taken at random.
+    pub fn has_self_stress(&mut self, tension: &[f64]) -> bool {
+        let mut random = ChaCha8Rng::seed_from_u64(SEED);
+        let others: Vec<f64> = tension.iter().map(|tension| tension * symmetric(&mut random)).collect();
+        let (force, missing) = (self.at.force(&others), self.at.missing(&others, &self.compliance));
+        let found = moved(&others, 1.0, &self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt);
+        norm_blocked(&moved(&found, -1.0, tension)) > SELF_STRESS * norm_blocked(tension)
     }
 
     /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates
@@ -302,5 +307,9 @@ impl NearlySolved for Equations<'_> {
         dt.iter_mut().zip(&sizes).for_each(|(t, size)| *t *= size);
         dx.extend(more.iter());
         Pair(dx, dt)
+    }
+
+    fn most_slow(&self) -> usize {
+        self.bordered.system.most_slow()
     }
 }

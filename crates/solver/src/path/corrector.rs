@@ -3,6 +3,7 @@
 use super::bordered::{Bordered, Plane, REFUSED_RESIDUAL};
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::problem::Residuals;
+use crate::self_stress::without_self_stress;
 use foldwell_numerics::factor::FactorError;
 use foldwell_numerics::vector::{add_scaled, larger, max_abs, norm_blocked};
 
@@ -19,6 +20,10 @@ const MOST_POLISHED: usize = 2;
 const NEXT_TO_NOTHING: f64 = 1e-9;
 /// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
 const MOST_ROUNDING: f64 = 1e-8;
+
+/// Error of the stretch of stiff measures, relative to the largest one by a tension, above which tensions are not
+/// known.
+const STRETCH_ERROR: f64 = 1e-6;
 
 /// A state near the path.
 #[derive(Clone, Debug)]
@@ -64,8 +69,9 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let rounding = larger(MOST_ROUNDING, bordered.rounding_force(max_abs(&at.x)));
         let rounded = residuals.length <= tolerance && size <= rounding;
         if size <= tolerance || (polished == MOST_POLISHED && rounded) {
-            let broken_down = problem.breakdown(&at.x).is_some() || !problem.energy(&at.x).is_finite();
-            return Ok((!broken_down).then_some(Corrected { at, residuals, off, iterations }));
+            let found = precise(problem, bordered, Corrected { at, residuals, off, iterations }, plane)?;
+            let broken_down = problem.breakdown(&found.at.x).is_some() || !problem.energy(&found.at.x).is_finite();
+            return Ok((!broken_down).then_some(found));
         }
         if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
             break;
@@ -93,6 +99,26 @@ pub(super) fn correct<P: ParametrizedProblem>(
     Ok(None)
 }
 
+/// Returns a state whose gaps are within the tolerance, but not those that very stiff measures have by their tensions,
+/// after one step more: a self stress of theirs would be that of the guess.
+fn precise<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    found: Corrected,
+    plane: &Plane,
+) -> Result<Corrected, FactorError> {
+    let missing = bordered.at.missing(&found.at.tension, problem.compliance());
+    let stretched =
+        problem.compliance().iter().zip(&found.at.tension).fold(0.0, |most, (c, t)| f64::max(most, c * t.abs()));
+    if max_abs(&missing) <= STRETCH_ERROR * stretched || stretched == 0.0 {
+        return Ok(found);
+    }
+    bordered.factor()?;
+    let force = bordered.at.force(&found.at.tension);
+    let (step, residual) = bordered.solve(&force, &missing, 0.0, plane);
+    Ok(if residual <= REFUSED_RESIDUAL { bettered(problem, bordered, found, &step) } else { found })
+}
+
 /// Returns the state that a step leads to if its residuals are smaller, otherwise the state as it is.
 fn bettered<P: ParametrizedProblem>(
     problem: &mut P,
@@ -113,14 +139,15 @@ fn bettered<P: ParametrizedProblem>(
     kept
 }
 
-/// Takes the self stress of rigid measures out of a state's tensions: predictions would let it grow from state to
-/// state.
+/// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
 fn relieved<P: ParametrizedProblem>(
     problem: &P,
     bordered: &mut Bordered,
     found: Corrected,
 ) -> Result<Corrected, FactorError> {
-    let Some(tension) = bordered.relieved(&found.at.tension) else { return Ok(found) };
+    let rigid = problem.compliance().contains(&0.0) && bordered.has_self_stress(&found.at.tension);
+    let least = if rigid { without_self_stress(problem, &bordered.at, &found.at.tension) } else { None };
+    let Some(tension) = least else { return Ok(found) };
     bordered.linearize(problem, &found.at.x, &tension);
     let residuals = Residuals::new(problem, &bordered.at, &tension);
     if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {

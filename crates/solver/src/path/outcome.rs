@@ -116,6 +116,9 @@ pub struct MarkedState {
     pub state: PathState,
     /// The kind of special state; `None` for an ordinary one.
     pub mark: Option<PathMark>,
+    /// Negative eigenvalues of the Hessian at fixed parameter; `None` where their number cannot be established, or
+    /// where another self stress of rigid measures changes it.
+    pub negative_eigenvalues: Option<usize>,
     /// Integral of the conjugate quantity over the parameter, from the first state of the path.
     pub work: f64,
     /// Reference values of the problem after this state was accepted; see [`super::ParametrizedProblem::reference`].

@@ -83,7 +83,8 @@ pub struct PathState {
     pub residual_force: f64,
     /// Scaled residual length.
     pub residual_length: f64,
-    /// Negative eigenvalues of the Hessian at fixed parameter; `None` where their number cannot be established.
+    /// Negative eigenvalues of the Hessian at fixed parameter with these tensions; `None` where their number cannot be
+    /// established.
     pub negative_eigenvalues: Option<usize>,
     /// Work of the rates by the parameter along the tangent. Its sign tells which way an eigenvalue goes where the
     /// parameter turns.

@@ -8,6 +8,7 @@ use super::follower::Follower;
 use super::outcome::{Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings};
 use super::problem::{ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
+use crate::tension;
 use std::collections::BTreeMap;
 
 /// A path on its way, with all its branches.
@@ -290,7 +291,11 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     pub fn marked(&mut self, state: PathState, mark: Option<PathMark>, work: f64) -> MarkedState {
         self.follower.problem.set_parameter(state.parameter);
         let reference = self.follower.problem.reference(&state.x);
-        MarkedState { state, mark, work, reference }
+        let negative_eigenvalues = match state.negative_eigenvalues {
+            None | Some(0) => state.negative_eigenvalues,
+            Some(_) => tension::negative_eigenvalues(self.follower.problem, &state.x, &state.tension),
+        };
+        MarkedState { state, mark, negative_eigenvalues, work, reference }
     }
 
     /// Takes a state into account in the largest values of the path.

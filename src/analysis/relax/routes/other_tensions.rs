@@ -37,7 +37,7 @@ fn refined(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     run.prefer(Ok(found), refine, |refined, _| refined.as_ref().map_or_else(is_interruption, |_| true))
 }
 
-/// The equilibrium with tensions of least norm. Where a self stress was large beside them, what was balanced to the
+/// The equilibrium without self stress. Where a self stress was large beside them, what was balanced to the
 /// tolerance with it need not be so without: the iteration then goes on from there.
 fn without_self_stress(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     let settled = tension::settle(&run.model, &found);
