@@ -30,6 +30,8 @@ const WANTED_RESIDUAL: f64 = 1e-12;
 pub(super) const REFUSED_RESIDUAL: f64 = 1e-3;
 /// Part of the tensions above which what balances no force is a self stress, and not rounding.
 const SELF_STRESS: f64 = 1e-6;
+/// Part of the largest force up to which tensions are rounding errors.
+const NO_FORCE: f64 = 1e-14;
 /// Seed of the random part of tensions with which a self stress is sought.
 const SEED: u64 = 1;
 /// Shift of the Hessian where a pivot of the factorization without shift vanishes.
@@ -113,6 +115,8 @@ impl Bordered {
     pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
         match self.inertia {
             Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(Some(inertia.negative)),
+            // nothing stores energy
+            _ if max_abs(&self.at.hessian) == 0.0 => Ok(Some(0)),
             _ => {
                 let counted = inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)?;
                 self.factor()?;
@@ -182,6 +186,12 @@ impl Bordered {
         let (force, missing) = (self.at.force(&others), self.at.missing(&others, &self.compliance));
         let found = moved(&others, 1.0, &self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt);
         norm_blocked(&moved(&found, -1.0, tension)) > SELF_STRESS * norm_blocked(tension)
+    }
+
+    /// Whether all tensions are rounding errors beside the largest force, as where nothing pulls.
+    pub fn is_unstressed(&self, tension: &[f64]) -> bool {
+        let forces: Vec<f64> = tension.iter().zip(&self.at.sizes).map(|(t, size)| t * size).collect();
+        self.pull(&forces) <= NO_FORCE * self.at.largest_force
     }
 
     /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates

@@ -145,8 +145,16 @@ fn relieved<P: ParametrizedProblem>(
     bordered: &mut Bordered,
     found: Corrected,
 ) -> Result<Corrected, FactorError> {
-    let rigid = problem.compliance().contains(&0.0) && bordered.has_self_stress(&found.at.tension);
-    let least = if rigid { without_self_stress(problem, &bordered.at, &found.at.tension) } else { None };
+    let tension = &found.at.tension;
+    let least = if !problem.compliance().contains(&0.0) {
+        None
+    } else if bordered.is_unstressed(tension) {
+        Some(vec![0.0; tension.len()]).filter(|none| none != tension)
+    } else if bordered.has_self_stress(tension) {
+        without_self_stress(problem, &bordered.at, tension)
+    } else {
+        None
+    };
     let Some(tension) = least else { return Ok(found) };
     bordered.linearize(problem, &found.at.x, &tension);
     let residuals = Residuals::new(problem, &bordered.at, &tension);

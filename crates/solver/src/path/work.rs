@@ -11,8 +11,9 @@ const TOLERANCE: f64 = 1e-12;
 const MOST_HALVINGS: usize = 8;
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// The work from one state to the next: from these alone where the problem knows it, else by cubic interpolation between them and as many states of the path in
-    /// between as that takes. `scale` is the size of the whole path's work.
+    /// The work from one state to the next: from these alone where the problem knows it, else by cubic interpolation
+    /// between them and as many states of the path in between as that takes, but for errors of the rates. `scale` is the
+    /// size of the whole path's work.
     pub(super) fn work(&mut self, from: &PathState, to: &PathState, scale: f64) -> Result<f64, PathError> {
         if !self.problem.has_kinks() {
             return self.divided(from, to, scale, MOST_HALVINGS);
@@ -31,8 +32,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         }
         let Some(middle) = self.between(from, to, 0.5)? else { return Ok(whole) };
         let halves = Cubic::new(from, &middle).work() + Cubic::new(&middle, to).work();
+        let noise = to.rate_errors[1] * (to.arc_length - from.arc_length) * (to.parameter - from.parameter).abs();
         // the error of a cubic falls with the fourth power of the length and more
-        if (halves - whole).abs() <= 15.0 * TOLERANCE * scale.max(halves.abs()) {
+        if (halves - whole).abs() <= noise.max(15.0 * TOLERANCE * scale.max(halves.abs())) {
             return Ok(halves + (halves - whole) / 15.0);
         }
         Ok(self.divided(from, &middle, scale, left - 1)? + self.divided(&middle, to, scale, left - 1)?)
