@@ -3,11 +3,25 @@
 use super::Model;
 use crate::math::fold_angle::FLAT_RAD;
 use crate::model::element::TermKind;
+use crate::model::law::Spring;
 
 impl Model {
     /// Whether some of the bars are rigid.
     pub(crate) fn has_rigid_bars(&self) -> bool {
         self.rigid_bars().next().is_some()
+    }
+
+    /// Whether some of the bars have a larger stiffness `EA` than this one, a force.
+    pub(crate) fn has_bars_above(&self, stiffness: f64) -> bool {
+        self.stiff_of(TermKind::Bars).any(|(_, bar)| bar.spring.stiffness * bar.spring.rest > stiffness)
+    }
+
+    /// Gives all bars at most this stiffness `EA`, a force; infinity gives them their own again.
+    pub(crate) fn limit_bars(&mut self, stiffness: f64) {
+        let springs: Vec<_> = self.stiff_of(TermKind::Bars).map(|(measure, bar)| (measure, bar.spring)).collect();
+        for (measure, Spring { stiffness: own, rest }) in springs {
+            self.compliance[measure] = own.recip().max(rest / stiffness);
+        }
     }
 
     /// Gives the rigid bars this stiffness `EA`, a force; infinity makes them rigid again.

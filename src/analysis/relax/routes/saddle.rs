@@ -1,7 +1,7 @@
 //! An equilibrium that is no minimum is left along a motion on which its energy falls, both ways, to the lower side.
 //!
-//! In a flat sheet of rigid bars a motion that meets the bars to first order may meet them on no way to second: from
-//! there the sheet is followed with bars that stretch.
+//! In a flat sheet of rigid or very stiff bars a motion that meets the bars to first order may meet them on no way to
+//! second: from there the sheet is followed with bars that stretch.
 
 use super::soft_bars;
 use crate::analysis::relax::run::{Ending, Run, is_better};
@@ -12,11 +12,13 @@ use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 /// Length of the step that leaves a saddle: the largest change of a soft measure (an angle, in radians), and the largest
 /// change of an unknown in units of length.
 const LEAVING_STEP: f64 = 0.1;
-/// The ways out of a saddle, tried one after the other until one leads lower: lengths of the step, and whether rigid bars
-/// stretch after it. A long step may pass over the well beside a saddle.
+/// The ways out of a saddle, tried one after the other until one leads lower: lengths of the step, and whether rigid and
+/// very stiff bars stretch after it. A long step may pass over the well beside a saddle.
 const WAYS: [(f64, bool); 3] = [(LEAVING_STEP, false), (0.1 * LEAVING_STEP, false), (LEAVING_STEP, true)];
 /// Largest number of saddles that are left one after the other.
 const MOST_SADDLES: usize = 20;
+/// Stiffness of bars over that of the softest hinge above which they are very stiff.
+const VERY_STIFF: f64 = 1e9;
 
 /// Whether the equilibrium has negative eigenvalues, or may have some. A start that knows its tensions asks for the
 /// equilibrium next to it, whatever its stability.
@@ -57,7 +59,8 @@ fn lower_side(run: &mut Run<'_>, saddle: Equilibrium, ways: &[(f64, bool)]) -> E
     let Some(motion) = falling_motion(&run.model, &saddle) else { return Ok(saddle) };
     let (place, x, tension, energy) = (run.model.clone(), saddle.x.clone(), saddle.tension.clone(), saddle.energy);
     let mut found = Ok(saddle);
-    for &(length, soft) in ways.iter().filter(|(_, soft)| !soft || place.has_rigid_bars()) {
+    let very_stiff = place.has_bars_above(VERY_STIFF * place.softest_hinge());
+    for &(length, soft) in ways.iter().filter(|(_, soft)| !soft || very_stiff) {
         for step in [length, -length] {
             let beside = |run: &mut Run<'_>| {
                 run.model.clone_from(&place);

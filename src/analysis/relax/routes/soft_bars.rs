@@ -130,7 +130,7 @@ pub(super) fn from_the_start(run: &mut Run<'_>, ratios: &[f64]) -> Ending {
     from(run, &start, ratios)
 }
 
-/// Relaxes from these unknowns with bars that stretch, then with rigid ones.
+/// Relaxes from these unknowns with bars that stretch, then with those of the sheet, which are rigid or very stiff.
 pub(super) fn from(run: &mut Run<'_>, x: &[f64], ratios: &[f64]) -> Ending {
     let mut coordinates = run.model.coordinates(x);
     let loose = Options { tolerance: INTERMEDIATE_TOLERANCE, ..run.options };
@@ -175,10 +175,10 @@ fn with_soft_bars(
     options: Options,
 ) -> Ending {
     let first = if run.soft_steps.is_empty() { run.recorder.steps() } else { run.soft_steps.start };
-    run.model.soften_rigid_bars(ratio * run.model.softest_hinge());
+    run.model.limit_bars(ratio * run.model.softest_hinge());
     let x = run.model.start_from(coordinates.to_vec());
     let reached = run.recorder.minimize(&mut run.model, Start { x, tension: tension.cloned() }, options);
-    run.model.soften_rigid_bars(f64::INFINITY);
+    run.model.limit_bars(f64::INFINITY);
     run.soft_steps = first..run.recorder.steps();
     reached
 }
