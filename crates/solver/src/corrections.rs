@@ -29,7 +29,7 @@ impl Patience {
 
 const MOST_CORRECTIONS: usize = 30;
 /// Change of the residual by a correction after a slow one, relative to the residual that it answers, that is rounding
-/// error, as that of a self stress of rigid measures, which no tension takes away.
+/// error, as that of a self stress of rigid measures, which no tension takes away: that of measures of 1e12 is some 1e-6.
 const LEAST_CHANGE: f64 = 1e-6;
 
 /// A vector of a system with two block rows: unknowns and tensions, or forces and stretches.

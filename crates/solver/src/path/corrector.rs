@@ -20,7 +20,6 @@ const MOST_POLISHED: usize = 2;
 const NEXT_TO_NOTHING: f64 = 1e-9;
 /// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
 const MOST_ROUNDING: f64 = 1e-8;
-
 /// Error of the stretch of stiff measures, relative to the largest one by a tension, above which tensions are not
 /// known.
 const STRETCH_ERROR: f64 = 1e-6;

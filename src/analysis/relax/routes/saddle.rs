@@ -17,7 +17,8 @@ const LEAVING_STEP: f64 = 0.1;
 const WAYS: [(f64, bool); 3] = [(LEAVING_STEP, false), (0.1 * LEAVING_STEP, false), (LEAVING_STEP, true)];
 /// Largest number of saddles that are left one after the other.
 const MOST_SADDLES: usize = 20;
-/// Stiffness of bars over that of the softest hinge above which they are very stiff.
+/// Stiffness of bars over that of the softest hinge above which they are very stiff: of 40 random plates in compression
+/// none stayed at a saddle with bars of 1e8, and 11 with bars of 1e10.
 const VERY_STIFF: f64 = 1e9;
 
 /// Whether the equilibrium has negative eigenvalues, or may have some. A start that knows its tensions asks for the
