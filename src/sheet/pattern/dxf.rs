@@ -79,7 +79,7 @@ struct Entity<'t> {
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
     let entities = entities(text)?;
-    let mut colours: HashMap<String, &str> = HashMap::new();
+    let mut layers: HashMap<String, &Entity> = HashMap::new();
     let mut hidden: HashSet<String> = HashSet::new();
     let mut outlines: Vec<Outline> = Vec::new();
     let mut grey = 0;
@@ -91,11 +91,10 @@ pub(super) fn lines(text: &str) -> Lines {
             ("ENDSEC", _) => section = "",
             ("LAYER", "TABLES") => {
                 let name = entity.first(2).unwrap_or_default().to_lowercase();
-                let colour = entity.first(COLOUR).unwrap_or_default();
-                if entity.has_flag(FROZEN) || colour.starts_with('-') {
+                if entity.has_flag(FROZEN) || entity.first(COLOUR).is_some_and(|colour| colour.starts_with('-')) {
                     hidden.insert(name.clone());
                 }
-                colours.extend(entity.first(COLOUR).map(|colour| (name, colour)));
+                layers.insert(name, entity);
             }
             ("VERTEX", "ENTITIES") if entity.has_flag(OF_FRAME) => {}
             ("VERTEX", "ENTITIES") => {
@@ -105,7 +104,7 @@ pub(super) fn lines(text: &str) -> Lines {
             ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(Polyline::outline)),
             (_, "ENTITIES") if entity.is_hidden(&hidden) => {}
             (name, "ENTITIES") if !IGNORED.contains(&name) => {
-                let (line, named) = entity.meaning(&colours).map_err(located)?;
+                let (line, named) = entity.meaning(&layers).map_err(located)?;
                 grey += usize::from(line.auxiliary && !named);
                 let placed = entity.placed().map_err(located)?;
                 if name == "POLYLINE" {
@@ -272,15 +271,16 @@ impl<'t> Entity<'t> {
         }
     }
 
-    /// Returns the line that this entity draws, without its ends, and whether the name of its layer says its letter;
-    /// `colours` are those of the layers.
-    fn meaning(&self, colours: &HashMap<String, &str>) -> Result<(Line, bool), PatternFault> {
+    /// Returns the line that this entity draws, without its ends, and whether the name of its layer says its letter.
+    fn meaning(&self, layers: &HashMap<String, &Entity>) -> Result<(Line, bool), PatternFault> {
         let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
         let known = LAYERS.iter().find(|(part, _)| layer.contains(part)).map(|(_, letter)| *letter);
         let letter = match known {
             Some(letter) => letter,
             None => {
-                let rgb = self.colour(colours.get(&layer).copied())?;
+                // what has no colour of its own has that of its layer, and white, which is drawn on black, is black
+                let of_layer = layers.get(&layer).map_or(Ok(None), |layer| layer.colour())?;
+                let rgb = self.colour()?.or(of_layer).filter(|rgb| *rgb != [255; 3]).unwrap_or_default();
                 let name = || format!("{} of layer {layer}", self.first(COLOUR).unwrap_or("256"));
                 match colour::letter(rgb) {
                     None if !colour::is_grey(rgb) => return Err(value(&name(), "colour of a line", colour::RIGHT)),
@@ -295,22 +295,21 @@ impl<'t> Entity<'t> {
         Ok((Line { ends, letter, angle, auxiliary, contour, at: self.at, flipped: false }, known.is_some()))
     }
 
-    /// Returns the colour of the entity; without one of its own it has that of its layer.
-    fn colour(&self, of_layer: Option<&str>) -> Result<[u8; 3], PatternFault> {
+    /// Returns the colour that this entity, or layer, says.
+    fn colour(&self) -> Result<Option<[u8; 3]>, PatternFault> {
         if let Some(text) = self.first(TRUE_COLOUR) {
             let [_, red, green, blue] = (number(text)? as u32).to_be_bytes();
-            return Ok([red, green, blue]);
+            return Ok(Some([red, green, blue]));
         }
-        let own = self.first(COLOUR).filter(|own| *own != "256").or(of_layer).unwrap_or("7");
-        let index = number(own)?.abs();
-        Ok(rgb(if index < 256.0 { index as u8 } else { 7 }))
+        let index = self.first(COLOUR).filter(|index| *index != "256").map(number).transpose()?;
+        Ok(index.map(|index| rgb(if index.abs() < 256.0 { index.abs() as u8 } else { 7 })))
     }
 }
 
-/// Returns the colour of a number of AutoCAD's index of colours; white, which is drawn on black, is black.
+/// Returns the colour of a number of AutoCAD's index of colours.
 fn rgb(index: u8) -> [u8; 3] {
     match index {
-        0 | 7 | 255 => [0; 3],
+        0 | 7 | 255 => [255; 3],
         1 => [255, 0, 0],
         2 => [255, 255, 0],
         3 => [0, 255, 0],

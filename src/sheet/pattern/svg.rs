@@ -36,7 +36,7 @@ pub(super) fn lines(text: &str) -> Lines {
     }
     let title = root.children().find(|node| node.tag_name().name() == "title").and_then(|node| node.text());
     let mut drawing =
-        Drawing { document: &document, rules: Rules::new(&document), elements: 0, grey: 0, outlines: vec![] };
+        Drawing { document: &document, rules: Rules::new(&document)?, elements: 0, grey: 0, outlines: vec![] };
     drawing.read(root, &Around::default(), 0)?;
     let mut drawn = DrawnLines { title: title.unwrap_or_default().trim().to_owned(), ..DrawnLines::default() };
     drawn.redrawing.grey = drawing.grey;

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
-use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, StyleSheet};
+use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, Selector, StyleSheet};
 use svgtypes::{Color, Paint};
 
 use super::cp::value;
+use super::line::Misread;
+use super::xml;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// The properties that are used here.
@@ -39,18 +41,37 @@ impl Default for Style {
 /// The rules of all style sheets of a document.
 pub(super) struct Rules<'a>(StyleSheet<'a>);
 
+/// Returns the fault of the first rule for a property that is used here whose selector is none of those that are read,
+/// or that is inside another one, as those of `@media`; without it, which the parser leaves out, lines would have other
+/// letters.
+fn unread(text: &str) -> Option<PatternFault> {
+    let mut inside = 0;
+    let bare: String = text.split("/*").map(|part| part.split_once("*/").map_or(part, |(_, rest)| rest)).collect();
+    let selectors = bare.split('}').find_map(|rule| {
+        let level = inside + rule.matches('{').count();
+        inside = level.saturating_sub(1);
+        let (selectors, properties) = rule.rsplit_once('{')?;
+        let mut properties = DeclarationTokenizer::from(properties);
+        let is_read = level == 1 && selectors.split(',').all(|one| Selector::parse(one.trim()).is_some());
+        (!is_read && properties.any(|property| USED.contains(&property.name))).then_some(selectors.trim().to_owned())
+    })?;
+    let right = "made of names, classes, ids and attributes of elements, and in no other rule";
+    Some(value(&selectors, "selector of a style sheet that is read", right))
+}
+
 /// The values of the properties of an element.
 pub(super) type Properties<'a> = BTreeMap<&'a str, &'a str>;
 
 impl<'a> Rules<'a> {
-    pub(super) fn new(document: &'a Document) -> Self {
+    pub(super) fn new(document: &'a Document) -> Result<Self, Misread> {
         let mut rules = StyleSheet::new();
-        for text in
-            document.descendants().filter(|node| node.has_tag_name("style") || node.tag_name().name() == "style")
-        {
-            text.children().filter_map(|child| child.text()).for_each(|text| rules.parse_more(text));
+        for sheet in document.descendants().filter(|node| node.tag_name().name() == "style") {
+            for text in sheet.children().filter_map(|child| child.text()) {
+                unread(text).map_or(Ok(()), |fault| Err((xml::place(document, sheet), Box::from(fault))))?;
+                rules.parse_more(text);
+            }
         }
-        Self(rules)
+        Ok(Self(rules))
     }
 
     /// Returns the properties that an element is given; important rules come before `style`, that before other rules,

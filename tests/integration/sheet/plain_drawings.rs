@@ -120,14 +120,22 @@ fn entities_seen_from_below_are_turned_over() {
 
 /// Claim: what a DXF drawing does not display is left out: entities that are invisible or on a page, those of layers that
 /// are frozen or off, and the corners that only shape the curve of a polyline. An ellipse in a plane that is seen from
-/// below has its arc on the other side of its long axis.
+/// below has its arc on the other side of its long axis. Lines have the true colour of their layer; white is black.
 #[test]
 fn what_is_not_displayed_is_left_out() {
     let line = |more: &str, layer: &str, [x1, y1, x2, y2]: [f64; 4]| {
         format!("0\nLINE\n8\n{layer}\n{more}10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}\n")
     };
     let square = "0\nLWPOLYLINE\n8\nCut\n90\n4\n70\n1\n10\n0\n20\n0\n10\n4\n20\n0\n10\n4\n20\n4\n10\n0\n20\n4\n";
-    let layers = "0\nSECTION\n2\nTABLES\n0\nLAYER\n2\nIce\n70\n1\n62\n1\n0\nLAYER\n2\nDark\n70\n0\n62\n-1\n0\nENDSEC\n";
+    let layer = |name: &str, more: &str| format!("0\nLAYER\n2\n{name}\n{more}");
+    let layers = [
+        ("Ice", "70\n1\n62\n1\n"),
+        ("Dark", "70\n0\n62\n-1\n"),
+        ("Sea", "62\n7\n420\n255\n"),
+        ("Snow", "420\n16777215\n"),
+    ];
+    let layers: String = layers.iter().map(|(name, more)| layer(name, more)).collect();
+    let layers = format!("0\nSECTION\n2\nTABLES\n{layers}0\nENDSEC\n");
     let parse = |entities: &str| {
         let text = format!("{layers}0\nSECTION\n2\nENTITIES\n{square}{entities}0\nENDSEC\n0\nEOF\n");
         pattern::parse(&text, "a", Format::Dxf).unwrap()
@@ -138,6 +146,10 @@ fn what_is_not_displayed_is_left_out() {
         let hidden = line(more, layer, [2.0, 0.0, 2.0, 4.0]) + &line("", "Valley", across);
         assert_eq!(parse(&hidden).polygons.len(), 2, "{more:?} {layer}");
     }
+    let blue = parse(&line("", "Sea", across));
+    assert_eq!((letters(&blue, Assignment::Valley), letters(&blue, Assignment::Boundary)), (1, 6));
+    let black = parse(&(line("", "Snow", [2.0, 0.0, 2.0, 2.0]) + &line("", "Valley", across)));
+    assert_eq!(letters(&black, Assignment::Valley), 2);
     let vertex = |[x, y]: [f64; 2], flag: u32| format!("0\nVERTEX\n8\nValley\n10\n{x}\n20\n{y}\n70\n{flag}\n");
     let corners = vertex([1.0, 3.0], 16) + &vertex([0.0, 2.0], 8) + &vertex([3.0, 1.0], 16) + &vertex([4.0, 2.0], 8);
     let fitted = parse(&format!("0\nPOLYLINE\n8\nValley\n70\n4\n{corners}0\nSEQEND\n"));
@@ -154,7 +166,7 @@ fn what_is_not_displayed_is_left_out() {
 }
 
 /// Claim: of a `switch` the first child is drawn, a `symbol` only where it is used, and a shape whose transform has
-/// another origin is refused; twenty exact chords of a square, of which two end close to each other, are read as Euler's
+/// another origin is refused, as are rules of a style sheet for what lines look like that would not be applied; twenty exact chords of a square, of which two end close to each other, are read as Euler's
 /// formula says.
 #[test]
 fn shapes_are_drawn_as_browsers_draw_them() {
@@ -173,6 +185,20 @@ fn shapes_are_drawn_as_browsers_draw_them() {
     assert_eq!(svg(&used).unwrap().polygons.len(), 4);
     let turned = level.replace("<line", "<line transform=\"rotate(90)\" transform-origin=\"50 50\"");
     assert!(svg(&turned).unwrap_err().to_string().contains("origin of a transform"));
+    let sheet =
+        |rules: &str| svg(&format!("<style>{rules}</style>{level}{}", upright.replace("<line", "<line class=\"b\"")));
+    let (by_class, comment) = ("/* } x:not(.b) { */ line.b { stroke: blue }", "text:not(.b) { fill: red }");
+    for read in [by_class, comment, "line.b:hover { stroke: red }", "@font-face { src: url(a) } "] {
+        assert_eq!(sheet(read).unwrap().polygons.len(), 4, "{read}");
+    }
+    let nested =
+        ["@media print { text { fill: red } line.b { stroke: blue } }", "@supports (x: y) { line { display: none } }"];
+    let selectors =
+        ["line:not(.b) { stroke: blue }", "a, line:nth-child(2) { stroke: none }", ":root line { stroke: blue }"];
+    for unread in nested.iter().chain(&selectors) {
+        let message = sheet(unread).unwrap_err().to_string();
+        assert!(message.contains("no selector of a style sheet that is read"), "{unread}: {message}");
+    }
     let mut numbers = Numbers::new(4);
     let mut chords = vec![[[0.0, 81.078], [35.577, 0.0]], [[0.0, 81.062], [100.0, 2.13]]];
     chords.extend((0..18).map(|_| {
