@@ -84,6 +84,7 @@ impl<'a> Seen<'a> {
             max_step: options.max_step,
             target: self.target(),
             then: self.ways[self.turns() + 2..].to_vec(),
+            returns: driven.is_stiffness(),
             listed: options.at.iter().map(|value| driven.parameter_at(*value)).collect(),
             length: stop.arc_length.unwrap_or(f64::INFINITY),
             switch: options.switch && !options.snap,

@@ -137,6 +137,11 @@ impl DrivenModel {
         matches!(self.quantity, Driven::Loads | Driven::Rest | Driven::Stiffness(_))
     }
 
+    /// Whether the parameter is a stiffness, or the reciprocal of one, which should not become negative.
+    pub fn is_stiffness(&self) -> bool {
+        matches!(self.quantity, Driven::Stiffness(_))
+    }
+
     /// Whether extrema of the conjugate mean anything to a user: those of forces, torques and displacements do, where
     /// there is anything that makes a force.
     pub fn has_conjugate_limits(&self) -> bool {
@@ -384,11 +389,15 @@ impl Problem for DrivenModel {
         self.model.linearize(x, tension, kind, out);
     }
 
-    /// Keeps the unknowns: the path's tangents and earlier states are written in them.
+    fn admits(&self, from: &[f64], to: &[f64]) -> bool {
+        self.model.admits(from, to)
+    }
+
     fn breakdown(&self, x: &[f64]) -> Option<Collapse> {
         self.model.breakdown(x)
     }
 
+    /// Keeps the unknowns: the path's tangents and earlier states are written in them.
     fn accept(&mut self, x: &mut [f64]) {
         let all = self.model.generalised(x);
         self.model.accept_angles(&all[..self.model.points()]);

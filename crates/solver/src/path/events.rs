@@ -73,31 +73,21 @@ fn zero_of(values: &[[f64; 2]]) -> f64 {
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// Locates the marks between two states in order. `watched` are the values of the watched functions at both.
+    /// Locates the marks between two states in order, of which one in the middle may be known: two in one step may leave
+    /// what tells of them as it was. `watched` are the values of the watched functions at both ends.
     pub(super) fn marks(
         &mut self,
         [from, to]: [&PathState; 2],
-        largest_rate: f64,
+        middle: Option<&PathState>,
         watched: [&[f64]; 2],
         watch: &mut dyn Watch<P>,
     ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
-        let mut level = Level { turn: None };
-        let rates = [from, to].map(|state| state.tangent.parameter);
-        if turned(rates, [from, to].map(|state| state.rate_errors[0]))
-            && let Some(state) = self.locate([from, to], &mut |_, state| state.tangent.parameter)?
-        {
-            level.turn = Some((rates[0].signum(), (state.work_along * rates[1]).signum() as i64));
-            found.push((state, PathMark::ParameterTurns));
+        let inner = middle.filter(|middle| middle.arc_length < to.arc_length);
+        let ends: Vec<&PathState> = [from].into_iter().chain(inner).chain([to]).collect();
+        for piece in ends.windows(2) {
+            found.extend(self.own_marks([piece[0], piece[1]])?);
         }
-        let rates = [from, to].map(|state| state.conjugate[1]);
-        let least = |state: &PathState| state.rate_errors[1].max(LEAST_RATE * largest_rate);
-        if turned(rates, [from, to].map(least))
-            && let Some(state) = self.locate([from, to], &mut |_, state| state.conjugate[1])?
-        {
-            found.push((state, PathMark::ConjugateTurns));
-        }
-        found.extend(self.branch_points([from, to], &level)?);
         for function in (0..watched[0].len()).filter(|&k| changed(watched[0][k], watched[1][k])) {
             let mut value = |problem: &P, state: &PathState| watch.values(problem, state)[function];
             if let Some(state) = self.locate([from, to], &mut value)? {
@@ -114,6 +104,28 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             }
         }
         found.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
+        Ok(found)
+    }
+
+    /// Locates the extrema and branch points between two states.
+    fn own_marks(&mut self, [from, to]: [&PathState; 2]) -> Result<Vec<(PathState, PathMark)>, PathError> {
+        let mut found = vec![];
+        let mut level = Level { turn: None };
+        let rates = [from, to].map(|state| state.tangent.parameter);
+        if turned(rates, [from, to].map(|state| state.rate_errors[0]))
+            && let Some(state) = self.locate([from, to], &mut |_, state| state.tangent.parameter)?
+        {
+            level.turn = Some((rates[0].signum(), (state.work_along * rates[1]).signum() as i64));
+            found.push((state, PathMark::ParameterTurns));
+        }
+        let rates = [from, to].map(|state| state.conjugate[1]);
+        let least = [from, to].map(|state| state.rate_errors[1].max(LEAST_RATE * self.largest[0]));
+        if turned(rates, least)
+            && let Some(state) = self.locate([from, to], &mut |_, state| state.conjugate[1])?
+        {
+            found.push((state, PathMark::ConjugateTurns));
+        }
+        found.extend(self.branch_points([from, to], &level)?);
         Ok(found)
     }
 

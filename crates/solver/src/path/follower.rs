@@ -20,7 +20,7 @@ const KINK_STEP: f64 = 1e-3;
 /// Largest change of the measure of a soft element in a step: a fold angle in radians.
 const LARGEST_MEASURE_CHANGE: f64 = 0.5;
 /// Bounds of the ratio of one step to the one before.
-const SHRINK: f64 = 0.4;
+pub(super) const SHRINK: f64 = 0.4;
 const GROWTH: f64 = 1.6;
 
 /// A path on its way.
@@ -30,13 +30,24 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
     pub settings: PathSettings,
     /// Whether stiffness may jump on the way.
     kinks: bool,
+    /// The parameter at which the path began.
+    pub origin: f64,
+    /// Largest rate of the conjugate quantity, and largest product of it and the parameter's way, on the path.
+    pub largest: [f64; 2],
 }
 
 impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// Makes room for the systems of a problem.
     pub fn new(problem: &'a mut P, settings: PathSettings) -> Result<Self, PathError> {
-        let (bordered, kinks) = (Bordered::new(problem)?, problem.may_have_kinks());
-        Ok(Self { problem, bordered, settings, kinks })
+        let (bordered, kinks, origin) = (Bordered::new(problem)?, problem.may_have_kinks(), problem.parameter());
+        Ok(Self { problem, bordered, settings, kinks, origin, largest: [0.0; 2] })
+    }
+
+    /// Takes a state into account in the largest values of the path.
+    pub fn measure(&mut self, state: &PathState) {
+        let way = (state.parameter - self.origin).abs();
+        self.largest[0] = self.largest[0].max(state.conjugate[1].abs());
+        self.largest[1] = self.largest[1].max(way * state.conjugate[0].abs());
     }
 
     /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
@@ -97,7 +108,8 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
                 let folds = self.bordered.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);
                 let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
-                if folds <= LARGEST_MEASURE_CHANGE && (is_smooth || at_kink) {
+                let is_short = folds <= LARGEST_MEASURE_CHANGE && self.problem.admits(&last.x, &state.x);
+                if is_short && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
                     let factor = (WANTED_ERROR / error.max(1e-12)).powf(1.0 / 3.0);

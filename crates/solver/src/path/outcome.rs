@@ -19,6 +19,8 @@ pub struct PathSettings {
     pub target: f64,
     /// Parameters to which it goes from there, one after the other; at the last one it ends.
     pub then: Vec<f64>,
+    /// Whether the first branch too, as the others, ends where the parameter is that of the beginning again.
+    pub returns: bool,
     /// Parameters of which the states are listed.
     pub listed: Vec<f64>,
     /// Arc length at which a branch ends.
@@ -37,6 +39,7 @@ impl Default for PathSettings {
             steps: 10_000,
             target: f64::INFINITY,
             then: vec![],
+            returns: false,
             listed: vec![],
             length: f64::INFINITY,
             switch: false,

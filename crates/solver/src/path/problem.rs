@@ -37,7 +37,8 @@ pub trait ParametrizedProblem: Problem {
     fn may_have_kinks(&self) -> bool {
         self.has_kinks()
     }
-    /// The integral of the conjugate over the parameter, up to a constant, of problems that have kinks.
+    /// The integral of the conjugate over the parameter along equilibria, up to a constant: the potential; NaN if it is
+    /// not known.
     fn conjugate_integral(&self, _x: &[f64], _tension: &[f64]) -> f64 {
         f64::NAN
     }

@@ -8,6 +8,7 @@ use super::follower::Follower;
 use super::outcome::{Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings};
 use super::problem::{ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
+use super::work::Step;
 use crate::tension;
 use std::collections::BTreeMap;
 
@@ -18,13 +19,10 @@ pub(super) struct Run<'a, P: ParametrizedProblem> {
     observer: &'a mut dyn PathObserver<P>,
     /// Results of an interrupted run.
     record: PathRecord,
-    origin: f64,
     pub branches: Vec<Branch>,
     /// Branch points that branches have left, which end others, and the ways out of them.
     pub points: Vec<MarkedState>,
     pub exits: Vec<Exit>,
-    /// Largest rate of the conjugate quantity, and largest work or product of conjugate and parameter's way.
-    pub largest: [f64; 2],
 }
 
 /// The data from which a branch is continued.
@@ -47,10 +45,9 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         observer: &'a mut dyn PathObserver<P>,
         record: PathRecord,
     ) -> Result<Self, PathError> {
-        let origin = problem.parameter();
         let follower = Follower::new(problem, settings.clone())?;
         let (branches, points, exits) = (vec![], vec![], vec![]);
-        Ok(Self { follower, watch, observer, record, origin, branches, points, exits, largest: [0.0; 2] })
+        Ok(Self { follower, watch, observer, record, branches, points, exits })
     }
 
     /// Follows the branch from a start towards larger (`1.0`) or smaller parameters.
@@ -119,7 +116,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             self.follower.go_to(&marked.state, &marked.reference)?;
             self.observer.known_state(entry.branch, self.follower.problem, marked);
             if !entry.begins {
-                self.measure(&marked.state);
+                self.follower.measure(&marked.state);
             }
             self.branches[entry.branch].states.push(marked.clone());
         }
@@ -156,32 +153,34 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let last = chosen_anew.as_ref().unwrap_or(last);
         let before =
             way.known.len().checked_sub(2).map(|k| &way.known[k]).filter(|before| before.choice == last.choice);
-        let Some((next, longer)) = self.follower.step(before, last, way.length)? else {
+        let Some(Step { state: next, middle, work, longer }) = self.follower.balanced_step(before, last, way.length)?
+        else {
             return Ok(ended(vec![], BranchEnd::Failed));
         };
         if let Some(point) = self.follower.reached(number, &self.exits, [last, &next])?.cloned() {
             let state = self.follower.arrival(last, &point);
-            return Ok(ended(vec![self.worked(number, &[], last, state, point.mark)?], BranchEnd::Returned));
+            return Ok(ended(vec![self.worked(number, &[], last, state, point.mark, None)?], BranchEnd::Returned));
         }
         // beyond its end a path may mean nothing: marks are sought before it
-        let (to, end) = match self.end_between(number, last, &next)? {
-            Some((state, end)) => (state, Some(end)),
-            None if self.retraces(number, &next)? => (next, Some(BranchEnd::Retraced)),
-            None => (next, None),
+        let (to, end, work) = match self.end_between(number, last, &next)? {
+            Some((state, end)) => (state, Some(end), None),
+            None if self.retraces(number, &next)? => (next, Some(BranchEnd::Retraced), Some(work)),
+            None => (next, None, Some(work)),
         };
         self.follower.problem.set_parameter(to.parameter);
         let values = self.watch.values(self.follower.problem, &to);
-        let marks = self.follower.marks([last, &to], self.largest[0], [&way.watched, &values], self.watch)?;
+        let marks = self.follower.marks([last, &to], middle.as_ref(), [&way.watched, &values], self.watch)?;
         let (mut states, mut from) = (vec![], last.clone());
         for (state, mark) in marks {
-            states.push(self.worked(number, &states, &from, state.clone(), Some(mark))?);
+            states.push(self.worked(number, &states, &from, state.clone(), Some(mark), None)?);
             let before = self.branches[number].states.iter().chain(&states);
             if self.watch.ends(&before.filter_map(|marked| marked.mark).collect::<Vec<_>>()) {
                 return Ok(ended(states, BranchEnd::Marked));
             }
             from = state;
         }
-        states.push(self.worked(number, &states, &from, to, None)?);
+        let work = work.filter(|_| states.is_empty());
+        states.push(self.worked(number, &states, &from, to, None, work)?);
         if end == Some(BranchEnd::Target)
             && let Some(sign) = self.turn(number)
         {
@@ -256,8 +255,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     ) -> Result<Option<(PathState, BranchEnd)>, PathError> {
         let passed = |value: f64| (last.parameter - value) * (next.parameter - value) <= 0.0 && last.parameter != value;
         let (target, most) = (self.target(number), self.follower.settings.length);
-        for (value, end, applies) in [(target, BranchEnd::Target, true), (self.origin, BranchEnd::Returned, number > 0)]
-        {
+        let (origin, returns) = (self.follower.origin, number > 0 || self.follower.settings.returns);
+        for (value, end, applies) in [(target, BranchEnd::Target, true), (origin, BranchEnd::Returned, returns)] {
             if applies && passed(value) {
                 let state = self.follower.at_parameter(last, next, value)?;
                 return Ok(Some(state.map_or((next.clone(), BranchEnd::Failed), |state| (state, end))));
@@ -271,8 +270,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Ok(state.map(|state| (PathState { arc_length: most, ..state }, BranchEnd::Length)))
     }
 
-    /// A state with the work up to it, that from the state before it included; `states` are those of the same step so
-    /// far.
+    /// A state with the work up to it, that from the state before it included, which may be known; `states` are those of
+    /// the same step so far.
     fn worked(
         &mut self,
         number: usize,
@@ -280,9 +279,10 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         from: &PathState,
         state: PathState,
         mark: Option<PathMark>,
+        known: Option<f64>,
     ) -> Result<MarkedState, PathError> {
-        self.measure(&state);
-        let work = self.follower.work(from, &state, self.largest[1])?;
+        self.follower.measure(&state);
+        let work = known.map_or_else(|| self.follower.work(from, &state).map(|(work, _)| work), Ok)?;
         let before = states.last().or(self.branches[number].states.last()).map_or(0.0, |marked| marked.work);
         Ok(self.marked(state, mark, before + work))
     }
@@ -296,12 +296,5 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             Some(_) => tension::negative_eigenvalues(self.follower.problem, &state.x, &state.tension),
         };
         MarkedState { state, mark, negative_eigenvalues, work, reference }
-    }
-
-    /// Takes a state into account in the largest values of the path.
-    fn measure(&mut self, state: &PathState) {
-        let way = (state.parameter - self.origin).abs();
-        self.largest[0] = self.largest[0].max(state.conjugate[1].abs());
-        self.largest[1] = self.largest[1].max(way * state.conjugate[0].abs());
     }
 }
