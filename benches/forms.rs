@@ -24,7 +24,7 @@ use common::{Star, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::{Factor, Inertia};
 use foldwell::numerics::sparse::{Cliques, FIXED, SparsityPattern, symmetric_product};
-use foldwell::solver::corrections::{NearlySolved, Pair, Patience, correct};
+use foldwell::solver::corrections::{IMPATIENT, NearlySolved, Pair, correct};
 use foldwell::solver::kkt::KktSystem;
 use foldwell::solver::{HessianKind, Layout, Linearization, Options, Problem, minimize};
 use std::sync::Arc;
@@ -120,7 +120,7 @@ fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
     let right = Pair(system.a.clone(), system.b.clone());
     let units = [norm(&system.a), norm(&system.b)];
     let first = form.apply(system, &right);
-    let corrected = correct(&mut Solver(form, system), &right, first, units, (tolerance, Patience::Short));
+    let corrected = correct(&mut Solver(form, system), &right, first, units, (tolerance, IMPATIENT));
     let left = right.minus(&system.product(&corrected.found));
     (corrected.corrections, f64::max(norm(&left.0) / units[0], norm(&left.1) / units[1]))
 }

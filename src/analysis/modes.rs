@@ -60,11 +60,7 @@ pub struct Modes {
 /// As [`modes_at`].
 pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
     let assembly = assembly.with_axis(0.0);
-    let model = assembly.model(Gauge::Free);
-    let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
-    let coordinates = assembly.drawn().coordinates.clone();
-    let drawn = Configuration::new(coordinates, model.angles(), Some(tension));
-    modes_at(&assembly, &drawn, eigenvalues, observe)
+    modes_at(&assembly, &restored::drawn(&assembly), eigenvalues, observe)
 }
 
 /// Finds the modes of a state of an assembly. `observe` is asked before every decomposition and factorization, and

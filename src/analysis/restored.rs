@@ -34,6 +34,13 @@ pub(crate) enum Forces {
     },
 }
 
+/// The drawn state of an assembly, with the tensions that follow from it.
+pub(crate) fn drawn(assembly: &Assembly) -> Configuration {
+    let model = assembly.model(Gauge::Free);
+    let tension = tensions(&model, &model.start(), &Forces::Unknown);
+    Configuration::new(assembly.drawn().coordinates.clone(), model.angles(), Some(tension))
+}
+
 /// The tensions of all stiff measures at `x`: those that are known, where they agree with the geometry; else what
 /// follows from it.
 pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {

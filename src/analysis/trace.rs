@@ -23,8 +23,6 @@ pub(crate) use state::Intersects;
 pub use state::{Folded, Stop};
 use std::f64::consts::TAU;
 
-/// Cosine of the angle within which a trajectory arrives along a ray.
-const ALONG: f64 = 0.999;
 /// Arc length before the end of a closed trajectory where a zero is that of its first state.
 const AT_START: f64 = 1e-6;
 
@@ -134,7 +132,6 @@ fn along(
 ) -> Traced {
     let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
     let start = folding.closing.folding(&all.angles);
-    let directions: Vec<Vec<f64>> = rays.iter().map(|ray| folding.closing.folding(&ray.direction)).collect();
     let leaving = folding.closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];
     stops.extend(options.stop.self_intersection.then_some(INTERSECTION));
@@ -154,7 +151,10 @@ fn along(
         end = End::Interrupted;
     }
     let ends_at = match &end {
-        End::Closed(back) => arrival(&back.arrival, &directions).map(|ray| (rays[ray].branch, rays[ray].sign)),
+        End::Closed(back) => {
+            let along = rays.iter().find(|ray| back.is_against(&folding.closing.folding(&ray.direction)));
+            along.map(|ray| (ray.branch, ray.sign))
+        }
         _ => None,
     };
     let ends_at_start = matches!(end, End::Closed(_));
@@ -183,10 +183,4 @@ fn along(
 /// Where faces first pass through each other.
 fn crossing(events: &[Event]) -> Option<f64> {
     events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length)
-}
-
-/// The number of the ray against which a trajectory arrives.
-fn arrival(tangent: &[f64], directions: &[Vec<f64>]) -> Option<usize> {
-    let along = |direction: &Vec<f64>| direction.iter().zip(tangent).map(|(a, b)| a * b).sum::<f64>();
-    directions.iter().position(|direction| -along(direction) > ALONG)
 }

@@ -7,26 +7,11 @@
 
 use foldwell_numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 
-/// When corrections that make little progress are given up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Patience {
-    /// Where another one is not worth a solve.
-    Short,
-    /// Where they make next to no progress. The first corrections of a large system may be slow, as they look for many
-    /// soft motions at once, and later ones fast.
-    Long,
-}
-
-impl Patience {
-    /// Ratio of successive residuals above which there is no further correction.
-    fn slowest_contraction(self) -> f64 {
-        match self {
-            Self::Short => 0.95,
-            Self::Long => 0.9999,
-        }
-    }
-}
-
+/// Ratio of successive residuals above which another correction is not worth a solve.
+pub const IMPATIENT: f64 = 0.95;
+/// The ratio above which corrections make next to no progress. The first ones of a large system may be slow, as they
+/// look for many soft motions at once, and later ones fast.
+pub const PATIENT: f64 = 0.9999;
 const MOST_CORRECTIONS: usize = 30;
 /// Change of the residual by a correction after a slow one, relative to the residual that it answers, that is rounding
 /// error, as that of a self stress of rigid measures, which no tension takes away: that of measures of 1e12 is some 1e-6.
@@ -60,20 +45,20 @@ pub struct RefinedSolution {
 }
 
 /// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer
-/// helps, as far as `patience` goes.
+/// helps: where corrections leave more than the part `slowest` of the residual.
 pub fn correct(
     system: &mut dyn NearlySolved,
     right: &Pair,
     mut found: Pair,
     units: [f64; 2],
-    (tolerance, patience): (f64, Patience),
+    (tolerance, slowest): (f64, f64),
 ) -> RefinedSolution {
     let per_unit = units.map(reciprocal);
     let mut left = right.minus(&system.product(&found)).scaled(per_unit);
     let (mut before, mut last, mut slow): (Vec<Correction>, f64, usize) = (vec![], f64::INFINITY, 0);
     loop {
         let residual = larger(norm_blocked(&left.0), norm_blocked(&left.1));
-        slow = if residual < patience.slowest_contraction() * last { 0 } else { slow + 1 };
+        slow = if residual < slowest * last { 0 } else { slow + 1 };
         let enough = residual <= tolerance || residual.is_nan();
         if enough || slow == system.most_slow() || before.len() == MOST_CORRECTIONS {
             return RefinedSolution { found, residual, corrections: before.len() };
@@ -164,7 +149,7 @@ mod tests {
     fn what_is_no_number_is_not_solved() {
         for stretches in [0, 2] {
             let right = Pair(vec![1.0; 3], vec![0.0; stretches]);
-            let found = correct(&mut Broken, &right, right.clone(), [1.0; 2], (0.1, Patience::Short));
+            let found = correct(&mut Broken, &right, right.clone(), [1.0; 2], (0.1, IMPATIENT));
             assert!(found.residual.is_nan(), "{}", found.residual);
         }
     }

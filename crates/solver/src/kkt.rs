@@ -24,7 +24,7 @@
 //! `cells-residuals` of `validation/`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the undeformed states of 24 and 48 cells a side.
 
-use super::corrections::{self, NearlySolved, Pair, Patience};
+use super::corrections::{self, IMPATIENT, NearlySolved, Pair};
 use super::layout::Layout;
 use super::linearization::{HessianKind, Linearization};
 use foldwell_numerics::factor::{FactorError, Inertia};
@@ -117,7 +117,16 @@ impl KktSystem {
     /// # Errors
     /// [`FactorError`] where an entry is not finite, or a pivot vanishes.
     pub fn factor(&mut self, at: &Linearization, compliance: &[f64], shift: f64) -> Result<Inertia, FactorError> {
-        self.fill(at, compliance, shift);
+        self.values.copy_from_slice(&at.hessian);
+        self.shifted.clear();
+        if shift > 0.0 {
+            at.add_metric(shift, &mut self.values);
+            let some_metric = at.soft_stiffness.iter().any(|k| *k > 0.0);
+            let identity = if some_metric { IDENTITY_IN_METRIC } else { 1.0 };
+            at.pattern().add_to_diagonal(&mut self.values, shift * identity * hessian_size(at));
+            self.shifted.clone_from(&self.values);
+        }
+        self.add_weighted_measures(at, compliance, 1.0);
         self.factor_filled(at, 1.0 + shift)
     }
 
@@ -181,19 +190,6 @@ impl KktSystem {
         self.factor.factor(at.pattern(), &self.values, at.rank_one_terms(part, &self.weights))
     }
 
-    fn fill(&mut self, at: &Linearization, compliance: &[f64], shift: f64) {
-        self.values.copy_from_slice(&at.hessian);
-        self.shifted.clear();
-        if shift > 0.0 {
-            at.add_metric(shift, &mut self.values);
-            let some_metric = at.soft_stiffness.iter().any(|k| *k > 0.0);
-            let identity = if some_metric { IDENTITY_IN_METRIC } else { 1.0 };
-            at.pattern().add_to_diagonal(&mut self.values, shift * identity * hessian_size(at));
-            self.shifted.clone_from(&self.values);
-        }
-        self.add_weighted_measures(at, compliance, 1.0);
-    }
-
     /// Adds the stiff measures to the values, with largest weights that are `heavier` times the usual ones.
     fn add_weighted_measures(&mut self, at: &Linearization, compliance: &[f64], heavier: f64) {
         self.compliance.clear();
@@ -227,7 +223,7 @@ impl KktSystem {
     /// longer help. The linearization may be another one than that which was factored, near by: the corrections make up
     /// for the difference. Its own Hessian counts where the factorization has no shift.
     pub fn solve(&mut self, at: &Linearization, force: &[f64], stretch: &[f64], tolerance: f64) -> Increment {
-        self.solve_with(at, [force, stretch], (tolerance, Patience::Short))
+        self.solve_with(at, [force, stretch], (tolerance, IMPATIENT))
     }
 
     /// Solves as [`KktSystem::solve`] does, with corrections that go on while they make any progress at all.
@@ -235,7 +231,7 @@ impl KktSystem {
         &mut self,
         at: &Linearization,
         [force, stretch]: [&[f64]; 2],
-        until: (f64, Patience),
+        until: (f64, f64),
     ) -> Increment {
         let (dx, dt) = self.apply(force, stretch);
         let right = Pair(force.to_vec(), divided(stretch, &at.sizes));
@@ -256,7 +252,7 @@ impl KktSystem {
         let units = [pull(at, &dt), norm_blocked(&right.1)];
         let start = Pair(dx, multiplied(&dt, &at.sizes));
         let mut equations = Equations { system: self, at };
-        corrections::correct(&mut equations, &right, start, units, (enough, Patience::Short)).residual
+        corrections::correct(&mut equations, &right, start, units, (enough, IMPATIENT)).residual
     }
 }
 

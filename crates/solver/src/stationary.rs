@@ -23,8 +23,6 @@ pub struct StationaryPoint {
     pub negative_eigenvalues: Option<usize>,
     /// Residuals reached.
     pub residuals: Residuals,
-    /// Number of Newton steps.
-    pub iterations: usize,
 }
 
 /// Finds the stationary point to which Newton's method in unknowns and tensions leads. A step is shortened where it
@@ -52,7 +50,7 @@ pub fn stationary_point<P: Problem>(
         }
         if force <= options.tolerance && length <= options.tolerance {
             let negative_eigenvalues = tangent.negative_eigenvalues()?;
-            return Ok(StationaryPoint { x, tension, negative_eigenvalues, residuals, iterations });
+            return Ok(StationaryPoint { x, tension, negative_eigenvalues, residuals });
         }
         if iterations == options.iterations || !(force.is_finite() && length.is_finite()) {
             return Err(Failure::TooManySteps { iterations, force, length });

@@ -4,7 +4,7 @@
 //! ([`Tangent::negative_eigenvalues`]) or for the response to forces and stretches ([`Tangent::solve`]) without an
 //! iteration.
 
-use super::corrections::Patience;
+use super::corrections::PATIENT;
 use super::inertia;
 use super::kkt::{Increment, KktSystem};
 use super::linearization::{HessianKind, Linearization};
@@ -104,6 +104,6 @@ impl Tangent {
     pub(crate) fn patient_newton_step(&mut self, tension: &[f64], tolerance: f64) -> Increment {
         let missing = self.at.missing(tension, &self.compliance);
         let force = self.at.force(tension);
-        self.system.solve_with(&self.at, [&force, &missing], (tolerance, Patience::Long))
+        self.system.solve_with(&self.at, [&force, &missing], (tolerance, PATIENT))
     }
 }

@@ -56,9 +56,15 @@ impl Counts {
 /// The number of null vectors of a square matrix, and how clearly they stand out.
 fn nullity(matrix: &ComplexMatrix) -> Result<(usize, f64), BlochError> {
     let values = complex_svd(matrix)?.singular_values;
+    let (rank, gap) = rank_and_gap(&values);
+    Ok((values.len() - rank, gap))
+}
+
+/// The number of singular values that are not zero, and the last of them over the next one.
+pub(super) fn rank_and_gap(values: &[f64]) -> (usize, f64) {
     let largest = values.first().copied().unwrap_or(0.0).max(TERM);
     let rank = values.iter().filter(|value| **value > ZERO * largest).count();
     let kept = rank.checked_sub(1).map_or(TERM, |last| values[last]);
     let dropped = values.get(rank).copied().unwrap_or(0.0).max(f64::EPSILON * largest);
-    Ok((values.len() - rank, kept / dropped))
+    (rank, kept / dropped)
 }

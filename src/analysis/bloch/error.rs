@@ -1,6 +1,5 @@
 //! Why there is no answer about spatially varying modes.
 
-use crate::kinematics::KinematicsError;
 use crate::numerics::dense::DenseError;
 use thiserror::Error;
 
@@ -53,8 +52,6 @@ pub enum BlochError {
     StripRank { q1: f64, gap: f64 },
     #[error("at q1 = {q1} the determinant is nearly zero on the unit circle: it has no winding number")]
     NoWinding { q1: f64 },
-    #[error(transparent)]
-    Kinematics(#[from] KinematicsError),
 }
 
 impl BlochError {

@@ -8,17 +8,6 @@
 use super::laurent::wavenumber;
 use super::{BlochError, Decay, Determinant};
 
-/// Roots at one wavenumber, by where they are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Count {
-    /// Bound to the lower edge: `|z| < 1`.
-    pub inside: usize,
-    /// On the circle.
-    pub on_circle: usize,
-    /// Bound to the upper edge: `|z| > 1`.
-    pub outside: usize,
-}
-
 /// Counts of roots, averaged over the other wavenumber.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Polarization {
@@ -26,21 +15,6 @@ pub struct Polarization {
     pub polarization: [f64; 2],
     /// Roots on the circle.
     pub on_circle: [f64; 2],
-}
-
-impl Count {
-    /// The roots at one wavenumber.
-    pub(crate) fn of(decay: &Decay) -> Self {
-        let mut count = Self { inside: decay.at_zero, on_circle: 0, outside: decay.at_infinity };
-        for root in &decay.roots {
-            match (root.on_circle(), root.kappa() < 0.0) {
-                (true, _) => count.on_circle += 1,
-                (false, true) => count.inside += 1,
-                (false, false) => count.outside += 1,
-            }
-        }
-        count
-    }
 }
 
 impl Polarization {
@@ -55,10 +29,15 @@ impl Polarization {
             let mut known = 0;
             for k in 0..samples {
                 let decay = Decay::new(determinant, 1 - a, wavenumber(k, samples))?;
-                let count = Count::of(&decay);
                 known += usize::from(!decay.vanishes);
-                found.polarization[a] += 0.5 * (count.inside as f64 - count.outside as f64);
-                found.on_circle[a] += count.on_circle as f64;
+                found.polarization[a] += 0.5 * (decay.at_zero as f64 - decay.at_infinity as f64);
+                for root in &decay.roots {
+                    match (root.on_circle(), root.kappa() < 0.0) {
+                        (true, _) => found.on_circle[a] += 1.0,
+                        (false, true) => found.polarization[a] += 0.5,
+                        (false, false) => found.polarization[a] -= 0.5,
+                    }
+                }
             }
             found.polarization[a] /= known.max(1) as f64;
             found.on_circle[a] /= known.max(1) as f64;

@@ -91,13 +91,8 @@ impl Rigidity {
         Ok(Self::placed(sheet, rigid_facets, place, |shift| cell_rotation(domain, x, shift)))
     }
 
-    /// The bars, and locks of facets, of a sheet whose corners are at some places; no cell is turned.
-    pub(crate) fn of_places(sheet: &Sheet, rigid_facets: bool, place: impl Fn(Corner) -> Vec3) -> Self {
-        Self::placed(sheet, rigid_facets, place, |_| Matrix3::identity())
-    }
-
     /// The bars, and locks of facets, of a sheet whose corners are at some places, with the rotations of its cells.
-    fn placed(
+    pub(crate) fn placed(
         sheet: &Sheet,
         rigid_facets: bool,
         place: impl Fn(Corner) -> Vec3,

@@ -12,16 +12,15 @@
 //! the upper cell is `w`, that of half a sheet of the lower one, with all its rows, `-w` (C. L. Kane, T. C. Lubensky,
 //! Nature Physics 10, 39 (2014)).
 
-use super::rigidity::{Row, TERM};
+use super::counts::rank_and_gap;
+use super::rigidity::Row;
 use super::{BlochError, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
 use crate::sheet::{Corner, Sheet};
-use nalgebra::Complex;
+use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Singular values below this part of the largest, or of the terms of the matrix, are zero.
-const ZERO: f64 = 1e-11;
 /// Smallest ratio between the smallest singular value that is kept and the largest that is dropped.
 const SMALLEST_GAP: f64 = 1e3;
 /// Singular values of what is seen of the zero modes in a window, below this part of the largest, are rounding.
@@ -117,7 +116,7 @@ impl Strip {
                 let shift = [corner.shift[0], corner.shift[1] - first_above];
                 above.position(Corner { shift, ..corner }) + step * f64::from(first_above)
             };
-            (first_above, Rigidity::of_places(below, rigid, place))
+            (first_above, Rigidity::placed(below, rigid, place, |_| Matrix3::identity()))
         });
         let across = across.collect();
         Ok(Self { cells, half: cells / 2, clamped: false, below: first, above: second, across })
@@ -184,10 +183,7 @@ impl Strip {
         let (size, width) = (matrix.ncols(), self.below.columns());
         let columns = width * self.cells;
         let ComplexSvd { u, singular_values, v } = complex_svd(&matrix)?;
-        let largest = singular_values.first().copied().unwrap_or(0.0).max(TERM);
-        let rank = singular_values.iter().filter(|value| **value > ZERO * largest).count();
-        let dropped = singular_values.get(rank).map_or(0.0, |value| *value).max(f64::EPSILON * largest);
-        let gap = rank.checked_sub(1).map_or(TERM, |last| singular_values[last]) / dropped;
+        let (rank, gap) = rank_and_gap(&singular_values);
         if !(gap >= SMALLEST_GAP) {
             return Err(BlochError::StripRank { q1, gap });
         }

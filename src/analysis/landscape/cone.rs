@@ -7,7 +7,7 @@
 //! `closure(rho) = 0,  |K| = a,  t . K = 0`,  `K` the point of the tensor, `t` along the ring of the linear cone,
 //!
 //! by Newton's method. The energy of a patch has its zeros there too, found without the kinematics by
-//! [`zero_of_energy`].
+//! [`distance`].
 
 use super::samples::SampleError;
 use super::sphere::{self, Direction, curvature};
@@ -83,15 +83,13 @@ impl<'a> Cone<'a> {
     }
 }
 
-/// The zero of the energy across the cone near a point of the unit sphere: the square root of the energy is taken with
-/// opposite signs on both sides, where it is smooth, and its zero found in ever smaller windows.
-pub(crate) fn zero_of_energy(
-    held: &mut HeldSheet,
-    courses: &TaylorPaths,
-    near: &Vec3,
-    amplitude: f64,
-) -> Result<Vec3, SampleError> {
-    let Direction { polar, azimuth } = Direction::of(near);
+/// The angle between a point of the exact cone and the zero of the energy across the cone next to it: the square root of
+/// the energy is taken with opposite signs on both sides, where it is smooth, and its zero found in ever smaller windows.
+///
+/// # Errors
+/// [`SampleError`] where a sample beside the point does not converge.
+pub fn distance(held: &mut HeldSheet, courses: &TaylorPaths, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
+    let Direction { polar, azimuth } = Direction::of(point);
     let at = |off: f64| Direction { polar: polar + off, azimuth }.point();
     let (mut middle, mut window) = (0.0, WINDOW);
     for narrowed in 0..WINDOWS {
@@ -109,14 +107,6 @@ pub(crate) fn zero_of_energy(
         middle += window * (below - above) / (below + above);
         window *= NARROWER;
     }
-    Ok(at(middle))
-}
-
-/// The angle between a point of the exact cone and the zero of the energy.
-///
-/// # Errors
-/// [`SampleError`] where a sample beside the point does not converge.
-pub fn distance(held: &mut HeldSheet, courses: &TaylorPaths, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
-    let zero = zero_of_energy(held, courses, point, amplitude)?;
+    let zero = at(middle);
     Ok(zero.cross(point).norm().atan2(zero.dot(point)))
 }

@@ -1,6 +1,5 @@
 //! Why there is no landscape.
 
-use crate::analysis::bloch::BlochError;
 use crate::kinematics::KinematicsError;
 use crate::numerics::dense::DenseError;
 use crate::numerics::factor::FactorError;
@@ -26,8 +25,6 @@ pub enum LandscapeError {
     OffRest { bars: usize },
     #[error("curvatures name no modes of a torus")]
     NoCurvatures,
-    #[error(transparent)]
-    Bloch(#[from] BlochError),
     #[error("a patch has no waves")]
     NoWaves,
     #[error("every motion of this torus stretches a bar, but for the rigid ones")]

@@ -27,7 +27,7 @@ impl HeldSheet {
     /// [`LandscapeError`] where no motion but the rigid ones leaves all bars as they are, and where the torus is too
     /// large to tell.
     pub fn torus(assembly: &Assembly) -> Result<Self, LandscapeError> {
-        let (locked, angles) = (rigid_facets(assembly), assembly.drawn_angles());
+        let (locked, angles) = (assembly.rigid_facet_edges(), assembly.drawn_angles());
         let facets = Hinges { stiffness: RIGID.into(), rest: angles.to_vec() };
         let facets = assembly.terms().has_rigid_facets().then_some(facets);
         let bars = assembly.with_terms(Terms { bars: Some(RIGID.into()), facets, ..Terms::default() });
@@ -45,7 +45,7 @@ impl HeldSheet {
     /// # Errors
     /// [`LandscapeError`] where the linear algebra fails.
     pub fn for_sheet(&self, assembly: &Assembly) -> Result<Self, LandscapeError> {
-        let locked = rigid_facets(assembly);
+        let locked = assembly.rigid_facet_edges();
         let model = assembly.with_terms(assembly.terms().resting_at(assembly.drawn_angles())).model(Gauge::Held);
         Self::of_model(model, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
     }
@@ -78,11 +78,6 @@ impl HeldSheet {
         let rates = &self.basis * (&space * phase).normalize() * (cells as f64).sqrt();
         Ok(rates.as_slice().to_vec())
     }
-}
-
-/// Diagonals of polygons of the tiling where these are rigid.
-fn rigid_facets(assembly: &Assembly) -> Vec<usize> {
-    assembly.rigid_facet_edges()
 }
 
 /// Velocities of all coordinates that stretch nothing, rigid motions left out.

@@ -5,6 +5,7 @@ use crate::model::DriveError;
 use crate::numerics::dense::DenseError;
 use crate::numerics::eigen::EigenError;
 use crate::numerics::factor::FactorError;
+use crate::solver::inertia::in_words;
 use thiserror::Error;
 
 /// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot
@@ -48,10 +49,10 @@ pub enum ModesError {
     Loads(#[from] DriveError),
     #[error(
         "loads grow from a stable equilibrium, and the state is none: its unbalanced force is {unbalanced:.1e} of the largest one, \
-         its softest motion has the stiffness {softest:.1e}, and {} eigenvalues are negative", said(*negative)
+         its softest motion has the stiffness {softest:.1e}, and {} eigenvalues are negative", in_words(*negative)
     )]
     NotStable { unbalanced: f64, softest: f64, negative: Option<usize> },
-    #[error("critical factors found: {count}; negative eigenvalues beyond them: {}", said(*negative))]
+    #[error("critical factors found: {count}; negative eigenvalues beyond them: {}", in_words(*negative))]
     FactorsUncertain { count: usize, negative: Option<usize> },
     #[error(
         "rigid bars are redundant, and the critical factors depend on which self stress they have: give bars a stiffness"
@@ -61,11 +62,6 @@ pub enum ModesError {
     RankDisagrees { by_values: usize, by_inertia: usize },
     #[error("{bars} motions or stresses of the bars, but {closure} by the closure of the vertices")]
     ClosureDisagrees { bars: usize, closure: usize },
-}
-
-/// A number that may not be known.
-fn said(count: Option<usize>) -> String {
-    count.map_or("an unknown number of".to_owned(), |count| count.to_string())
 }
 
 impl From<EigenError> for ModesError {

@@ -87,7 +87,7 @@ impl PeriodicCell {
         let edges = &assembly.tiling().edges;
         let close = |a: f64, b: f64| a == b || (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(1.0);
         let of_cell = |element: &Element<'_>| element.edge().map(|edge| edges[edge].edge);
-        for CellElement { element, edge, .. } in self.elements(assembly) {
+        for CellElement { element, edge, .. } in self.elements(assembly, &self.model) {
             let (spring, edge) = (element.spring, edges[edge].edge);
             let alike = |other: &Element<'_>| other.kind() == element.kind() && !other.is_beyond_spring();
             let same = self.model.elements().filter(alike);
@@ -102,13 +102,8 @@ impl PeriodicCell {
         Ok(())
     }
 
-    /// Returns the elements of one cell.
-    pub(super) fn elements<'a>(&'a self, assembly: &'a Assembly) -> Vec<CellElement<'a>> {
-        self.elements_of(assembly, &self.model)
-    }
-
     /// Returns the elements that a model of the assembly has in one cell.
-    pub(super) fn elements_of<'a>(&'a self, assembly: &'a Assembly, model: &'a Model) -> Vec<CellElement<'a>> {
+    pub(super) fn elements<'a>(&'a self, assembly: &'a Assembly, model: &'a Model) -> Vec<CellElement<'a>> {
         let (edges, vertices) = (&assembly.tiling().edges, self.sheet.vertices.len());
         let place = |site: &Site| {
             let cell = [(site.vertex / vertices) % self.cells[0], (site.vertex / vertices) / self.cells[0]];

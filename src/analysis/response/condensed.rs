@@ -169,26 +169,12 @@ impl Condensed {
         if frame.ncols() != MACROSCOPIC {
             return None;
         }
-        let (matrix, units) = (&frame * self.matrix() * frame.transpose(), units(self.area.sqrt()));
+        let (matrix, units) = (&frame * assembled(&self.blocks) * frame.transpose(), units(self.area.sqrt()));
         let entry = |row: usize, column: usize| {
             0.5 * (matrix[(row, column)] + matrix[(column, row)]) * units[row] * units[column] / self.area
         };
         let block = |row: usize, column: usize| [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(row + i, column + j)));
         Some(ModuliMatrices { stretching: block(0, 0), coupling: block(0, 3), bending: block(3, 3) })
-    }
-
-    /// Returns the second derivatives by the rigid modes and the others.
-    fn matrix(&self) -> DenseMatrix {
-        let [rigid, mixed, others] = &self.blocks;
-        let count = rigid.nrows();
-        DenseMatrix::from_fn(count + others.nrows(), count + others.nrows(), |row, column| {
-            match (row.checked_sub(count), column.checked_sub(count)) {
-                (None, None) => rigid[(row, column)],
-                (Some(row), None) => mixed[(row, column)],
-                (None, Some(column)) => mixed[(column, row)],
-                (Some(row), Some(column)) => others[(row, column)],
-            }
-        })
     }
 
     /// Returns the principal strains and bendings of the rigid modes with rigid bars, by rising stiffness.
@@ -207,12 +193,12 @@ impl Condensed {
                 found.reverse();
                 found
             }
-            None => self.principal(&self.matrix(), &frame, |value| value)?,
+            None => self.principal(&assembled(&self.blocks), &frame, |value| value)?,
         };
         Ok(found.into_iter().take(count).collect())
     }
 
-    /// Returns the inverse of [`Self::matrix`]; `None` where a strain or bending costs nothing.
+    /// Returns the inverse of the second derivatives; `None` where a strain or bending costs nothing.
     fn compliance(&self) -> Option<DenseMatrix> {
         let [rigid, mixed, others] = &self.blocks;
         let of_others = cholesky(others.clone())?;
@@ -224,17 +210,7 @@ impl Condensed {
         let along = cholesky(along)?.inverse();
         let corner = -(&carried * &along);
         let rest = of_others.inverse() - &corner * carried.transpose();
-        let blocks = [along, corner, rest];
-        Some(
-            Self {
-                area: self.area,
-                rigid: self.rigid.clone(),
-                others: self.others.clone(),
-                blocks,
-                limit: self.limit.clone(),
-            }
-            .matrix(),
-        )
+        Some(assembled(&[along, corner, rest]))
     }
 
     /// Returns the eigenvectors of a matrix in a frame of strains and curvatures, by rising eigenvalues, with the
@@ -298,6 +274,19 @@ fn without(columns: &DenseMatrix, terms: f64) -> Result<DenseMatrix, ResponseErr
     let rank = found.singular_values.iter().filter(|value| **value > ZERO * terms).count();
     let span = found.u.columns(0, rank);
     Ok(DenseMatrix::identity(columns.nrows(), columns.nrows()) - span * span.transpose())
+}
+
+/// Returns the matrix with these blocks: by the rigid modes, mixed, and by the others.
+fn assembled([rigid, mixed, others]: &[DenseMatrix; 3]) -> DenseMatrix {
+    let count = rigid.nrows();
+    DenseMatrix::from_fn(count + others.nrows(), count + others.nrows(), |row, column| {
+        match (row.checked_sub(count), column.checked_sub(count)) {
+            (None, None) => rigid[(row, column)],
+            (Some(row), None) => mixed[(row, column)],
+            (None, Some(column)) => mixed[(column, row)],
+            (Some(row), Some(column)) => others[(row, column)],
+        }
+    })
 }
 
 /// Returns the columns of matrices beside each other.

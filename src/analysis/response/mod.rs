@@ -52,7 +52,7 @@ pub use symmetry_types::SymmetryTypes;
 pub use tensors::{NoRatio, TensorSpace};
 
 use super::modes::modes_at;
-use super::restored::{self, Forces};
+use super::restored;
 use crate::model::{Assembly, Configuration, Gauge, RIGID, Terms};
 use cell::PeriodicCell;
 
@@ -78,7 +78,7 @@ use cell::PeriodicCell;
 /// As [`response_at`].
 pub fn response(assembly: &Assembly) -> Result<Response, ResponseError> {
     let assembly = assembly.with_axis(0.0);
-    response_at(&assembly, &drawn_state(&assembly))
+    response_at(&assembly, &restored::drawn(&assembly))
 }
 
 /// Computes the linear response of a state of a periodic assembly.
@@ -140,12 +140,5 @@ pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf,
 /// # Errors
 /// As [`moduli_at`].
 pub fn moduli(assembly: &Assembly) -> Result<ModuliOf, ResponseError> {
-    moduli_at(assembly, &drawn_state(assembly))
-}
-
-/// Returns the drawn state.
-fn drawn_state(assembly: &Assembly) -> Configuration {
-    let model = assembly.model(Gauge::Free);
-    let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
-    Configuration::new(assembly.drawn().coordinates.clone(), model.angles(), Some(tension))
+    moduli_at(assembly, &restored::drawn(assembly))
 }

@@ -84,7 +84,7 @@ pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<Mo
     let Some(cell) = PeriodicCell::of_state(assembly, &state.coordinates, model)? else {
         return Ok(ModuliOf::RolledUp);
     };
-    let elements = cell.elements(assembly);
+    let elements = cell.elements(assembly, &cell.model);
     let off = elements.iter().map(|element| off_rest(&cell, element)).fold(0.0, f64::max);
     if !(off <= AT_REST) {
         return Ok(ModuliOf::UnderStress { off });

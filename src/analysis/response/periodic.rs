@@ -79,7 +79,7 @@ struct Basis {
 impl Basis {
     fn new(assembly: &Assembly, cell: &PeriodicCell) -> Result<Self, ResponseError> {
         let length = cell.area().sqrt();
-        let held = rates(cell, &cell.elements(assembly));
+        let held = rates(cell, &cell.elements(assembly, &cell.model));
         let rows = held.by_motions(length);
         let null = null_space_of_sums(&rows, held.terms)?;
         let change = null.singular_values.get(null.rank).copied().unwrap_or(0.0);
@@ -87,7 +87,7 @@ impl Basis {
             return Err(ResponseError::UnclearModes { change });
         }
         let hinges = hinges_of(assembly);
-        let elements = cell.elements_of(assembly, &hinges);
+        let elements = cell.elements(assembly, &hinges);
         let mut folding = DenseMatrix::zeros(cell.sheet.edges.len(), rows.ncols());
         for (element, row) in elements.iter().zip(rates(cell, &elements).by_motions(length).row_iter()) {
             folding.set_row(assembly.tiling().edges[element.edge].edge, &row);

@@ -33,7 +33,7 @@ pub struct SelfStress {
 /// Returns an orthonormal basis of the self stresses, by falling [work](ordered_by_work); `assembly` is the one of the
 /// cell, with rigid terms alone.
 pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<SelfStress>, ResponseError> {
-    let elements = cell.elements(assembly);
+    let elements = cell.elements(assembly, &cell.model);
     let rates = rates(cell, &elements);
     let null = null_space_of_sums(&rates.by_vertices.transpose(), rates.terms)?;
     let (edges, area) = (cell.sheet.edges.len(), cell.area());

@@ -33,7 +33,7 @@ pub struct SurfacePoint {
 }
 
 /// A triangulated surface of folded states.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Surface {
     /// Its states; where charts meet the largest curvature, states are exactly there.
     pub points: Vec<SurfacePoint>,
@@ -111,27 +111,9 @@ impl Surface {
         self.segments.retain(|segment| segment.iter().all(|&end| end < kept));
     }
 
-    /// No states, for an established reason.
-    pub(super) fn nothing(negative: Negative, radius: f64) -> Self {
-        let (points, triangles, branches) = (Vec::new(), Vec::new(), Vec::new());
-        let (coverage, negative) = (Coverage::Complete, Some(negative));
-        Self {
-            points,
-            triangles,
-            coverage,
-            gaps: 0,
-            oriented: true,
-            closed: false,
-            branches,
-            radius,
-            tips: 0,
-            lost: 0,
-            crossing: false,
-            seam: Vec::new(),
-            dimension: 2,
-            segments: Vec::new(),
-            negative,
-        }
+    /// No states, for an established reason where there is one.
+    pub(super) fn nothing(negative: Option<Negative>, radius: f64) -> Self {
+        Self { negative, radius, oriented: true, dimension: 2, ..Self::default() }
     }
 }
 

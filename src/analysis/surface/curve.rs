@@ -14,9 +14,6 @@ use crate::solver::atlas::{Coverage, Surface as _};
 use crate::solver::continuation::{CurveOptions, End, Point, Watched, follow};
 use std::f64::consts::TAU;
 
-/// Cosine of the angle within which a trajectory arrives along a ray.
-const ALONG: f64 = 0.999;
-
 /// The curve of folded states; no states where no direction is real.
 pub(super) fn curve(
     assembly: &Assembly,
@@ -37,8 +34,7 @@ pub(super) fn curve(
         RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),
         _ => None,
     };
-    let mut found =
-        Surface { dimension: 1, negative, closed: true, ..Surface::nothing(Negative::NoRay, options.radius) };
+    let mut found = Surface { dimension: 1, closed: true, ..Surface::nothing(negative, options.radius) };
     found.lost = usize::from(directions != RealDirections::Listed);
     let mut from = Vec::new();
     let mut arrived: Vec<usize> = Vec::new();
@@ -49,9 +45,7 @@ pub(super) fn curve(
         let end = found.follow((&mut curve, &mut folding), (ray, options), observe)?;
         from.resize(found.points.len(), k);
         arrived.extend(match &end {
-            End::Closed(back) => {
-                rays.iter().position(|ray| arrives(&curve.equations.folding(&ray.direction), &back.arrival))
-            }
+            End::Closed(back) => rays.iter().position(|ray| back.is_against(&curve.equations.folding(&ray.direction))),
             _ => None,
         });
         found.conclude(&end);
@@ -60,11 +54,6 @@ pub(super) fn curve(
     sign::carry(&embedding, &mut found.points, segments.into_iter(), &from);
     found.name_branches();
     Ok(found)
-}
-
-/// Whether a trajectory arrives against a direction.
-fn arrives(direction: &[f64], tangent: &[f64]) -> bool {
-    -direction.iter().zip(tangent).map(|(a, b)| a * b).sum::<f64>() > ALONG
 }
 
 impl Surface {

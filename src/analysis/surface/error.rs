@@ -1,6 +1,5 @@
 //! Why there is no surface of folded states.
 
-use crate::analysis::branches::BranchesError;
 use crate::kinematics::KinematicsError;
 use crate::solver::atlas::AtlasError;
 use thiserror::Error;
@@ -18,8 +17,6 @@ pub enum SurfaceError {
          them leave {left} dimensions"
     )]
     NotTwoDimensional { modes: usize, quadrics: usize, left: i64 },
-    #[error(transparent)]
-    Branches(#[from] BranchesError),
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     #[error(

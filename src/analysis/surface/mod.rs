@@ -75,7 +75,7 @@ pub(super) fn on_surface(
     let mut starts = match starts::starts(&mut folding, &second_order, options)? {
         Ok(starts) => starts,
         Err(Negative::OneDirection) => return Err(SurfaceError::Curve),
-        Err(negative) => return Ok(Surface::nothing(negative, options.radius)),
+        Err(negative) => return Ok(Surface::nothing(Some(negative), options.radius)),
     };
     let charts = atlas::CoverOptions {
         tolerance: options.tolerance,
@@ -144,29 +144,22 @@ fn put_together(
         Coverage::Open { .. } => Coverage::Open { charts: open },
         other => other,
     };
-    let (points, triangles, closed, negative) = (Vec::new(), atlas.triangles, border == 0, None);
     let gaps = if coverage == Coverage::Complete { open } else { 0 };
-    let Atlas { oriented, reached, .. } = atlas;
-    let (tips, crossing, radius, seam) = (nappes.len(), starts.crossing, 0.0, Vec::new());
+    let Atlas { triangles, oriented, reached, .. } = atlas;
+    let (tips, crossing) = (nappes.len(), starts.crossing);
     // nappes meet in pairs: where one has none opposite, that is missing
     let odd = nappes.iter().filter(|count| *count % 2 == 1 && coverage.is_whole() && !crossing).count();
     let lost = starts.lost + reached.iter().filter(|start| start.is_none()).count() + odd;
     let mut surface = Surface {
-        points,
         triangles,
         coverage,
         gaps,
         oriented,
-        closed,
-        branches: Vec::new(),
-        radius,
+        closed: border == 0,
         tips,
         lost,
         crossing,
-        seam,
-        dimension: 2,
-        segments: Vec::new(),
-        negative,
+        ..Surface::nothing(None, 0.0)
     };
     for (k, chart) in atlas.charts.iter().enumerate() {
         let stopped = surface.coverage == Coverage::Interrupted;

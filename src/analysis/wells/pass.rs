@@ -9,8 +9,8 @@ use super::settle::{MinimumTracker, Settled};
 use super::string::STRENGTH;
 use super::work::Work;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Configuration, Gauge, Model};
-use crate::solver::{Failure, Options, Start, StationaryPoint, stationary_point};
+use crate::model::{Assembly, Configuration, Gauge};
+use crate::solver::{Failure, Options, Start, stationary_point};
 
 /// Largest change of a fold angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.2;
@@ -52,8 +52,6 @@ pub struct Pass {
     pub residual_force: f64,
     /// Largest gap over the mean edge.
     pub residual_length: f64,
-    /// Newton steps.
-    pub iterations: usize,
 }
 
 /// A descent from a pass.
@@ -77,22 +75,17 @@ pub(crate) fn equilibrium(assembly: &Assembly, from: &Configuration, options: Op
     let tension = model.enter(from).tension;
     let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension };
     let found = stationary_point(&mut model, start, LONGEST_ANGLE_STEP_RAD, options)?;
-    Ok(pass(&model, found, &Work::new(assembly)))
-}
-
-fn pass(model: &Model, found: StationaryPoint, work: &Work) -> Pass {
-    let state = State::new(model, &found.x, &found.tension);
+    let state = State::new(&model, &found.x, &found.tension);
     let rho = model.hinge_angles(&found.x);
-    Pass {
+    Ok(Pass {
         place: model.configuration(&found.x, Some(found.tension)),
         rho,
-        energy: state.total() - work.to(&state.coordinates),
+        energy: state.total() - Work::new(assembly).to(&state.coordinates),
         state,
         negative_eigenvalues: found.negative_eigenvalues,
         residual_force: found.residuals.force,
         residual_length: found.residuals.length,
-        iterations: found.iterations,
-    }
+    })
 }
 
 /// Where the sheet goes from a pass when pushed along a change of its fold angles, and against it.

@@ -61,9 +61,10 @@ pub struct Chart {
 }
 
 /// The end of a covering.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coverage {
     /// Everything that can be reached within the limit is covered.
+    #[default]
     Complete,
     /// Everything is covered but what lies beyond some charts, at which the surface could not be followed with the
     /// smallest radius.

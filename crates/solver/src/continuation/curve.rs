@@ -120,6 +120,9 @@ pub struct Trajectory {
     pub end: End,
 }
 
+/// Cosine of the angle within which a trajectory arrives along a direction.
+const ALONG: f64 = 0.999;
+
 /// The return of a trajectory to its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Return {
@@ -129,4 +132,11 @@ pub struct Return {
     pub arrival: Vec<f64>,
     /// Number of periods by which each unknown differs from the start.
     pub windings: Vec<i64>,
+}
+
+impl Return {
+    /// Whether it arrives against a direction in which a trajectory leaves.
+    pub fn is_against(&self, direction: &[f64]) -> bool {
+        -direction.iter().zip(&self.arrival).map(|(a, b)| a * b).sum::<f64>() > ALONG
+    }
 }

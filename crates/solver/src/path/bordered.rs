@@ -12,7 +12,7 @@
 //! directions, and as many more planes.
 
 use super::problem::{ParametrizedProblem, Rates};
-use crate::corrections::{self, NearlySolved, Pair, Patience};
+use crate::corrections::{self, IMPATIENT, NearlySolved, Pair};
 use crate::inertia;
 use crate::kkt::{KktSystem, stiffness_size};
 use crate::linearization::{HessianKind, Linearization};
@@ -170,7 +170,7 @@ impl Bordered {
             norm_blocked(&right.0).max(1e-9 * pull),
             norm_blocked(&right.1).max(1e-6 * norm_blocked(&found.0)).max(f64::MIN_POSITIVE),
         ];
-        let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, Patience::Short));
+        let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, IMPATIENT));
         let Pair(mut x, tension) = refined.found;
         let more = x.split_off(force.len());
         let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();

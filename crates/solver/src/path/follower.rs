@@ -5,7 +5,7 @@ use super::corrector::{Guess, complete, correct};
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
-use foldwell_numerics::vector::{add_scaled, dot, norm_blocked};
+use foldwell_numerics::vector::{add_scaled, dot};
 
 /// Length of the first step relative to the longest one, and the shortest one relative to it.
 const FIRST_STEP: f64 = 0.1;
@@ -103,7 +103,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
             let plane = self.plane(&last.tangent, at_kink);
             if let Some((mut state, off)) = self.settle(guess, &plane, 0.0)? {
                 let chord = Cubic::new(last, &state).chord();
-                let way = norm_blocked(&chord.x).hypot(chord.parameter / self.bordered.unit()) / unit_of_length;
+                let way = self.size(&chord);
                 let turn = self.cosine(&last.tangent, &state.tangent);
                 let folds = self.bordered.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);

@@ -44,7 +44,7 @@ use super::newton::Start;
 pub use events::Watch;
 pub use outcome::{Branch, BranchEnd, HalfBranches, MarkedState, PathError, PathMark, PathSettings};
 pub use problem::{ParametrizedProblem, PathState, Rates};
-pub use reach::{Reached, reach};
+pub use reach::reach;
 pub use record::{PathEntry, PathObserver, PathRecord};
 use run::Run;
 

@@ -27,8 +27,6 @@ pub struct PathSettings {
     pub length: f64,
     /// Whether branches that leave at branch points are followed too.
     pub switch: bool,
-    /// Largest number of branches.
-    pub branches: usize,
 }
 
 impl Default for PathSettings {
@@ -43,7 +41,6 @@ impl Default for PathSettings {
             listed: vec![],
             length: f64::INFINITY,
             switch: false,
-            branches: 64,
         }
     }
 }

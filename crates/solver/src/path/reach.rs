@@ -5,19 +5,9 @@ use super::outcome::{PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState};
 use crate::newton::Start;
 
-/// Where a path led that was followed for its end.
-#[derive(Clone, Debug)]
-pub enum Reached {
-    /// The state at the target.
-    Target(PathState),
-    /// The last state within the largest number of states, or from which no step led on.
-    Lost(PathState),
-    /// The observer asked to stop at this state.
-    Stopped(PathState),
-}
-
 /// Follows the equilibria of a problem from a start near one, at its present parameter, until its parameter first
-/// passes the target of the settings. `observe` sees every state and returns false to stop.
+/// passes the target of the settings. `observe` sees every state and returns false to stop. Returns the last state, and
+/// whether it is the one at the target.
 ///
 /// # Errors
 /// [`PathError`] if no equilibrium is found to begin with, or a linear system is too large.
@@ -26,7 +16,7 @@ pub fn reach<P: ParametrizedProblem>(
     start: Start,
     settings: &PathSettings,
     observe: &mut dyn FnMut(&P, &PathState) -> bool,
-) -> Result<Reached, PathError> {
+) -> Result<(PathState, bool), PathError> {
     let tension = start.tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
     let target = settings.target;
     let sign = if target < problem.parameter() { -1.0 } else { 1.0 };
@@ -41,12 +31,12 @@ pub fn reach<P: ParametrizedProblem>(
         if (last.parameter - target) * (next.parameter - target) <= 0.0 {
             let end = follower.at_parameter(&last, &next, target)?;
             follower.problem.set_parameter(target);
-            return Ok(end.map_or(Reached::Lost(last), Reached::Target));
+            return Ok(end.map_or((last, false), |end| (end, true)));
         }
         if !observe(follower.problem, &next) {
-            return Ok(Reached::Stopped(next));
+            return Ok((next, false));
         }
         (before, last, length) = (Some(last), next, longer);
     }
-    Ok(Reached::Lost(last))
+    Ok((last, false))
 }

@@ -67,7 +67,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let goes_on = if recorded.is_empty() {
             self.found(begin, None, &mut way)
         } else {
-            self.all_were_found(recorded, &mut way)?
+            let mut states = recorded.into_iter();
+            states.try_fold(true, |on, entry| Ok::<_, PathError>(on && self.was_found(entry, &mut way)?))?
         };
         while goes_on && self.branches[number].states.len() < self.follower.settings.steps {
             let (entry, watched) = self.step(number, &way)?;
@@ -97,16 +98,6 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             }
         }
         self.goes_on(entry, watched, way)
-    }
-
-    /// Appends the recorded states of a branch; returns whether it goes on.
-    fn all_were_found(&mut self, recorded: Vec<PathEntry>, way: &mut Way) -> Result<bool, PathError> {
-        for entry in recorded {
-            if !self.was_found(entry, way)? {
-                return Ok(false);
-            }
-        }
-        Ok(true)
     }
 
     /// Appends recorded states to their branch; returns whether the branch goes on.

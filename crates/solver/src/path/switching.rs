@@ -7,6 +7,9 @@ use super::outcome::{BranchEnd, HalfBranches, MarkedState, PathError, PathMark};
 use super::problem::{ParametrizedProblem, PathState};
 use super::run::Run;
 
+/// Largest number of branches.
+const MOST_BRANCHES: usize = 64;
+
 impl<P: ParametrizedProblem> Run<'_, P> {
     /// Follows the branches that leave at the branch points found, theirs too.
     pub fn other_branches(&mut self) -> Result<(), PathError> {
@@ -18,7 +21,7 @@ impl<P: ParametrizedProblem> Run<'_, P> {
             }
             self.find_exits(number)?;
             for exit in known..self.exits.len() {
-                if self.branches.len() >= self.follower.settings.branches || self.is_interrupted() {
+                if self.branches.len() >= MOST_BRANCHES || self.is_interrupted() {
                     return Ok(());
                 }
                 let Exit { first, reference, found_at: (branch, state), .. } = self.exits[exit].clone();

@@ -10,7 +10,7 @@ use super::{saddle, soft_bars};
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
 use crate::analysis::state::State;
 use crate::model::{DrivenModel, Model};
-use crate::solver::path::{ParametrizedProblem, PathSettings, PathState, Reached, reach};
+use crate::solver::path::{ParametrizedProblem, PathSettings, PathState, reach};
 use crate::solver::{Equilibrium, Failure, NewtonError, Problem, Start, Step};
 
 /// Longest step in arc length, in mean edges: with 0.2 other branches are taken for the path.
@@ -186,19 +186,13 @@ fn stretch(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, (from, start
         }
         end == StretchEnd::Lost
     });
-    let (parameter, state) = match reached {
-        Ok(Reached::Target(state)) => {
-            end = StretchEnd::Target;
-            (target, state)
-        }
-        Ok(Reached::Stopped(state)) => {
-            let turned = state.tangent.parameter * (target - from) < 0.0;
-            let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
-            (if turned { beyond } else { state.parameter }, state)
-        }
-        Ok(Reached::Lost(state)) => (state.parameter, state),
-        Err(_) => return Stretch { end, parameter: from, x: start.x, tension: start.tension },
+    let Ok((state, arrived)) = reached else {
+        return Stretch { end, parameter: from, x: start.x, tension: start.tension };
     };
+    let turned = end != StretchEnd::Lost && state.tangent.parameter * (target - from) < 0.0;
+    let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
+    let parameter = if turned { beyond } else { state.parameter };
+    let (end, parameter) = if arrived { (StretchEnd::Target, target) } else { (end, parameter) };
     run.model = driven.model;
     Stretch { end, parameter, x: state.x, tension: state.tension }
 }

@@ -15,7 +15,6 @@ mod extent;
 mod flood;
 mod surface;
 
-use crate::analysis::branches::BranchesError;
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
@@ -101,8 +100,6 @@ pub enum RigidError {
     Dimension { dimension: i64 },
     #[error("the rigid landscape is that of one cell, or of a small sheet, with creases and nothing else")]
     NotOfHinges,
-    #[error(transparent)]
-    Branches(#[from] BranchesError),
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     #[error(transparent)]
