@@ -25,7 +25,8 @@ pub use seam::SeamMotions;
 use seam::seam_motions;
 pub use spectrum::{DENSE_LIMIT, Observer, decomposed_dense};
 use spectrum::{Spectrum, go_on, lowest};
-pub use vibrations::{Vibrations, check_masses};
+pub use vibrations::Vibrations;
+pub(crate) use vibrations::check_masses;
 
 /// Modes of a state.
 #[derive(Clone, Debug, PartialEq)]

@@ -73,10 +73,7 @@ pub fn follow_path(
 
 /// Does the same as [`follow_path`], and goes on from what an interrupted run of the same path has recorded: of that
 /// nothing is computed again.
-///
-/// # Errors
-/// As [`follow_path`].
-pub fn resume_path(
+pub(crate) fn resume_path(
     assembly: &Assembly,
     drive: &Drive,
     start: Option<Configuration>,
@@ -119,10 +116,7 @@ pub fn resume_path(
 
 /// Checks that a drive has an effect on an assembly, in its drawn state or, `restarted`, in another one. Returns the
 /// driven values at the beginning and at the end of its way.
-///
-/// # Errors
-/// [`DriveError`] if it has none.
-pub fn check_drive(assembly: &Assembly, drive: &Drive, restarted: bool) -> Result<[f64; 2], DriveError> {
+pub(crate) fn check_drive(assembly: &Assembly, drive: &Drive, restarted: bool) -> Result<[f64; 2], DriveError> {
     let model = assembly.model(Gauge::Held);
     let drawn = model.values(&model.start());
     let driven = DrivenModel::new(model, drive, drawn, restarted)?;

@@ -1,5 +1,6 @@
 //! A state of a model, edge by edge and as a cylinder.
 
+use crate::kinematics::metric::LatticeFrame;
 use crate::math::Vec3;
 use crate::model::{Domain, Drawn, Element, Memory, Model, TermKind, Turns};
 use crate::solver::Problem;
@@ -220,7 +221,7 @@ pub(crate) fn cylinder(drawn: &Drawn, x: &[f64]) -> Option<Cylinder> {
     let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
     let sign = if larger < 0.0 { -1.0 } else { 1.0 };
     let reference = drawn.chords.or_else(|| self::chords(domain, &drawn.coordinates))?;
-    Some(Cylinder { curvature, theta: theta.map(|t| t * sign), strain: strain(reference, chords) })
+    Some(Cylinder { curvature, theta: theta.map(|t| t * sign), strain: LatticeFrame::new(&reference).strain(&chords) })
 }
 
 /// The signed curvature, and the turns of the two lattice vectors about one direction of the axis; zero where nothing
@@ -246,16 +247,4 @@ fn chords(domain: &Domain, x: &[f64]) -> Option<[Vec3; 2]> {
     let site = |shift| crate::model::Site { vertex: 0, shift };
     let origin = domain.point(x, site([0, 0]));
     Some([[1, 0], [0, 1]].map(|shift| domain.point(x, site(shift)) - origin))
-}
-
-fn strain(drawn: [Vec3; 2], now: [Vec3; 2]) -> [f64; 3] {
-    let metric =
-        |l: [Vec3; 2]| nalgebra::Matrix2::new(l[0].dot(&l[0]), l[0].dot(&l[1]), l[1].dot(&l[0]), l[1].dot(&l[1]));
-    let g = metric(drawn);
-    let a11 = g[(0, 0)].sqrt();
-    let a12 = g[(0, 1)] / a11;
-    let a22 = (g[(1, 1)] - a12 * a12).sqrt();
-    let inverse = nalgebra::Matrix2::new(1.0 / a11, -a12 / (a11 * a22), 0.0, 1.0 / a22);
-    let e = inverse.transpose() * metric(now) * inverse;
-    [e[(0, 0)] - 1.0, e[(1, 1)] - 1.0, e[(0, 1)]]
 }

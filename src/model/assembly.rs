@@ -99,11 +99,7 @@ impl Assembly {
 
     /// Makes an assembly of one cell on a domain of one's own, without terms. The drawn state has these coordinates: x,
     /// y and z of every vertex of the cell, then the shared ones. `cells` counts the cells that pictures show.
-    ///
-    /// # Errors
-    /// [`AssemblyError::NoLattice`] for a sheet without lattice, [`AssemblyError::NoCells`] if a number of cells is
-    /// zero, and [`AssemblyError::Coordinates`] for another number of them.
-    pub fn own_without_terms(
+    pub(crate) fn own_without_terms(
         sheet: Sheet,
         (domain, coordinates): (OwnDomain, Vec<f64>),
         cells: [usize; 2],

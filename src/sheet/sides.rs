@@ -13,9 +13,9 @@ pub(crate) fn sides<T: Copy>(polygon: &[T]) -> impl Iterator<Item = [T; 2]> {
 }
 
 /// Returns the number of polygons that have each side, by its ends in order.
-pub(crate) fn uses_of_sides(polygons: &[Vec<usize>]) -> BTreeMap<[usize; 2], usize> {
+pub(crate) fn uses_of_sides<P: AsRef<[usize]>>(polygons: &[P]) -> BTreeMap<[usize; 2], usize> {
     let mut uses = BTreeMap::new();
-    let sides = polygons.iter().flat_map(|polygon| sides(polygon));
+    let sides = polygons.iter().flat_map(|polygon| sides(polygon.as_ref()));
     sides.for_each(|side| *uses.entry(sorted(side)).or_default() += 1);
     uses
 }

@@ -10,12 +10,11 @@ use super::context::Context;
 use super::error::StudyError;
 use crate::analysis::restored::{self, Forces};
 use crate::model::{Configuration, Model};
-use crate::numerics::random::symmetric;
+use crate::numerics::random::numbers;
 use crate::output::vtk::{self, VtuMesh};
 use crate::scene::Located;
 use crate::scene::forms::{RandomStart, StartSpec};
 use crate::solver::Start;
-use rand::SeedableRng;
 
 /// Whether a study starts from the drawn state.
 pub(crate) fn is_drawn(start: Option<&Located<StartSpec>>) -> bool {
@@ -99,9 +98,9 @@ fn start_file(context: &Context<'_>, start: &Located<StartSpec>) -> Result<Optio
 /// Returns the unknowns of the drawn state, each displaced by a random amount up to the amplitude; the axis of a screw
 /// keeps its direction.
 fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
-    let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
     let amplitude = random.random.0;
-    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * symmetric(&mut numbers)).collect();
+    let x: Vec<f64> =
+        model.start().iter().zip(numbers(random.seed)).map(|(x, number)| x + amplitude * number).collect();
     let mut coordinates = model.coordinates(&x);
     if let Some(drawn) = model.domain().turns(&model.coordinates(&model.start())) {
         model.domain().point_axis(&mut coordinates, drawn.direction);

@@ -5,11 +5,9 @@ use super::library;
 use foldwell::analysis::relax::{RelaxError, RelaxOptions, Relaxed, relax_from};
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
-use foldwell::numerics::random::symmetric;
+use foldwell::numerics::random::numbers;
 use foldwell::sheet::{Sheet, SheetError, fold};
 use foldwell::solver::Problem;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 
 /// A patch of `meshes/open-star.fold` with rest angles.
 pub struct Star {
@@ -35,9 +33,7 @@ impl Star {
     /// None for the mesh of the repository.
     pub fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
-        let mut numbers = ChaCha8Rng::seed_from_u64(1);
-        let off = |angle: &mut f64| *angle += most * symmetric(&mut numbers);
-        star.rest.iter_mut().for_each(off);
+        star.rest.iter_mut().zip(numbers(1)).for_each(|(angle, number)| *angle += most * number);
         Ok(star)
     }
 

@@ -16,12 +16,10 @@ use super::kkt::{KktSystem, hessian_size, largest_weighted_entry};
 use super::linearization::Linearization;
 use foldwell_numerics::dense::Svd;
 use foldwell_numerics::factor::FactorError;
-use foldwell_numerics::random::symmetric;
+use foldwell_numerics::random::numbers;
 use foldwell_numerics::sparse::{Rows, symmetric_product};
 use foldwell_numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 use foldwell_numerics::{DenseMatrix, dense};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// Eigenvalues of `S` up to this, relative to its largest diagonal entry, may be zero: rounding errors of the sums in
 /// its entries are about as large.
@@ -157,7 +155,7 @@ pub(super) fn falling_motion(
 /// been factored at another state near by.
 pub(super) fn softest_falls(system: &mut KktSystem, at: &Linearization, compliance: &[f64]) -> bool {
     let mut motions = Motions::new(system, at, compliance, 0.0);
-    motions.answer(&mut ChaCha8Rng::seed_from_u64(SEED), SOFTEST_MOTIONS);
+    motions.answer(&mut numbers(SEED), SOFTEST_MOTIONS);
     motions.falling() > 0
 }
 
@@ -225,7 +223,7 @@ impl<'a> Motions<'a> {
     fn negative(&mut self, most: usize) -> usize {
         let unknowns = self.at.gradient.len();
         let enough = unknowns.min(MOTIONS_PER_EIGENVALUE * most + FURTHER_MOTIONS);
-        let (mut random, mut negative, mut barren) = (ChaCha8Rng::seed_from_u64(SEED), 0, 0);
+        let (mut random, mut negative, mut barren) = (numbers(SEED), 0, 0);
         while negative < most && self.found.len() < enough && barren < BARREN_FORCES {
             let before = self.found.len();
             self.answer(&mut random, MOTIONS_PER_FORCE);
@@ -239,8 +237,8 @@ impl<'a> Motions<'a> {
     }
 
     /// Adds up to this many motions to which a random force leads, each as a force on the next: ever softer ones.
-    fn answer(&mut self, random: &mut ChaCha8Rng, count: usize) {
-        let mut force: Vec<f64> = (0..self.at.gradient.len()).map(|_| symmetric(random)).collect();
+    fn answer(&mut self, random: &mut dyn Iterator<Item = f64>, count: usize) {
+        let mut force: Vec<f64> = random.take(self.at.gradient.len()).collect();
         for _ in 0..count {
             let Some(motion) = self.next_motion(&force) else { break };
             force.clone_from(&motion.dx);

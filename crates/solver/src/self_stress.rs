@@ -2,11 +2,9 @@
 
 use super::linearization::Linearization;
 use super::problem::Problem;
-use foldwell_numerics::random::symmetric;
+use foldwell_numerics::random::numbers;
 use foldwell_numerics::rank;
 use foldwell_numerics::sparse::{Cliques, Rows};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// Singular values of the stiff Jacobian below this, relative to its largest entry, count as zero.
 const ZERO_SINGULAR_VALUE: f64 = 1e-6;
@@ -40,13 +38,11 @@ pub(crate) fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, t
 /// One of the self stresses of the rigid measures, taken at random, as large as these tensions of theirs; `None` if they
 /// have no self stress, or the tensions are zero.
 pub fn self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
-    let (mut random, compliance) = (ChaCha8Rng::seed_from_u64(SEED), problem.compliance());
-    let size = |of: &[f64]| {
-        let rigid = (0..of.len()).filter(|&row| compliance[row] == 0.0);
-        rigid.map(|row| (of[row] * at.sizes[row]).powi(2)).sum::<f64>().sqrt()
-    };
-    let rigid = (0..compliance.len()).map(|row| (compliance[row] == 0.0, at.sizes[row]));
-    let any: Vec<f64> = rigid.map(|(rigid, size)| if rigid { symmetric(&mut random) / size } else { 0.0 }).collect();
+    let compliance = problem.compliance();
+    let rigid = || (0..compliance.len()).filter(|&row| compliance[row] == 0.0);
+    let size = |of: &[f64]| rigid().map(|row| (of[row] * at.sizes[row]).powi(2)).sum::<f64>().sqrt();
+    let mut any = vec![0.0; compliance.len()];
+    rigid().zip(numbers(SEED)).for_each(|(row, number)| any[row] = number / at.sizes[row]);
     let least = without_self_stress(problem, at, &any)?;
     let stress: Vec<f64> = any.iter().zip(&least).map(|(any, least)| any - least).collect();
     let scale = size(tension) / size(&stress);

@@ -211,10 +211,7 @@ impl StripModes {
     }
 
     /// The zero modes that have most of their squared amplitude in some cells, by themselves.
-    ///
-    /// # Errors
-    /// [`BlochError`] where a decomposition fails.
-    pub fn bound_to(&self, cells: Range<usize>) -> Result<Self, BlochError> {
+    pub(crate) fn bound_to(&self, cells: Range<usize>) -> Result<Self, BlochError> {
         let part = self.modes.rows(cells.start * self.width, cells.len() * self.width).into_owned();
         let ComplexSvd { singular_values, v, .. } = complex_svd(&(part.adjoint() * part))?;
         let count = singular_values.iter().filter(|value| **value > MAJORITY).count();

@@ -14,7 +14,7 @@ mod arc;
 mod line;
 mod region;
 
-use super::extrema::{Hidden, hidden};
+use super::extrema::hidden;
 use super::laurent::wavenumber;
 use super::singular::Search;
 use super::touching::touched;
@@ -150,14 +150,18 @@ impl<'a> Tracer<'a> {
         for a in 0..2 {
             for k in 0..GRID * GRID {
                 if self.changes(a, k) && self.crossings[a][k] == 0 {
-                    let arc = self.closed(self.start_on(a, k), self.longest)?;
+                    let low = [wavenumber(k % GRID, GRID), wavenumber(k / GRID, GRID)];
+                    let mut high = low;
+                    high[a] += TAU / GRID as f64;
+                    let start = self.zero_between([low, high], self.positive[k]);
+                    let arc = self.closed(start, self.longest)?;
                     self.count(&arc.points);
                     lines.push(line(arc.points, 0, arc.residual));
                 }
             }
         }
         for hidden in hidden(self.zone, GRID, &self.positive, &self.steepness) {
-            let start = self.start_beside(&hidden);
+            let start = self.zero_between([hidden.extremum, hidden.outside], hidden.positive);
             if !lines.iter().any(|line| contains(line, start)) {
                 let radius = norm([0, 1].map(|a| start[a] - hidden.extremum[a]));
                 let arc = self.closed(start, self.longest.min(0.3 * radius))?;
@@ -178,27 +182,11 @@ impl<'a> Tracer<'a> {
         self.positive[k] != self.positive[next(a, k)]
     }
 
-    /// The zero on an edge of the grid whose ends differ in sign, by bisection.
-    fn start_on(&self, a: usize, k: usize) -> [f64; 2] {
-        let low = [wavenumber(k % GRID, GRID), wavenumber(k / GRID, GRID)];
-        let (mut inside, mut step) = (low, TAU / GRID as f64);
-        for _ in 0..50 {
-            step *= 0.5;
-            let mut middle = inside;
-            middle[a] += step;
-            if (self.zone.at(middle).0 > 0.0) == self.positive[k] {
-                inside = middle;
-            }
-        }
-        inside
-    }
-
-    /// The zero between an extremum and a point of the grid where the determinant has the other sign, by bisection.
-    fn start_beside(&self, hidden: &Hidden) -> [f64; 2] {
-        let [mut inside, mut outside] = [hidden.extremum, hidden.outside];
+    /// The zero between a point where the determinant has this sign and one where it has the other, by bisection.
+    fn zero_between(&self, [mut inside, mut outside]: [[f64; 2]; 2], positive: bool) -> [f64; 2] {
         for _ in 0..60 {
             let middle = [0, 1].map(|a| 0.5 * (inside[a] + outside[a]));
-            let end = if (self.zone.at(middle).0 > 0.0) == hidden.positive { &mut inside } else { &mut outside };
+            let end = if (self.zone.at(middle).0 > 0.0) == positive { &mut inside } else { &mut outside };
             *end = middle;
         }
         inside

@@ -92,11 +92,7 @@ fn of_unknowns(model: &Model, masses: &[f64]) -> Result<Vec<f64>, ModesError> {
 }
 
 /// Checks that every coordinate of an assembly is one of a vertex that has a mass, or of a rigid part.
-///
-/// # Errors
-/// [`ModesError::NoMassMatrix`] where lattice vectors or the turns of a cylinder are coordinates, and
-/// [`ModesError::Massless`] where a vertex has no mass.
-pub fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
+pub(crate) fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
     let of = match assembly.domain() {
         Domain::Patch | Domain::FixedTorus(_) => None,
         Domain::FreeTorus => Some("the vectors of a free lattice"),

@@ -99,6 +99,16 @@ impl<'a> Run<'a> {
         self.recorder.minimize(&mut self.model, start, self.options)
     }
 
+    /// Does something while all bars, or the rigid ones alone, have at most this stiffness over that of the softest hinge.
+    pub(super) fn with_soft_bars<T>(&mut self, ratio: f64, only_rigid: bool, go: impl FnOnce(&mut Self) -> T) -> T {
+        let first = if self.soft_steps.is_empty() { self.recorder.steps() } else { self.soft_steps.start };
+        self.model.limit_bars(ratio * self.model.softest_hinge(), only_rigid);
+        let found = go(self);
+        self.model.limit_bars(f64::INFINITY, only_rigid);
+        self.soft_steps = first..self.recorder.steps();
+        found
+    }
+
     /// Goes back to the start. Returns its unknowns.
     pub(super) fn begin_anew(&mut self) -> Vec<f64> {
         self.model.enter(&self.start).x

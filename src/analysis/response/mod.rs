@@ -43,7 +43,7 @@ mod tensors;
 
 pub use error::ResponseError;
 pub use mode::{Field, LinearMode, ModeTable};
-pub use moduli::{Moduli, ModuliOf};
+pub use moduli::{Moduli, ModuliOf, moduli_at};
 pub use moduli_matrices::{ModuliMatrices, Principal};
 pub use poisson::{Poisson, Relation};
 pub use result::{LatticeMotions, Response};
@@ -114,10 +114,11 @@ fn rigid_terms(assembly: &Assembly) -> Terms {
 ///
 /// The argument `bending` says which modes are meant: if it is true, all polygons bend and locks are released;
 /// otherwise rigid polygons and locks keep their angles.
-///
-/// # Errors
-/// As [`response_at`].
-pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Result<[Option<f64>; 2], ResponseError> {
+pub(crate) fn ratios_at(
+    assembly: &Assembly,
+    coordinates: &[f64],
+    bending: bool,
+) -> Result<[Option<f64>; 2], ResponseError> {
     let locks = if bending { vec![] } else { rigid_terms(assembly).locks };
     let free = assembly.with_terms(Terms { locks, bars: Some(RIGID.into()), ..Terms::default() });
     let Some(cell) = PeriodicCell::of_state(&free, coordinates, free.model(Gauge::Free))? else {
@@ -125,14 +126,6 @@ pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Res
     };
     let found = periodic::modes_of(&free, &cell)?;
     Ok([found.poisson.in_plane.ratio(0.0).ok(), found.poisson.bending.ratio(0.0).ok()])
-}
-
-/// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
-///
-/// # Errors
-/// [`ResponseError`] as [`response_at`].
-pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
-    moduli::moduli_of(assembly, state)
 }
 
 /// Finds the effective moduli of the drawn state; see [`moduli_at`].

@@ -71,8 +71,11 @@ impl ModuliOf {
     }
 }
 
-/// Finds the moduli of a state.
-pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
+/// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
+///
+/// # Errors
+/// [`ResponseError`] for one that is not periodic, or whose cells differ, and where a decomposition fails.
+pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
     if assembly.terms().bars.is_none() {
         return Ok(ModuliOf::NoBars);
     }

@@ -12,7 +12,7 @@ use super::tip::periodic_near;
 use crate::kinematics::{Closure, Embedding, SecondOrder};
 use crate::model::Assembly;
 use crate::numerics::dense::{full_svd, null_space, rank_at_largest_gap};
-use std::collections::BTreeSet;
+use crate::sheet::sides::uses_of_sides;
 
 /// Distance over which slopes are compared first, and at which the energy beside the curve is asked.
 const ASIDE: f64 = 1e-3;
@@ -38,8 +38,6 @@ pub struct Lowest {
 
 /// The states of the curve on the edges of a triangulation that go over it.
 pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triangles: &[[usize; 3]]) -> Vec<Seam> {
-    let edges: BTreeSet<[usize; 2]> =
-        triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).map(|[a, b]| [a.min(b), a.max(b)]).collect();
     let on_edge = |between: [usize; 2]| {
         let [a, b] = between.map(|k| &points[k]);
         let [from, to] = [a, b].map(|point| point.shape.screw.towards_axis());
@@ -52,7 +50,7 @@ pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triang
         let x = periodic_near(folding, folding.folding(&middle))?;
         Some(Seam { angles: folding.all(&x), between })
     };
-    edges.into_iter().filter_map(on_edge).collect()
+    uses_of_sides(triangles).into_keys().filter_map(on_edge).collect()
 }
 
 impl Surface {

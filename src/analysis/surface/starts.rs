@@ -14,6 +14,7 @@ use super::{Negative, SurfaceError, SurfaceOptions};
 use crate::kinematics::{KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
+use crate::sheet::pieces;
 use crate::solver::atlas::{Atlas, Surface as _};
 use crate::solver::continuation::{CurveOptions, Point, follow};
 use nalgebra::DVector;
@@ -185,38 +186,13 @@ fn on_sections(second_order: &SecondOrder) -> Result<(Vec<Direction>, usize), Su
 /// Branch and sign of every start. Starts on one line through the drawn state, and on one piece of the surface, have
 /// one number.
 pub(super) fn branches(atlas: &Atlas, starts: &[SurfaceStart]) -> Vec<(usize, i8)> {
-    let mut piece = pieces(atlas, starts.len());
-    for (k, start) in starts.iter().enumerate() {
-        for opposite in (0..k).filter(|&other| starts[other].line == start.line) {
-            join(&mut piece, opposite, k);
-        }
-    }
-    let mut seen: Vec<usize> = Vec::new();
-    let numbers = piece.iter().map(|piece| {
-        seen.iter().position(|other| other == piece).unwrap_or_else(|| {
-            seen.push(*piece);
-            seen.len() - 1
-        })
-    });
-    numbers.collect::<Vec<_>>().into_iter().zip(starts).map(|(number, start)| (number, start.sign)).collect()
-}
-
-/// Gives the classes of two members one number.
-fn join(class: &mut [usize], a: usize, b: usize) {
-    let (one, two) = (class[a], class[b]);
-    class.iter_mut().filter(|number| **number == two).for_each(|number| *number = one);
-}
-
-/// For each start a number that it shares with the starts on the same piece.
-fn pieces(atlas: &Atlas, starts: usize) -> Vec<usize> {
-    let mut piece: Vec<usize> = (0..starts).collect();
-    for (start, other) in atlas.reached.iter().enumerate() {
-        other.iter().for_each(|other| join(&mut piece, *other, start));
-    }
-    for [a, b, c] in &atlas.triangles {
-        for other in [b, c] {
-            join(&mut piece, atlas.charts[*a].start, atlas.charts[*other].start);
-        }
-    }
-    piece
+    let reached = atlas.reached.iter().enumerate().filter_map(|(start, other)| Some([(*other)?, start]));
+    let sides =
+        atlas.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [a, c]]).map(|side| side.map(|k| atlas.charts[k].start));
+    let on_line =
+        |k: usize| (0..k).filter(move |&other| starts[other].line == starts[k].line).map(move |other| [other, k]);
+    let joined = reached.chain(sides).chain((0..starts.len()).flat_map(on_line));
+    let pieces = pieces(starts.len(), joined, 0..starts.len());
+    let number = |k: usize| pieces.iter().position(|piece| piece.contains(&k)).unwrap_or(0);
+    starts.iter().enumerate().map(|(k, start)| (number(k), start.sign)).collect()
 }

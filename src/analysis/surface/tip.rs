@@ -8,7 +8,7 @@
 use super::folding::SurfaceClosure;
 use crate::numerics::root::Search;
 use crate::numerics::vector::distance;
-use crate::sheet::sides::open_sides;
+use crate::sheet::sides::{open_sides, uses_of_sides};
 use crate::solver::atlas::{Atlas, Chart};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -75,11 +75,7 @@ fn off_limit(chart: &Chart) -> bool {
 
 /// The corners of edges that have one triangle.
 fn border(triangles: &[[usize; 3]]) -> BTreeSet<usize> {
-    let mut count: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for [a, b] in triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]) {
-        *count.entry([a.min(b), a.max(b)]).or_default() += 1;
-    }
-    count.into_iter().filter(|&(_, triangles)| triangles == 1).flat_map(|(edge, _)| edge).collect()
+    uses_of_sides(triangles).into_iter().filter(|&(_, uses)| uses == 1).flat_map(|(edge, _)| edge).collect()
 }
 
 /// The spatially periodic state within a rim, as a chart without extent.

@@ -28,35 +28,20 @@ pub struct Well {
 
 /// The translations of a torus that its energy does not feel, each as the edge to which every edge of the tiling goes;
 /// elsewhere only the one that moves nothing.
-#[derive(Clone, Debug)]
-pub struct Translations(Vec<Vec<usize>>);
-
-impl Translations {
-    /// Of a sheet.
-    pub fn new(assembly: &Assembly) -> Self {
-        let tiling = assembly.tiling();
-        if !tiling.periodic {
-            return Self(vec![(0..tiling.edges.len()).collect()]);
-        }
-        let number: HashMap<(usize, [usize; 2]), usize> =
-            tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
-        let [n1, n2] = tiling.cells;
-        let shifts = (0..n2).flat_map(|m2| (0..n1).map(move |m1| [m1, m2]));
-        let moved = |[m1, m2]: [usize; 2]| -> Vec<usize> {
-            let to = |[c1, c2]: [usize; 2]| [(c1 + m1) % n1, (c2 + m2) % n2];
-            tiling.edges.iter().map(|edge| number[&(edge.edge, to(edge.cell))]).collect()
-        };
-        Self(shifts.map(moved).filter(|moved| unfelt(assembly, moved)).collect())
+fn translations(assembly: &Assembly) -> Vec<Vec<usize>> {
+    let tiling = assembly.tiling();
+    if !tiling.periodic {
+        return vec![(0..tiling.edges.len()).collect()];
     }
-
-    /// Smallest over the translations of the largest difference of two lists of fold angles of all edges.
-    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        let differ = |moved: &Vec<usize>| {
-            let differences = a.iter().zip(moved).map(|(a, &to)| (a - b[to]).abs()).filter(|d| !d.is_nan());
-            differences.fold(0.0, f64::max)
-        };
-        self.0.iter().map(differ).fold(f64::INFINITY, f64::min)
-    }
+    let number: HashMap<(usize, [usize; 2]), usize> =
+        tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
+    let [n1, n2] = tiling.cells;
+    let shifts = (0..n2).flat_map(|m2| (0..n1).map(move |m1| [m1, m2]));
+    let moved = |[m1, m2]: [usize; 2]| -> Vec<usize> {
+        let to = |[c1, c2]: [usize; 2]| [(c1 + m1) % n1, (c2 + m2) % n2];
+        tiling.edges.iter().map(|edge| number[&(edge.edge, to(edge.cell))]).collect()
+    };
+    shifts.map(moved).filter(|moved| unfelt(assembly, moved)).collect()
 }
 
 /// Whether stiffnesses, rest angles and locks go over into themselves.
@@ -85,19 +70,28 @@ fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
 /// A test of whether two states are the same well.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    translations: Translations,
+    translations: Vec<Vec<usize>>,
     placement: Option<Placement>,
 }
 
 impl Comparison {
     /// Prepares the test for the states of a sheet.
     pub fn new(assembly: &Assembly) -> Self {
-        Self { translations: Translations::new(assembly), placement: Placement::new(assembly) }
+        Self { translations: translations(assembly), placement: Placement::new(assembly) }
+    }
+
+    /// Smallest over the translations of the largest difference of two lists of fold angles of all edges.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let differ = |moved: &Vec<usize>| {
+            let differences = a.iter().zip(moved).map(|(a, &to)| (a - b[to]).abs()).filter(|d| !d.is_nan());
+            differences.fold(0.0, f64::max)
+        };
+        self.translations.iter().map(differ).fold(f64::INFINITY, f64::min)
     }
 
     /// Whether two states are one.
     fn same(&self, a: &State, b: &State) -> bool {
-        self.translations.distance(&a.fold_angle, &b.fold_angle) <= SAME_WELL_ANGLE_RAD
+        self.distance(&a.fold_angle, &b.fold_angle) <= SAME_WELL_ANGLE_RAD
             && self.placement.as_ref().is_none_or(|placement| placement.leads(&a.coordinates, &b.coordinates))
     }
 }

@@ -7,10 +7,8 @@
 //! it belongs.
 
 use super::settle::{MinimumTracker, Settled};
-use crate::numerics::random::symmetric;
+use crate::numerics::random::numbers;
 use crate::solver::{Failure, Options, Step};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
 /// Strength with which states of the row are held: the step of the descent is one over it.
@@ -70,8 +68,7 @@ fn sideways(settler: &MinimumTracker, [from, to]: [&Settled; 2], bend: u64) -> V
     if bend == 0 {
         return nothing;
     }
-    let mut numbers = ChaCha8Rng::seed_from_u64(bend);
-    let random: Vec<f64> = nothing.iter().map(|_| symmetric(&mut numbers)).collect();
+    let random: Vec<f64> = numbers(bend).take(nothing.len()).collect();
     let size = BENT * distance(settler, &from.rho, &to.rho) / distance(settler, &random, &nothing);
     random.into_iter().map(|turn| size * turn).collect()
 }

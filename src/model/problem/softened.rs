@@ -16,18 +16,13 @@ impl Model {
         self.stiff_of(TermKind::Bars).any(|(_, bar)| bar.spring.stiffness * bar.spring.rest > stiffness)
     }
 
-    /// Gives all bars at most this stiffness `EA`, a force; infinity gives them their own again.
-    pub(crate) fn limit_bars(&mut self, stiffness: f64) {
+    /// Gives all bars, or the rigid ones alone, at most this stiffness `EA`, a force; infinity gives them their own again.
+    pub(crate) fn limit_bars(&mut self, stiffness: f64, only_rigid: bool) {
         let springs: Vec<_> = self.stiff_of(TermKind::Bars).map(|(measure, bar)| (measure, bar.spring)).collect();
-        for (measure, Spring { stiffness: own, rest }) in springs {
+        let limited = |(_, spring): &(usize, Spring)| !only_rigid || spring.stiffness.is_infinite();
+        for (measure, Spring { stiffness: own, rest }) in springs.into_iter().filter(limited) {
             self.compliance[measure] = own.recip().max(rest / stiffness);
         }
-    }
-
-    /// Gives the rigid bars this stiffness `EA`, a force; infinity makes them rigid again.
-    pub(crate) fn soften_rigid_bars(&mut self, stiffness: f64) {
-        let lengths: Vec<(usize, f64)> = self.rigid_bars().collect();
-        lengths.into_iter().for_each(|(measure, length)| self.compliance[measure] = length / stiffness);
     }
 
     /// Returns the number among the stiff measures and the compliance of each bar that stretches.

@@ -6,7 +6,7 @@ use approx::assert_abs_diff_eq;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::wells::barrier::{Barrier, barrier};
 use foldwell::analysis::wells::limit::{Height, rigid_limit};
-use foldwell::analysis::wells::merge::{Comparison, Translations, Well, wells};
+use foldwell::analysis::wells::merge::{Comparison, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
 use foldwell::analysis::wells::settle::MinimumTracker;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
@@ -385,7 +385,7 @@ fn translations_are_not_told_apart() {
         .collect();
     let distance = |rest: Vec<f64>| {
         let terms = Terms::bars_and_creases(1e3, 1.0, rest);
-        Translations::new(&case.with_terms(terms.clone())).distance(&angles, &moved)
+        Comparison::new(&case.with_terms(terms.clone())).distance(&angles, &moved)
     };
     assert!(common::distance(&angles, &moved) > 0.1);
     assert_eq!(distance(case.rest_per_cell(0.1, 1)), 0.0);
@@ -397,7 +397,7 @@ fn translations_are_not_told_apart() {
         };
         let creases = Hinges { stiffness: stiffer(1.0, crease).into(), rest: case.rest_per_cell(0.1, 1) };
         let terms = Terms { bars: Some(stiffer(1e3, bar).into()), creases: Some(creases), ..Terms::default() };
-        assert!(Translations::new(&case.with_terms(terms)).distance(&angles, &moved) > 0.1, "{bar} {crease}");
+        assert!(Comparison::new(&case.with_terms(terms)).distance(&angles, &moved) > 0.1, "{bar} {crease}");
     }
 }
 

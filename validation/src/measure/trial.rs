@@ -5,12 +5,10 @@ use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::state::State;
 use foldwell::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
-use foldwell::numerics::random::symmetric;
+use foldwell::numerics::random::numbers;
 use foldwell::numerics::{larger, worst};
 use foldwell::sheet::Sheet;
 use foldwell::solver::Options;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
@@ -108,8 +106,7 @@ impl Trial {
     }
 
     fn rest_angles(&self, assembly: &Assembly) -> Vec<f64> {
-        let mut numbers = ChaCha8Rng::seed_from_u64(SEED);
-        assembly.drawn_angles().iter().map(|angle| angle + self.off * symmetric(&mut numbers)).collect()
+        assembly.drawn_angles().iter().zip(numbers(SEED)).map(|(angle, number)| angle + self.off * number).collect()
     }
 
     /// For rigid bars, checks that the state agrees with the exact kinematics to `allowed` radians or, without exact

@@ -7,10 +7,8 @@ use super::retraction::START_GAP;
 use crate::linearization::{HessianKind, missing};
 use crate::problem::Problem;
 use crate::self_stress::self_stresses;
-use foldwell_numerics::random::symmetric;
+use foldwell_numerics::random::numbers;
 use foldwell_numerics::vector::{larger, max_abs, moved};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// Scaled force below which the inertia of a state is that of the minimum next to it, but for eigenvalues near zero.
 const FORCE_NEAR_MINIMUM: f64 = 1e-4;
@@ -93,8 +91,7 @@ impl<P: Problem> Newton<'_, P> {
             return true;
         }
         let (at, system) = (&self.tangent.at, &mut self.tangent.system);
-        let mut random = ChaCha8Rng::seed_from_u64(SEED);
-        let stretch: Vec<f64> = at.sizes.iter().map(|size| symmetric(&mut random) * size).collect();
+        let stretch: Vec<f64> = at.sizes.iter().zip(numbers(SEED)).map(|(size, number)| number * size).collect();
         let reached = SELF_STRESS_PART / (rigid as f64).sqrt();
         system.unreachable_part(at, &stretch, reached) <= reached
     }

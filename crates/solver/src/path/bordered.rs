@@ -19,11 +19,9 @@ use crate::linearization::{HessianKind, Linearization};
 use foldwell_numerics::DenseMatrix;
 use foldwell_numerics::dense::small::solve_square;
 use foldwell_numerics::factor::{FactorError, Inertia};
-use foldwell_numerics::random::symmetric;
+use foldwell_numerics::random::numbers;
 use foldwell_numerics::sparse::symmetric_product;
 use foldwell_numerics::vector::{add_scaled, dot, max_abs, moved, norm_blocked};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// Relative residual to which bordered systems are solved, and the one above which a solution is not used.
 const WANTED_RESIDUAL: f64 = 1e-12;
@@ -181,8 +179,7 @@ impl Bordered {
     /// Whether forces balance with other tensions too, so that rigid measures have a self stress: with those that the
     /// system finds when it begins with a part of these, taken at random.
     pub fn has_self_stress(&mut self, tension: &[f64]) -> bool {
-        let mut random = ChaCha8Rng::seed_from_u64(SEED);
-        let others: Vec<f64> = tension.iter().map(|tension| tension * symmetric(&mut random)).collect();
+        let others: Vec<f64> = tension.iter().zip(numbers(SEED)).map(|(tension, number)| tension * number).collect();
         let (force, missing) = (self.at.force(&others), self.at.missing(&others, &self.compliance));
         let found = moved(&others, 1.0, &self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt);
         norm_blocked(&moved(&found, -1.0, tension)) > SELF_STRESS * norm_blocked(tension)

@@ -10,10 +10,8 @@ use super::corrector::Guess;
 use super::follower::Follower;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState, Rates};
-use foldwell_numerics::random::symmetric;
+use foldwell_numerics::random::numbers;
 use foldwell_numerics::vector::add_scaled;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// Distance from the branch point at which a state of another branch is sought, relative to the longest step, and the
 /// number of halves tried.
@@ -26,8 +24,8 @@ const LEAST_ACROSS: f64 = 1e-3;
 
 /// Random vectors of this many numbers, the same whenever they are asked for.
 pub(super) fn guesses(unknowns: usize) -> impl Iterator<Item = Vec<f64>> {
-    let mut numbers = ChaCha8Rng::seed_from_u64(SEED);
-    std::iter::repeat_with(move || (0..unknowns).map(|_| symmetric(&mut numbers)).collect())
+    let mut numbers = numbers(SEED);
+    std::iter::repeat_with(move || numbers.by_ref().take(unknowns).collect())
 }
 
 /// The first states of the branches that leave at a branch point, each with the reference of the problem there.

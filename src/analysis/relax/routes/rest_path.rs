@@ -44,12 +44,8 @@ fn followed(run: &mut Run<'_>) -> Option<Ending> {
         return as_they_are;
     }
     let stiffness = SOFT_RATIO * run.model.softest_hinge();
-    let first = run.recorder.steps();
-    run.model.soften_rigid_bars(stiffness);
-    let soft = along_rests(run);
-    run.model.soften_rigid_bars(f64::INFINITY);
-    run.soft_steps = first..run.recorder.steps();
-    match soft? {
+    run.soft_steps = 0..0;
+    match run.with_soft_bars(SOFT_RATIO, true, along_rests)? {
         Ok(found) => {
             let bars: Vec<(usize, f64)> = run.model.rigid_bars().collect();
             along(run, &|model| DrivenModel::by_compliance(model, bars.clone(), [stiffness.recip(), 0.0]), found)

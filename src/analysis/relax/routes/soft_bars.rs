@@ -174,13 +174,10 @@ fn with_soft_bars(
     (coordinates, tension): (&[f64], Option<&Vec<f64>>),
     options: Options,
 ) -> Ending {
-    let first = if run.soft_steps.is_empty() { run.recorder.steps() } else { run.soft_steps.start };
-    run.model.limit_bars(ratio * run.model.softest_hinge());
-    let x = run.model.start_from(coordinates.to_vec());
-    let reached = run.recorder.minimize(&mut run.model, Start { x, tension: tension.cloned() }, options);
-    run.model.limit_bars(f64::INFINITY);
-    run.soft_steps = first..run.recorder.steps();
-    reached
+    run.with_soft_bars(ratio, false, |run| {
+        let x = run.model.start_from(coordinates.to_vec());
+        run.recorder.minimize(&mut run.model, Start { x, tension: tension.cloned() }, options)
+    })
 }
 
 /// Follows a state of soft bars, from which that of rigid ones was not reached, or not without doubt, while the bars

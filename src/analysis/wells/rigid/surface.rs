@@ -5,8 +5,9 @@ use super::{Net, RigidError, Sampling};
 use crate::analysis::surface::{Seam, Surface, SurfaceOptions, on_surface};
 use crate::model::Assembly;
 use crate::numerics::vector::distance;
+use crate::sheet::sides::uses_of_sides;
 use crate::solver::atlas::Coverage;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// Bound on the closure residual.
@@ -109,12 +110,7 @@ pub(super) fn net(
         Coverage::Complete => {}
         Coverage::Open { charts } => open += charts,
     }
-    let mut count: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for &[a, b, c] in &triangles {
-        for [a, b] in [[a, b], [b, c], [c, a]] {
-            *count.entry([a.min(b), a.max(b)]).or_default() += 1;
-        }
-    }
+    let count = uses_of_sides(&triangles);
     let at_limit = |at: usize| !(points[at].shape.curvature.abs() < (1.0 - AT_LIMIT) * sampling.max_curvature);
     let mut nodes = Nodes::new(points.iter().map(|point| &point.angles), extent);
     let mut border = vec![false; nodes.angles.len()];
