@@ -16,7 +16,7 @@ mod vibrations;
 use super::restored::{self, Forces};
 use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::{Assembly, Bars, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
-use crate::sheet::{Corner, Site, Tiling, pieces};
+use crate::sheet::{Tiling, pieces};
 use crate::solver::{Problem, Start};
 pub use buckling::{Buckling, buckling};
 pub use error::{ModesError, SPARSE_EIGENVALUES};
@@ -183,15 +183,8 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     if !assembly.sheet().is_surface() || !assembly.terms().parts.is_empty() {
         return Ok(None);
     }
-    let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
-    let hinged: Vec<HingedEdge> = tiling
-        .edges
-        .iter()
-        .map(|edge| HingedEdge { ends: edge.ends.map(corner), wings: edge.wings.map(|wing| wing.map(corner)) })
-        .collect();
-    let at =
-        |corner: Corner| state.domain.point(&state.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
-    let closure = Closure::of_edges(&hinged, at)?;
+    let hinged: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
+    let closure = Closure::of_edges(&hinged, |site| state.domain.point(&state.coordinates, site))?;
     let tube = matches!(assembly.domain(), Domain::Tube { .. } | Domain::Own(_));
     let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {

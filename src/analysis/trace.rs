@@ -16,7 +16,7 @@ use crate::kinematics::{Closing, Closure, Embedding, Ray, RealDirections, Spatia
 use crate::model::Assembly;
 use crate::solver::continuation::{CurveOptions, End, Event, Point, Trajectory, follow};
 pub(crate) use curve::TURNING;
-use curve::{CLOSED, CREASE_ANGLE, CURVATURE, INTERSECTION, TracedClosure};
+use curve::{CLOSED, CREASE_ANGLE, CURVATURE, INTERSECTION, Watched};
 pub use error::TraceError;
 use start::Start;
 pub(crate) use state::Intersects;
@@ -86,13 +86,12 @@ pub fn trace(
     let condition = found.tube.as_ref().map(|(tube, kept)| tube.keeping(*kept));
     let closing = Closing::new(&closure, found.angles.clone());
     let planar = SpatiallyPeriodic(&embedding);
-    let closing = match &condition {
+    let mut closing = match &condition {
         Some(condition) => closing.keeping(condition),
         None if found.planar => closing.keeping(&planar),
         None => closing,
     };
-    let mut folding = TracedClosure {
-        closing,
+    let mut watched = Watched {
         embedding: &embedding,
         periodic: assembly.domain().is_one_cell(),
         starts_straight: condition.is_none(),
@@ -106,14 +105,14 @@ pub fn trace(
         intersects,
         crosses: false,
     };
-    folding.look_at_start(folding.closing.folding(&found.angles));
-    if folding.crosses && options.stop.self_intersection {
+    watched.look_at_start(&closing, closing.folding(&found.angles));
+    if watched.crosses && options.stop.self_intersection {
         return Err(TraceError::CrossesAlready);
     }
     let wanted = found.rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
-        let one = along(&mut folding, options, (ray, &found), observe);
+        let one = along((&mut closing, &mut watched), options, (ray, &found), observe);
         let interrupted = one.end == End::Interrupted;
         traced.push(one);
         if interrupted {
@@ -125,14 +124,14 @@ pub fn trace(
 
 /// The trajectory along one ray.
 fn along(
-    folding: &mut TracedClosure<'_, '_>,
+    (closing, watched): (&mut Closing<'_>, &mut Watched<'_, '_>),
     options: &TraceOptions,
     (ray, all): (&Ray, &Start<'_>),
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Traced {
     let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
-    let start = folding.closing.folding(&all.angles);
-    let leaving = folding.closing.folding(&ray.direction);
+    let start = closing.folding(&all.angles);
+    let leaving = closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];
     stops.extend(options.stop.self_intersection.then_some(INTERSECTION));
     let options = CurveOptions {
@@ -143,16 +142,18 @@ fn along(
         stops,
         ..CurveOptions::default()
     };
-    folding.known.clear();
-    let found = follow(folding, start, leaving, &options, &mut |point| observe(branch, point));
+    watched.known.clear();
+    let mut indicators =
+        |closing: &mut Closing<'_>, point: &Point, out: &mut Vec<f64>| watched.indicators(closing, point, out);
+    let found = follow(closing, start, leaving, &options, &mut indicators, &mut |point| observe(branch, point));
     let Trajectory { points, events, mut end } = found;
-    let states = folding.states(&points, &mut || observe(branch, &points[0]));
+    let states = watched.states(closing, &points, &mut || observe(branch, &points[0]));
     if states.len() < points.len() {
         end = End::Interrupted;
     }
     let ends_at = match &end {
         End::Closed(back) => {
-            let along = rays.iter().find(|ray| back.is_against(&folding.closing.folding(&ray.direction)));
+            let along = rays.iter().find(|ray| back.is_against(&closing.folding(&ray.direction)));
             along.map(|ray| (ray.branch, ray.sign))
         }
         _ => None,
@@ -160,13 +161,13 @@ fn along(
     let ends_at_start = matches!(end, End::Closed(_));
     let first_self_intersection = match (&end, points.last(), crossing(&events)) {
         (End::Stopped { indicator: INTERSECTION }, Some(last), None) => Some(last.arc_length),
-        (_, _, found) => found.filter(|_| !folding.crosses).or(folding.crosses.then_some(0.0)),
+        (_, _, found) => found.filter(|_| !watched.crosses).or(watched.crosses.then_some(0.0)),
     };
     let turning = |event: &&Event| event.indicator < TURNING.len();
     let length = points.last().map_or(0.0, |last| last.arc_length);
     let back = |event: &Event| ends_at_start && event.point.arc_length > length - AT_START;
     let closed = |event: &&Event| event.indicator == CLOSED && !back(event);
-    let mut at = |event: &Event| folding.folded(&event.point);
+    let mut at = |event: &Event| watched.folded(closing, &event.point);
     Traced {
         branch,
         directions: all.directions,

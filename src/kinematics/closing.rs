@@ -4,7 +4,6 @@ use super::{Closure, Displacement, Embedding};
 use crate::math::rotation;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
-use crate::solver::continuation::Curve;
 
 /// Further equations on fold angles, such as one of the conditions on a [tube](super::tube).
 pub trait AngleConditions {
@@ -110,6 +109,3 @@ impl Implicit for Closing<'_> {
         folding.iter().enumerate().for_each(|(column, &edge)| rates.set_column(column, &kept.rates.column(edge)));
     }
 }
-
-/// A one-parameter family of solutions, followed without indicators, if folding has one degree of freedom.
-impl Curve for Closing<'_> {}

@@ -29,7 +29,7 @@ use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::numerics::root::Search;
 use crate::sheet::{Seam, Sheet};
-use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, Watched, follow};
+use crate::solver::continuation::{CurveOptions, End, Trajectory, follow};
 use nalgebra::DVector;
 use std::f64::consts::TAU;
 
@@ -164,7 +164,15 @@ impl<'a> Tube<'a> {
         let options = CurveOptions { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
         let start = self.embedding.drawn_angles().to_vec();
         let kept = self.keeping(Condition::Rise);
-        let found = follow(&mut kept.curve(&start), start.clone(), ray, &options, &mut |_| true);
+        let mut curve = Closing::new(&self.closure, start.clone()).keeping(&kept);
+        let found = follow(
+            &mut curve,
+            start,
+            ray,
+            &options,
+            &mut |_, point, out| out.push(self.defects(&point.x)[Condition::Turn as usize]),
+            &mut |_| true,
+        );
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
         let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };
@@ -215,7 +223,8 @@ impl<'a> Tube<'a> {
         let growing = self.growing(tube, Condition::Turn, motions.as_slice());
         let tangent = growing.into_iter().map(|rate| sign * rate).collect();
         let (options, kept) = (CurveOptions { length, ..CurveOptions::default() }, self.keeping(Condition::Turn));
-        Ok(follow(&mut kept.curve(tube), tube.to_vec(), tangent, &options, &mut |_| true))
+        let mut curve = Closing::new(&self.closure, tube.to_vec()).keeping(&kept);
+        Ok(follow(&mut curve, tube.to_vec(), tangent, &options, &mut |_, _, _| {}, &mut |_| true))
     }
 
     /// Returns one of the conditions as an equation.
@@ -314,17 +323,6 @@ fn turning(moving: &Moving) -> (Vec3, Vec3) {
 fn longer_turn(lattice: &Option<[Moving; 2]>) -> (Vec3, Vec3) {
     let turns = lattice.iter().flatten().map(turning);
     turns.max_by(|a, b| a.0.norm().total_cmp(&b.0.norm())).unwrap_or_default()
-}
-
-impl TubeCondition<'_, '_> {
-    /// The curve of screw-periodic sheets through these angles that satisfy the condition; its indicator is the defect
-    /// of the other one.
-    fn curve(&self, angles: &[f64]) -> impl Curve {
-        Watched {
-            equations: Closing::new(&self.tube.closure, angles.to_vec()).keeping(self),
-            indicator: |point: &Point| self.tube.defects(&point.x)[self.kept.other() as usize],
-        }
-    }
 }
 
 #[cfg(test)]

@@ -4,14 +4,9 @@ use super::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, TriangleSide};
 use crate::math::Vec3;
 use std::collections::HashMap;
 
-/// A vertex of a [`Tiling`] together with the translation of the copy that is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Site {
-    /// Number in [`Tiling::positions`].
-    pub vertex: usize,
-    /// Translation of the copy in superlattice vectors `(n1 l1, n2 l2)`; always `[0, 0]` on a patch.
-    pub shift: [i32; 2],
-}
+/// A vertex of a [`Tiling`], by its number in [`Tiling::positions`], together with the translation of the copy that is
+/// meant in superlattice vectors `(n1 l1, n2 l2)`, always `[0, 0]` on a patch.
+pub type Site = Corner;
 
 /// An edge of a [`Tiling`], which carries a bar, unless it is a further hinge of an edge, and a hinge if it has both
 /// wings.

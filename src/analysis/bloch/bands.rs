@@ -14,7 +14,7 @@
 use super::BlochError;
 use super::rigidity::power;
 use crate::math::fold_angle::fold_angle_gradient;
-use crate::model::{Local, Model, Site};
+use crate::model::{Local, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::complex::{ComplexMatrix, hermitian_eigenvalues};
 use crate::numerics::dense::eigenvalue_rounding;
@@ -49,7 +49,7 @@ impl Element {
     /// A spring that carries a force, with the first and second derivatives of its measure.
     fn stretched(element: &crate::model::Element<'_>, local: &Local) -> Self {
         let [_, force, stiffness] = element.response(local.value);
-        let corners = element.sites().iter().map(|&Site { vertex, shift }| Corner { vertex, shift }).collect();
+        let corners = element.sites().to_vec();
         let second = |row: usize, column: usize| {
             let (low, high) = (row.min(column), row.max(column));
             local.hessian[high * (high + 1) / 2 + low]

@@ -13,7 +13,7 @@ use super::double_double::DoubleDouble;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
-use crate::model::{Domain, Site};
+use crate::model::Domain;
 use crate::numerics::complex::{ComplexMatrix, determinant};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use nalgebra::{Complex, Matrix3, Rotation3};
@@ -84,11 +84,10 @@ impl Rigidity {
     /// The bars of a state of one cell, periodic or screw-periodic as its domain says, with all coordinates of the
     /// state in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
     pub(crate) fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
-        let place = |Corner { vertex, shift }| domain.point(x, Site { vertex, shift });
         if matches!(domain, Domain::Patch | Domain::Own(_)) {
             return Err(BlochError::NoLattice);
         }
-        Ok(Self::placed(sheet, rigid_facets, place, |shift| cell_rotation(domain, x, shift)))
+        Ok(Self::placed(sheet, rigid_facets, |corner| domain.point(x, corner), |shift| cell_rotation(domain, x, shift)))
     }
 
     /// The bars, and locks of facets, of a sheet whose corners are at some places, with the rotations of its cells.

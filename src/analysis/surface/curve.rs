@@ -11,7 +11,7 @@ use super::{cell, sign};
 use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
 use crate::solver::atlas::{Coverage, Surface as _};
-use crate::solver::continuation::{CurveOptions, End, Point, Watched, follow};
+use crate::solver::continuation::{CurveOptions, End, Point, follow};
 use std::f64::consts::TAU;
 
 /// The curve of folded states; no states where no direction is real.
@@ -25,10 +25,8 @@ pub(super) fn curve(
     let periodic = SpatiallyPeriodic(&embedding);
     let planar = second_order.one_direction_is_real()?;
     let closing = Closing::new(&closure, embedding.drawn_angles().to_vec());
-    let states = || SurfaceClosure::new(&closure, &embedding, options.max_curvature);
-    let (mut folding, mut watched) = (states(), states());
-    let equations = if planar { closing.keeping(&periodic) } else { closing };
-    let mut curve = Watched { equations, indicator: |point: &Point| watched.limit(&point.x) };
+    let mut folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
+    let mut closing = if planar { closing.keeping(&periodic) } else { closing };
     let negative = match directions {
         _ if planar => Some(Negative::OneDirection),
         RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),
@@ -42,10 +40,10 @@ pub(super) fn curve(
         if arrived.contains(&k) || found.coverage == Coverage::Interrupted {
             continue;
         }
-        let end = found.follow((&mut curve, &mut folding), (ray, options), observe)?;
+        let end = found.follow((&mut closing, &mut folding), (ray, options), observe)?;
         from.resize(found.points.len(), k);
         arrived.extend(match &end {
-            End::Closed(back) => rays.iter().position(|ray| back.is_against(&curve.equations.folding(&ray.direction))),
+            End::Closed(back) => rays.iter().position(|ray| back.is_against(&closing.folding(&ray.direction))),
             _ => None,
         });
         found.conclude(&end);
@@ -60,7 +58,7 @@ impl Surface {
     /// Adds the states along a ray.
     fn follow(
         &mut self,
-        (curve, folding): (&mut Watched<Closing<'_>, impl FnMut(&Point) -> f64>, &mut SurfaceClosure<'_>),
+        (closing, folding): (&mut Closing<'_>, &mut SurfaceClosure<'_>),
         (ray, options): (&Ray, &SurfaceOptions),
         observe: &mut dyn FnMut(usize) -> bool,
     ) -> Result<End, KinematicsError> {
@@ -73,12 +71,14 @@ impl Surface {
             stops: vec![0],
             ..CurveOptions::default()
         };
-        let (start, tangent) = (folding.drawn(), curve.equations.folding(&ray.direction));
+        let (start, tangent) = (folding.drawn(), closing.folding(&ray.direction));
         let mut count = before;
-        let found = follow(curve, start, tangent, &limits, &mut |_| {
+        let mut observe = |_: &_| {
             count += 1;
             observe(count)
-        });
+        };
+        let mut indicators = |_: &mut _, point: &Point, out: &mut Vec<f64>| out.push(folding.limit(&point.x));
+        let found = follow(closing, start, tangent, &limits, &mut indicators, &mut observe);
         let closed = matches!(found.end, End::Closed(_));
         let inner = found.points.len() - usize::from(closed);
         let mut last = 0;

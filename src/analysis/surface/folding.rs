@@ -1,10 +1,9 @@
-//! The closure of a cell as a surface, and as a curve on it.
+//! The closure of a cell as a surface.
 
 use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, SecondOrder, Shape, SpatiallyPeriodic};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::atlas::Surface;
-use crate::solver::continuation::{Curve, Point};
 use nalgebra::DVector;
 use std::f64::consts::TAU;
 
@@ -108,51 +107,5 @@ impl Surface for SurfaceClosure<'_> {
 
     fn crosses(&self) -> bool {
         self.crossing
-    }
-}
-
-/// The states of a surface on a hyperplane through a point.
-pub(super) struct Section<'a, 'b> {
-    pub folding: &'b mut SurfaceClosure<'a>,
-    /// A point of the hyperplane.
-    pub through: Vec<f64>,
-    /// Its normal, of length 1.
-    pub normal: Vec<f64>,
-    /// Space for the surface's equations.
-    pub residual: Vec<f64>,
-    /// Space for their Jacobian.
-    pub jacobian: DenseMatrix,
-}
-
-impl<'a, 'b> Section<'a, 'b> {
-    pub(crate) fn new(folding: &'b mut SurfaceClosure<'a>, through: Vec<f64>, normal: Vec<f64>) -> Self {
-        let (rows, columns) = (folding.equations(), folding.unknowns());
-        Self { folding, through, normal, residual: vec![0.0; rows], jacobian: DenseMatrix::zeros(rows, columns) }
-    }
-}
-
-impl Implicit for Section<'_, '_> {
-    fn unknowns(&self) -> usize {
-        self.folding.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.folding.equations() + 1
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.folding.linearize(x, &mut self.residual, &mut self.jacobian);
-        let rows = self.residual.len();
-        residual[..rows].copy_from_slice(&self.residual);
-        jacobian.rows_mut(0, rows).copy_from(&self.jacobian);
-        residual[rows] = x.iter().zip(&self.through).zip(&self.normal).map(|((x, o), n)| (x - o) * n).sum();
-        self.normal.iter().enumerate().for_each(|(column, n)| jacobian[(rows, column)] = *n);
-    }
-}
-
-impl Curve for Section<'_, '_> {
-    /// Half of the largest curvature.
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push(self.folding.limit(&point.x) + 0.5 * self.folding.max_curvature);
     }
 }

@@ -9,13 +9,13 @@
 //! taken as make it unlikely that a piece meets none. On such a hyperplane the surface is a curve, followed from the
 //! drawn state along its ray.
 
-use super::folding::{Section, SurfaceClosure};
+use super::folding::SurfaceClosure;
 use super::{Negative, SurfaceError, SurfaceOptions};
 use crate::kinematics::{KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
 use crate::sheet::pieces;
-use crate::solver::atlas::{Atlas, Surface as _};
+use crate::solver::atlas::{Atlas, Section, Surface as _};
 use crate::solver::continuation::{CurveOptions, Point, follow};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -120,7 +120,14 @@ fn follow_out(
     };
     let drawn = folding.drawn();
     let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
-    let found = follow(&mut section, drawn, tangent, &options, &mut |_| true);
+    let found = follow(
+        &mut section,
+        drawn,
+        tangent,
+        &options,
+        &mut |section, point, out| out.push(section.surface.limit(&point.x) + 0.5 * settings.max_curvature),
+        &mut |_| true,
+    );
     found.points.into_iter().next_back().filter(|last| last.arc_length > 0.0)
 }
 

@@ -1,13 +1,11 @@
-//! The curve of a trajectory, and what is watched along it.
+//! What is watched along a trajectory.
 
 use super::state::{Folded, Intersects, Stop};
 use crate::analysis::tube::SeamPlace;
 use crate::kinematics::tube::Condition;
 use crate::kinematics::{Closing, Displacement, Embedding, Shape};
-use crate::numerics::DenseMatrix;
 use crate::sheet::Seam;
-use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, Point};
+use crate::solver::continuation::Point;
 use std::f64::consts::TAU;
 
 /// Rates of strains, per arc length, up to which they are rounding errors: such a strain has no turning points.
@@ -23,9 +21,8 @@ pub(super) const INTERSECTION: usize = CURVATURE + 2;
 /// Number of the indicator of a closed tube: the defect of the condition that is not kept.
 pub(super) const CLOSED: usize = CURVATURE + 3;
 
-/// The closure of a sheet as a curve, with what is watched along it.
-pub(super) struct TracedClosure<'a, 'b> {
-    pub closing: Closing<'a>,
+/// What is watched along the closure of a sheet.
+pub(super) struct Watched<'a, 'b> {
     pub embedding: &'a Embedding,
     pub periodic: bool,
     /// Whether the first state is spatially periodic, without curvature.
@@ -51,16 +48,16 @@ pub(super) struct Known {
     seam: Option<SeamPlace>,
 }
 
-impl TracedClosure<'_, '_> {
+impl Watched<'_, '_> {
     /// Asks whether faces of the first state pass through each other.
-    pub fn look_at_start(&mut self, x: Vec<f64>) {
+    pub fn look_at_start(&mut self, closing: &Closing<'_>, x: Vec<f64>) {
         let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
-        let state = self.folded(&start);
+        let state = self.folded(closing, &start);
         self.crosses = self.intersects.as_mut().is_some_and(|intersects| intersects(&state));
     }
 
-    pub fn folded(&mut self, point: &Point) -> Folded {
-        let (angles, rates) = (self.closing.angles(&point.x), self.closing.rates(&point.tangent));
+    pub fn folded(&mut self, closing: &Closing<'_>, point: &Point) -> Folded {
+        let (angles, rates) = (closing.angles(&point.x), closing.rates(&point.tangent));
         let placement = self.embedding.place(&angles);
         let positions = placement.positions.clone();
         let mut shape = Shape::of(self.embedding, placement).ok();
@@ -70,13 +67,13 @@ impl TracedClosure<'_, '_> {
     }
 
     /// The states at these points; fewer where `go_on` says to stop.
-    pub fn states(&mut self, points: &[Point], go_on: &mut dyn FnMut() -> bool) -> Vec<Folded> {
+    pub fn states(&mut self, closing: &Closing<'_>, points: &[Point], go_on: &mut dyn FnMut() -> bool) -> Vec<Folded> {
         let mut states = Vec::with_capacity(points.len());
         for (k, point) in points.iter().enumerate() {
             if k > 0 && k % OBSERVED == 0 && !go_on() {
                 break;
             }
-            states.push(self.folded(point));
+            states.push(self.folded(closing, point));
         }
         states
     }
@@ -123,25 +120,10 @@ impl TracedClosure<'_, '_> {
         let [strain11, strain22, strain12] = strain.map(|rate| if rate.abs() <= NO_RATE { 0.0 } else { rate });
         [curvature, strain11, strain22, strain12]
     }
-}
 
-impl Implicit for TracedClosure<'_, '_> {
-    fn unknowns(&self) -> usize {
-        self.closing.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.closing.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closing.linearize(x, residual, jacobian);
-    }
-}
-
-impl Curve for TracedClosure<'_, '_> {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        let state = self.folded(point);
+    /// Appends the values whose sign changes are located.
+    pub fn indicators(&mut self, closing: &Closing<'_>, point: &Point, out: &mut Vec<f64>) {
+        let state = self.folded(closing, point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
         // what a straight state has of curvature is rounding
         let straight = self.starts_straight && point.arc_length == 0.0 && curvature.is_finite();

@@ -1,7 +1,6 @@
 //! Edges that fold, as closure sees them.
 
-use crate::sheet::tiling::{Site, TiledEdge};
-use crate::sheet::{Corner, Edge};
+use crate::sheet::{Corner, Edge, TiledEdge};
 
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
@@ -29,7 +28,6 @@ impl From<&Edge> for HingedEdge {
 
 impl From<&TiledEdge> for HingedEdge {
     fn from(edge: &TiledEdge) -> Self {
-        let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
-        Self { ends: edge.ends.map(corner), wings: edge.wings.map(|wing| wing.map(corner)) }
+        Self { ends: edge.ends, wings: edge.wings }
     }
 }

@@ -11,7 +11,7 @@ use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
-use foldwell::solver::continuation::{self, Curve, End, follow};
+use foldwell::solver::continuation::{self, End, follow};
 use foldwell::solver::{Implicit, Options, Problem};
 
 /// A sheet with a crease locked at its drawn angle, rigid or soft bars, and drawn angles as rest angles.
@@ -139,8 +139,6 @@ impl Implicit for Bars {
     }
 }
 
-impl Curve for Bars {}
-
 /// Rotates a screw in the plane so that its first lattice vector lies along x, as the model requires, which holds its y
 /// component.
 fn laid_along_x(mut screw: Vec<f64>) -> Vec<f64> {
@@ -171,7 +169,8 @@ fn the_chart_of_screws_is_a_third_way() {
         let mut bars = Bars(model);
         assert_eq!([bars.unknowns(), bars.equations()], [14, 13]);
         let options = continuation::CurveOptions { length: 1.0, ..continuation::CurveOptions::default() };
-        let found = follow(&mut bars, x, way.iter().map(|d| d / length).collect(), &options, &mut |_| true);
+        let found =
+            follow(&mut bars, x, way.iter().map(|d| d / length).collect(), &options, &mut |_, _, _| {}, &mut |_| true);
         assert_eq!(found.end, End::Length);
         let last = &found.points[found.points.len() - 1];
         let angles = scene.0.fold_angles_at(&bars.0.coordinates(&last.x));

@@ -80,7 +80,7 @@ impl Short {
         let mut closing = Closing::new(&self.closure, self.angles.clone());
         let [start, leaving] = [&self.angles, &self.direction].map(|all| closing.folding(all));
         let options = CurveOptions { tolerance: 3e-14, max_step, points, period: Some(TAU), ..CurveOptions::default() };
-        match follow(&mut closing, start, leaving, &options, &mut |_| true).end {
+        match follow(&mut closing, start, leaving, &options, &mut |_, _, _| {}, &mut |_| true).end {
             End::Closed(back) => Ok(back.arc_length),
             _ => Err(ExperimentError::Other("the loop did not close".into())),
         }

@@ -29,6 +29,7 @@ mod walk;
 pub use surface::Surface;
 pub use surface::{Atlas, KEPT};
 pub use surface::{AtlasError, Chart, CoverOptions, Coverage};
+pub use walk::Section;
 
 /// Finds further starts from the charts and triangles placed so far: points on parts of the surface that meet these in
 /// singular points only.

@@ -6,7 +6,7 @@
 //! over such a crossing.
 
 use super::surface::{Chart, Surface};
-use crate::continuation::{Curve, CurveOptions, End, follow};
+use crate::continuation::{CurveOptions, End, follow};
 use crate::implicit::{Corrector, Implicit};
 use foldwell_numerics::DenseMatrix;
 
@@ -37,7 +37,7 @@ pub(super) fn to_rim<S: Surface>(
     let (along, across) = (turned(cos, sin, [first, second]), turned(-sin, cos, [first, second]));
     let options = CurveOptions { tolerance, length, max_step: length, steps: MOST_STEPS, ..CurveOptions::default() };
     let mut section = Section::new(surface, chart.x.clone(), across.clone());
-    let found = follow(&mut section, chart.x.clone(), along, &options, &mut |_| true);
+    let found = follow(&mut section, chart.x.clone(), along, &options, &mut |_, _, _| {}, &mut |_| true);
     let last = found.points.into_iter().next_back().filter(|_| found.end == End::Length)?;
     let mut tangents = [last.tangent, across].concat();
     corrector.turn(surface, &last.x, &mut tangents)?;
@@ -46,23 +46,25 @@ pub(super) fn to_rim<S: Surface>(
     Some(Arrival { x: last.x, frame, residual: last.residual })
 }
 
-/// A surface on the hyperplane through a point.
-struct Section<'a, S> {
-    surface: &'a mut S,
+/// The points of a surface on a hyperplane.
+pub struct Section<'a, S> {
+    /// The surface.
+    pub surface: &'a mut S,
     through: Vec<f64>,
     normal: Vec<f64>,
     residual: Vec<f64>,
     jacobian: DenseMatrix,
 }
 
-impl<'a, S: Surface> Section<'a, S> {
-    fn new(surface: &'a mut S, through: Vec<f64>, normal: Vec<f64>) -> Self {
+impl<'a, S: Implicit> Section<'a, S> {
+    /// On the hyperplane through a point that has this normal.
+    pub fn new(surface: &'a mut S, through: Vec<f64>, normal: Vec<f64>) -> Self {
         let (rows, columns) = (surface.equations(), surface.unknowns());
         Self { surface, through, normal, residual: vec![0.0; rows], jacobian: DenseMatrix::zeros(rows, columns) }
     }
 }
 
-impl<S: Surface> Implicit for Section<'_, S> {
+impl<S: Implicit> Implicit for Section<'_, S> {
     fn unknowns(&self) -> usize {
         self.surface.unknowns()
     }
@@ -80,5 +82,3 @@ impl<S: Surface> Implicit for Section<'_, S> {
         self.normal.iter().enumerate().for_each(|(column, n)| jacobian[(rows, column)] = *n);
     }
 }
-
-impl<S: Surface> Curve for Section<'_, S> {}

@@ -1,44 +1,5 @@
 //! A curve to follow, how far, and what comes of it.
 
-use crate::implicit::Implicit;
-use foldwell_numerics::DenseMatrix;
-
-/// A curve: as many independent equations as unknowns less one.
-pub trait Curve: Implicit {
-    /// Appends the values whose sign changes are located; as many at every point, NaN where there is none.
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        let _ = (point, out);
-    }
-}
-
-/// The curve of these equations, with one indicator.
-pub struct Watched<E, W> {
-    /// The equations of the curve.
-    pub equations: E,
-    /// The values whose sign changes are located: a function of the point.
-    pub indicator: W,
-}
-
-impl<E: Implicit, W> Implicit for Watched<E, W> {
-    fn unknowns(&self) -> usize {
-        self.equations.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.equations.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.equations.linearize(x, residual, jacobian);
-    }
-}
-
-impl<E: Implicit, W: FnMut(&Point) -> f64> Curve for Watched<E, W> {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push((self.indicator)(point));
-    }
-}
-
 /// A point of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {

@@ -1,9 +1,9 @@
 //! The predictor and corrector, and where indicators change sign.
 
 use super::closing;
-use super::curve::{Curve, CurveOptions, End, Event, Point, Return, Trajectory};
+use super::curve::{CurveOptions, End, Event, Point, Return, Trajectory};
 use super::hermite::{Hermite, MOST};
-use crate::implicit::Corrector;
+use crate::implicit::{Corrector, Implicit};
 use foldwell_numerics::vector::{dot, normalize};
 
 /// Distance of a prediction from the curve that is aimed at, and the one above which a step is refused.
@@ -20,6 +20,7 @@ const LOCATED_ARC_LENGTH: f64 = 1e-11;
 /// A trajectory on its way.
 struct Follower<'a, C> {
     curve: &'a mut C,
+    indicators: &'a mut dyn FnMut(&mut C, &Point, &mut Vec<f64>),
     corrector: Corrector,
     tolerance: f64,
     points: Vec<Point>,
@@ -29,21 +30,25 @@ struct Follower<'a, C> {
     spare: Vec<f64>,
 }
 
-/// Follows `curve` from `x` along the unit vector `tangent`. `observe` sees every point and returns false to stop.
-pub fn follow<C: Curve>(
+/// Follows `curve`, as many independent equations as unknowns less one, from `x` along the unit vector `tangent`.
+/// `indicators` appends the values whose sign changes are located, as many at every point, NaN where there is none.
+/// `observe` sees every point and returns false to stop.
+pub fn follow<C: Implicit>(
     curve: &mut C,
     x: Vec<f64>,
     tangent: Vec<f64>,
     options: &CurveOptions,
+    indicators: &mut dyn FnMut(&mut C, &Point, &mut Vec<f64>),
     observe: &mut dyn FnMut(&Point) -> bool,
 ) -> Trajectory {
     let start = Point { arc_length: 0.0, x, tangent, residual: 0.0, corrections: 0 };
-    let mut indicators = Vec::new();
-    curve.indicators(&start, &mut indicators);
+    let mut values = Vec::new();
+    indicators(curve, &start, &mut values);
     let corrector = Corrector::new(curve);
     let spare = start.x.clone();
     let mut follower = Follower {
         curve,
+        indicators,
         corrector,
         tolerance: options.tolerance,
         points: vec![start],
@@ -52,11 +57,11 @@ pub fn follow<C: Curve>(
         spare,
     };
     let mut events = Vec::new();
-    let end = follower.run(options, indicators, &mut events, observe);
+    let end = follower.run(options, values, &mut events, observe);
     Trajectory { points: follower.points, events, end }
 }
 
-impl<C: Curve> Follower<'_, C> {
+impl<C: Implicit> Follower<'_, C> {
     fn run(
         &mut self,
         options: &CurveOptions,
@@ -73,7 +78,7 @@ impl<C: Curve> Follower<'_, C> {
                 return end;
             }
             let before = std::mem::take(&mut indicators);
-            self.curve.indicators(&self.points[self.points.len() - 1], &mut indicators);
+            (self.indicators)(self.curve, &self.points[self.points.len() - 1], &mut indicators);
             if let Some(indicator) = self.pass(options, &before, &indicators, events) {
                 return End::Stopped { indicator };
             }
@@ -198,7 +203,7 @@ impl<C: Curve> Follower<'_, C> {
             let s = low.0 + share * (high.0 - low.0);
             let Some(point) = self.point_at(s) else { break };
             values.clear();
-            self.curve.indicators(&point, &mut values);
+            (self.indicators)(self.curve, &point, &mut values);
             let value = values[indicator];
             if value * high.1 > 0.0 || value == 0.0 {
                 (high, best) = ((s, value), point);

@@ -16,6 +16,5 @@ mod hermite;
 #[cfg(test)]
 mod tests;
 
-pub use curve::Watched;
-pub use curve::{Curve, CurveOptions, End, Event, Point, Return, Trajectory};
+pub use curve::{CurveOptions, End, Event, Point, Return, Trajectory};
 pub use follower::follow;

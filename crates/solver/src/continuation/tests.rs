@@ -31,18 +31,13 @@ impl Implicit for Textbook {
     }
 }
 
-impl Curve for Textbook {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push((self.indicator)(point));
-    }
-}
-
 fn no_indicator(_: &Point) -> f64 {
     1.0
 }
 
 fn run(curve: &mut Textbook, x: &[f64], tangent: &[f64], options: &CurveOptions) -> Trajectory {
-    follow(curve, x.to_vec(), tangent.to_vec(), options, &mut |_| true)
+    let mut indicators = |curve: &mut Textbook, point: &Point, out: &mut Vec<f64>| out.push((curve.indicator)(point));
+    follow(curve, x.to_vec(), tangent.to_vec(), options, &mut indicators, &mut |_| true)
 }
 
 /// Of radius 1/2; the second and third row say the same as the first.

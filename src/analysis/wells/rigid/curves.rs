@@ -11,7 +11,7 @@ use crate::model::{Assembly, Domain};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
 use crate::solver::Implicit;
-use crate::solver::continuation::{CurveOptions, End, Point, Watched, follow};
+use crate::solver::continuation::{CurveOptions, End, Point, follow};
 use std::f64::consts::TAU;
 
 /// Steps on curves over those on surfaces: they cost next to nothing.
@@ -36,13 +36,14 @@ pub(super) fn net(
     let embedding = if planar { Some(Embedding::new(assembly.sheet())?) } else { None };
     let closing = Closing::new(&closure, drawn.clone());
     let planar = embedding.as_ref().map(SpatiallyPeriodic);
-    let equations = match &planar {
+    let mut folding = match &planar {
         Some(planar) => closing.keeping(planar),
         None => closing,
     };
     // the curve ends where an angle leaves the landscape
-    let watched = Closing::new(&closure, drawn.clone());
-    let mut folding = Watched { equations, indicator: |point: &Point| extent.excess(&watched.angles(&point.x)) };
+    let mut excess = |folding: &mut Closing<'_>, point: &Point, out: &mut Vec<f64>| {
+        out.push(extent.excess(&folding.angles(&point.x)));
+    };
     let crossing = rays.len() > 2;
     let mut net = Net {
         angles: vec![drawn.clone()],
@@ -56,8 +57,8 @@ pub(super) fn net(
     let options =
         CurveOptions { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
     for ray in &rays {
-        let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.equations.folding(all));
-        let found = follow(&mut folding, x, tangent, &options, &mut |_| go_on());
+        let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.folding(all));
+        let found = follow(&mut folding, x, tangent, &options, &mut excess, &mut |_| go_on());
         if found.end == End::Interrupted {
             return Err(RigidError::Interrupted);
         }
@@ -73,7 +74,7 @@ pub(super) fn net(
             }
             net.links.push([before, net.angles.len()]);
             before = net.angles.len();
-            net.angles.push(folding.equations.angles(&point.x));
+            net.angles.push(folding.angles(&point.x));
             net.singular.push(false);
             net.border.push(k == last);
         }
@@ -83,7 +84,7 @@ pub(super) fn net(
 
 /// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the
 /// Jacobian pass zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
-fn meetings(folding: &mut impl Implicit, points: &[Point]) -> Result<usize, KinematicsError> {
+fn meetings(folding: &mut Closing<'_>, points: &[Point]) -> Result<usize, KinematicsError> {
     let (rows, columns) = (folding.equations(), folding.unknowns());
     let (mut residual, mut last) = (vec![0.0; rows], None::<DenseMatrix>);
     let mut found = 0;
