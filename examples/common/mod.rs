@@ -2,7 +2,7 @@
 
 use foldwell::analysis::path::{PathOptions, follow_path};
 use foldwell::analysis::wells::merge::{Comparison, wells};
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::model::Drive;
 use foldwell::solver::Options;
 use foldwell::{Assembly, Picture, relax, write_vtu};
@@ -19,7 +19,7 @@ pub fn use_it(name: &str, assembly: &Assembly, drive: &Drive) -> Result<(), Box<
     println!("  a path to {}: {} states, {:?}", drive.to, path[0].points.len(), path[0].end);
 
     let starts = Starts { count: 8, seed: 0, spread: 0.8, options: Options::default() };
-    let ends = relax_all(assembly, &starts, &|| true).into_iter();
+    let ends = relax_around(assembly, None, &starts, &|| true).into_iter();
     let minima = ends.filter_map(|end| if let Outcome::Well(well) = end { Some(*well) } else { None });
     for well in wells(minima, &Comparison::new(assembly)) {
         println!("  a well of energy {:.9}, reached {} times", well.settled.energy, well.reached);

@@ -6,7 +6,7 @@ use crate::redrawn::redrawn;
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::shown_cells::ShownCells;
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Terms};
 use foldwell::output::picture::Picture;
@@ -219,7 +219,7 @@ impl Trial {
         let assembly = case.with_terms(terms);
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: self.starts, seed: 1, spread, options: Options::default() };
-            relax_all(&assembly, &starts, &|| true).into_iter().any(|outcome| match outcome {
+            relax_around(&assembly, None, &starts, &|| true).into_iter().any(|outcome| match outcome {
                 Outcome::Well(found) => such(found.energy, &halves(found.place.tensions())),
                 _ => false,
             })

@@ -5,7 +5,7 @@ use crate::common::{Numbers, scaled};
 use crate::report::{ELSEWHERE, Report, SAME};
 use crate::trial::{Answer, Trial};
 use foldwell::analysis::relax::relax_from;
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Gauge, Terms};
 use foldwell::rolled_up;
@@ -208,7 +208,7 @@ impl TubeTrial {
         let Ok(assembly) = self.assembly() else { return false };
         [0.05, 0.3].into_iter().any(|spread| {
             let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
-            let outcomes = relax_all(&assembly, &starts, &|| true);
+            let outcomes = relax_around(&assembly, None, &starts, &|| true);
             outcomes.iter().any(|outcome| matches!(outcome, Outcome::Well(found) if such(found.energy)))
         })
     }

@@ -65,12 +65,6 @@ pub enum Outcome {
     Interrupted,
 }
 
-/// Relaxes from all starts around the drawn state, in their order. `go_on` is asked after each and returns false to
-/// stop.
-pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
-    relax_around(assembly, None, starts, go_on)
-}
-
 /// Relaxes from all starts around a state, in their order; around the drawn one if none is given. `go_on` is asked
 /// after each and returns false to stop.
 pub fn relax_around(

@@ -5,7 +5,7 @@ use crate::common::{Numbers, Testing, eigenvalues, jacobian, linearized, mesh, o
 use foldwell::RIGID;
 use foldwell::analysis::path::{PathEnd, PathEvent, PathOptions, follow_path};
 use foldwell::analysis::relax::{Relaxed, relax_from};
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Drive, Driven, Gauge, Hinges, Model, Rest, Terms};
 use foldwell::numerics::DenseMatrix;
@@ -239,7 +239,7 @@ fn wells_have_no_collapsed_triangles() {
     let pins = (0..4).map(|vertex| (vertex, [true; 3])).collect();
     let pyramid = case.with_terms(Terms { pins, ..Terms::bars_and_creases(1.0, 0.02, case.drawn_angles().to_vec()) });
     let starts = Starts { count: 40, seed: 1, spread: 2.0, options: Options::default() };
-    let outcomes = relax_all(&pyramid, &starts, &|| true);
+    let outcomes = relax_around(&pyramid, None, &starts, &|| true);
     let wells: Vec<_> = outcomes
         .iter()
         .filter_map(|outcome| if let Outcome::Well(well) = outcome { Some(well) } else { None })

@@ -6,7 +6,7 @@ use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::modes::{DENSE_LIMIT, modes_at};
 use foldwell::analysis::wells::barrier::barrier;
 use foldwell::analysis::wells::merge::{Comparison, wells};
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all, relax_around};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::model::{Assembly, Boundary, Configuration, Gauge, Model, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::solver::{Options, Problem};
@@ -28,7 +28,7 @@ fn studies(folder: &Folder, name: &str, studies: &str) -> Value {
 /// Returns the first minimum that a random start near the drawn state reaches.
 fn minimum(assembly: &Assembly) -> Configuration {
     let starts = Starts { count: 1, seed: 3, spread: 0.02, options: Options::default() };
-    match relax_all(assembly, &starts, &|| true).remove(0) {
+    match relax_around(assembly, None, &starts, &|| true).remove(0) {
         Outcome::Well(settled) => settled.place,
         other => panic!("{other:?}"),
     }
@@ -126,7 +126,7 @@ fn one_negative_eigenvalue_at_a_rigid_pass() {
     let rest = case.rest_per_hinge(1.0, 1);
     let case = case.with_terms(Terms::bars_and_creases(f64::INFINITY, 1.0, rest));
     let starts = Starts { count: 24, seed: 1, spread: 1.0, options: Options::default() };
-    let minima = relax_all(&case, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+    let minima = relax_around(&case, None, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });

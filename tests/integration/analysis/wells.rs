@@ -9,7 +9,7 @@ use foldwell::analysis::wells::limit::{Height, rigid_limit};
 use foldwell::analysis::wells::merge::{Comparison, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
 use foldwell::analysis::wells::settle::MinimumTracker;
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::kinematics::Closure;
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::{Assembly, Boundary, Hinges, Terms};
@@ -44,7 +44,7 @@ fn on_creases(case: &Assembly, rest: [f64; 4]) -> Vec<f64> {
 /// Returns the wells that random starts reach.
 fn reached(assembly: &Assembly, count: usize, spread: f64) -> Vec<Well> {
     let starts = Starts { count, seed: 1, spread, options: Options::default() };
-    let minima = relax_all(assembly, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+    let minima = relax_around(assembly, None, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });
@@ -238,7 +238,7 @@ fn no_barrier_lies_below_its_wells() {
     let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest);
     let assembly = case.with_terms(terms.clone());
     let starts = Starts { count: 64, seed: 0, spread: PI, options: Options::default() };
-    let minima = relax_all(&assembly, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+    let minima = relax_around(&assembly, None, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });
@@ -337,7 +337,7 @@ fn wells_stay_when_the_sheet_is_turned() {
     let starts = Starts { count: 48, seed: 2, spread: PI, options: Options::default() };
     let turn = rotation::exp(&Vec3::new(0.9, -0.5, 0.7));
     let mut seen = 0;
-    for outcome in relax_all(&case.with_terms(terms.clone()), &starts, &|| true) {
+    for outcome in relax_around(&case.with_terms(terms.clone()), None, &starts, &|| true) {
         let Outcome::Well(well) = outcome else { continue };
         let points = well.place.coordinates.chunks_exact(3).map(|p| turn * Vec3::new(p[0], p[1], p[2]));
         let turned = points.flat_map(<[f64; 3]>::from).collect();
@@ -413,7 +413,7 @@ fn starts_do_not_know_threads() {
             _ => None,
         };
         let assembly = case.with_terms(terms.clone());
-        let relaxed = Threads::new(Some(threads)).install(|| relax_all(&assembly, &starts, &|| true));
+        let relaxed = Threads::new(Some(threads)).install(|| relax_around(&assembly, None, &starts, &|| true));
         relaxed.into_iter().map(energy).collect()
     };
     assert_eq!(run(1), run(2));
@@ -527,7 +527,7 @@ fn stiff_pyramids_turn_inside_out() {
         let terms = Terms::bars_and_creases(1e3, 0.1, drawn.drawn_angles().to_vec());
         let starts = Starts { count: 4, seed: 1, spread: 1.0, options: Options::default() };
         let energies =
-            relax_all(&drawn.with_terms(terms.clone()), &starts, &|| true).into_iter().filter_map(|outcome| {
+            relax_around(&drawn.with_terms(terms.clone()), None, &starts, &|| true).into_iter().filter_map(|outcome| {
                 let Outcome::Well(found) = outcome else { return None };
                 Some(found.relaxed.state.total())
             });

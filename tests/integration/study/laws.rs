@@ -2,7 +2,7 @@
 
 use crate::common::Scene;
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::model::{
     Assembly, Bilinear, Builder, Drive, Driven, Formula, GreenLagrange, Law, Length, Measured, OfAngle, OfStrain,
     Ogden, OwnTerm, Power, Site, Spring, Stiffening,
@@ -390,7 +390,7 @@ fn wells_have_the_energy_of_all_terms() {
     let of_creases = miura().crease_law(Stiffening { limits: [-3.0, 3.0] }).build().unwrap();
     for assembly in [band(2.0), band(1e9), of_bars, of_creases, plain] {
         let starts = Starts { count: 2, seed: 0, spread: 0.1, options: Options::default() };
-        for end in relax_all(&assembly, &starts, &|| true) {
+        for end in relax_around(&assembly, None, &starts, &|| true) {
             let Outcome::Well(well) = end else { continue };
             let total = well.relaxed.state.total();
             assert!(total > 1e-3 && (well.energy - total).abs() <= 1e-12 * total, "{} {total}", well.energy);

@@ -6,7 +6,7 @@ use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::wells::barrier::{BarrierError, barrier};
 use foldwell::analysis::wells::merge::{Comparison, Well, wells};
 use foldwell::analysis::wells::placement::free_rigid_motions;
-use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::{Sheet, fold};
@@ -106,7 +106,7 @@ fn a_pyramid_snaps_through() {
 /// Returns the wells that random starts reach.
 fn reached(assembly: &Assembly, count: usize) -> Vec<Well> {
     let starts = Starts { count, seed: 11, spread: std::f64::consts::PI, options: Options::default() };
-    let minima = relax_all(assembly, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+    let minima = relax_around(assembly, None, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });

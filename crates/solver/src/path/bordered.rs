@@ -204,11 +204,10 @@ impl Bordered {
             found = Rates { x: answer.dx, tension: answer.dt, parameter: 0.0 };
             for other in others {
                 let part = dot(&found.x, &other.x);
-                add_scaled(&mut found.x, -part, &other.x);
-                add_scaled(&mut found.tension, -part, &other.tension);
+                found.add(-part, other);
             }
             let per_length = 1.0 / norm_blocked(&found.x).max(f64::MIN_POSITIVE);
-            found.x.iter_mut().chain(&mut found.tension).for_each(|rate| *rate *= per_length);
+            found = found.scaled(per_length);
         }
         (found, stiffness)
     }

@@ -6,12 +6,10 @@
 //! point, which the path itself does not meet there.
 
 use super::bordered::Plane;
-use super::corrector::Guess;
 use super::follower::Follower;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::random::numbers;
-use foldwell_numerics::vector::add_scaled;
 
 /// Distance from the branch point at which a state of another branch is sought, relative to the longest step, and the
 /// number of halves tried.
@@ -88,9 +86,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         for mut null in found {
             for other in &across {
                 let part = self.product(&null, other);
-                add_scaled(&mut null.x, -part, &other.x);
-                add_scaled(&mut null.tension, -part, &other.tension);
-                null.parameter -= part * other.parameter;
+                null.add(-part, other);
             }
             let length = self.product(&null, &null).sqrt();
             if length > LEAST_ACROSS {
@@ -108,10 +104,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         for halving in 0..MOST_HALVINGS {
             let away = DISTANCE * self.settings.max_step * 0.5f64.powi(halving as i32);
             let step = sign * away * self.bordered.length();
-            let mut guess = Guess { x: point.x.clone(), tension: point.tension.clone(), parameter: point.parameter };
-            add_scaled(&mut guess.x, step, &direction.x);
-            add_scaled(&mut guess.tension, step, &direction.tension);
-            guess.parameter += step * direction.parameter;
+            let mut guess = point.place();
+            guess.add(step, direction);
             if let Some((mut state, off)) = self.settle(guess, &plane, away)?
                 && off <= step.abs()
             {

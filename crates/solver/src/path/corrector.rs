@@ -5,7 +5,7 @@ use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::problem::Residuals;
 use crate::self_stress::without_self_stress;
 use foldwell_numerics::factor::FactorError;
-use foldwell_numerics::vector::{add_scaled, larger, max_abs, norm_blocked};
+use foldwell_numerics::vector::{larger, max_abs, norm_blocked};
 
 /// Largest number of Newton steps from a predicted state.
 const MOST_STEPS: usize = 12;
@@ -25,20 +25,7 @@ const MOST_ROUNDING: f64 = 1e-8;
 const STRETCH_ERROR: f64 = 1e-6;
 
 /// A state near the path.
-#[derive(Clone, Debug)]
-pub(super) struct Guess {
-    pub x: Vec<f64>,
-    pub tension: Vec<f64>,
-    pub parameter: f64,
-}
-
-impl Guess {
-    pub(super) fn add(&mut self, step: &Rates) {
-        add_scaled(&mut self.x, 1.0, &step.x);
-        add_scaled(&mut self.tension, 1.0, &step.tension);
-        self.parameter += step.parameter;
-    }
-}
+pub(super) type Guess = Rates;
 
 /// A state on the path, and how it was reached.
 pub(super) struct Corrected {
@@ -93,7 +80,7 @@ pub(super) fn correct<P: ParametrizedProblem>(
         }
         polished += usize::from(small);
         last = length;
-        at.add(&step);
+        at.add(1.0, &step);
     }
     Ok(None)
 }
@@ -126,7 +113,7 @@ fn bettered<P: ParametrizedProblem>(
     step: &Rates,
 ) -> Corrected {
     let mut at = kept.at.clone();
-    at.add(step);
+    at.add(1.0, step);
     problem.set_parameter(at.parameter);
     bordered.linearize(problem, &at.x, &at.tension);
     let residuals = Residuals::new(problem, &bordered.at, &at.tension);

@@ -62,9 +62,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let Some((mut guess, off)) = self.beside([from, to], state) else { return Ok(false) };
         let chord = Cubic::new(from, to).chord();
         let along = self.product(&off, &chord) / self.product(&chord, &chord);
-        add_scaled(&mut guess.x, along, &chord.x);
-        add_scaled(&mut guess.tension, along, &chord.tension);
-        guess.parameter += along * chord.parameter;
+        guess.add(along, &chord);
         let found = self.settle(guess, &Plane::across(&chord, self.bordered.unit()), 0.0)?;
         Ok(found.is_some_and(|(found, _)| self.are_same(&found, state)))
     }

@@ -5,7 +5,7 @@ use super::corrector::{Guess, complete, correct};
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
-use foldwell_numerics::vector::{add_scaled, dot};
+use foldwell_numerics::vector::dot;
 
 /// Length of the first step relative to the longest one, and the shortest one relative to it.
 const FIRST_STEP: f64 = 0.1;
@@ -180,9 +180,7 @@ fn predicted(before: Option<&PathState>, last: &PathState, length: f64) -> Guess
             return Cubic::new(before, last).at(part);
         }
     }
-    let mut guess = Guess { x: last.x.clone(), tension: last.tension.clone(), parameter: last.parameter };
-    add_scaled(&mut guess.x, length, &last.tangent.x);
-    add_scaled(&mut guess.tension, length, &last.tangent.tension);
-    guess.parameter += length * last.tangent.parameter;
+    let mut guess = last.place();
+    guess.add(length, &last.tangent);
     guess
 }

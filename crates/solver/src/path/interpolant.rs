@@ -15,37 +15,35 @@ impl<'a> Cubic<'a> {
         Self { from, to, length: to.arc_length - from.arc_length }
     }
 
-    /// The state at this part of the way; beyond the second state for parts above 1.
-    pub fn at(&self, part: f64) -> Guess {
-        let [a, u, b, v] = weights(part, self.length);
-        let mix = |p: f64, rate_p: f64, q: f64, rate_q: f64| a * p + u * rate_p + b * q + v * rate_q;
-        let many = |of: fn(&PathState) -> &[f64], rates: fn(&Rates) -> &[f64]| -> Vec<f64> {
-            let (p, q) = (of(self.from), of(self.to));
-            let (rate_p, rate_q) = (rates(&self.from.tangent), rates(&self.to.tangent));
-            (0..p.len()).map(|k| mix(p[k], rate_p[k], q[k], rate_q[k])).collect()
-        };
-        let [from, to] = [self.from, self.to];
-        Guess {
-            x: many(|state| &state.x, |rates| &rates.x),
-            tension: many(|state| &state.tension, |rates| &rates.tension),
-            parameter: mix(from.parameter, from.tangent.parameter, to.parameter, to.tangent.parameter),
-        }
-    }
-
-    /// The rates along the way at this part of it, and the rate of the conjugate quantity.
-    pub fn tangent(&self, part: f64) -> (Rates, f64) {
-        let [a, u, b, v] = slopes(part, self.length).map(|slope| slope / self.length);
+    /// The combination of both states and their tangents with these weights.
+    fn mixed(&self, [a, u, b, v]: [f64; 4]) -> Rates {
         let mix = |p: f64, rate_p: f64, q: f64, rate_q: f64| a * p + u * rate_p + b * q + v * rate_q;
         let many = |p: &[f64], rate_p: &[f64], q: &[f64], rate_q: &[f64]| -> Vec<f64> {
             (0..p.len()).map(|k| mix(p[k], rate_p[k], q[k], rate_q[k])).collect()
         };
         let ([from, to], [s, t]) = ([self.from, self.to], [&self.from.tangent, &self.to.tangent]);
-        let tangent = Rates {
+        Rates {
             x: many(&from.x, &s.x, &to.x, &t.x),
             tension: many(&from.tension, &s.tension, &to.tension, &t.tension),
             parameter: mix(from.parameter, s.parameter, to.parameter, t.parameter),
-        };
-        (tangent, mix(from.conjugate[0], from.conjugate[1], to.conjugate[0], to.conjugate[1]))
+        }
+    }
+
+    /// The combination of the conjugate quantities and their rates with these weights.
+    fn conjugate(&self, [a, u, b, v]: [f64; 4]) -> f64 {
+        let [from, to] = [self.from, self.to].map(|state| state.conjugate);
+        a * from[0] + u * from[1] + b * to[0] + v * to[1]
+    }
+
+    /// The state at this part of the way; beyond the second state for parts above 1.
+    pub fn at(&self, part: f64) -> Guess {
+        self.mixed(weights(part, self.length))
+    }
+
+    /// The rates along the way at this part of it, and the rate of the conjugate quantity.
+    pub fn tangent(&self, part: f64) -> (Rates, f64) {
+        let slopes = slopes(part, self.length).map(|slope| slope / self.length);
+        (self.mixed(slopes), self.conjugate(slopes))
     }
 
     /// The differences from the first state to the second.
@@ -61,9 +59,6 @@ impl<'a> Cubic<'a> {
     /// The integral of the conjugate over the parameter between the two states, exact for cubics (Gauss, three points).
     pub fn work(&self) -> f64 {
         let [from, to] = [self.from, self.to];
-        let value = |[a, u, b, v]: [f64; 4]| {
-            a * from.conjugate[0] + u * from.conjugate[1] + b * to.conjugate[0] + v * to.conjugate[1]
-        };
         let rate = |[a, u, b, v]: [f64; 4]| {
             a * from.parameter + u * from.tangent.parameter + b * to.parameter + v * to.tangent.parameter
         };
@@ -71,7 +66,9 @@ impl<'a> Cubic<'a> {
         let points = [(0.5 - 0.5 * half, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + 0.5 * half, 5.0 / 18.0)];
         points
             .iter()
-            .map(|(part, weight)| weight * value(weights(*part, self.length)) * rate(slopes(*part, self.length)))
+            .map(|(part, weight)| {
+                weight * self.conjugate(weights(*part, self.length)) * rate(slopes(*part, self.length))
+            })
             .sum()
     }
 }

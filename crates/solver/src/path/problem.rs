@@ -2,6 +2,7 @@
 
 use crate::linearization::Linearization;
 use crate::problem::Problem;
+use foldwell_numerics::vector::add_scaled;
 use serde::{Deserialize, Serialize};
 
 /// A problem that depends on one parameter.
@@ -53,7 +54,7 @@ pub trait ParametrizedProblem: Problem {
     fn conjugate_rate(&self, at: &Linearization, x: &[f64], tension: &[f64], rates: &Rates) -> f64;
 }
 
-/// Rates of a state, or a difference of two states.
+/// Rates of a state, or a difference of two states, or a state by itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
     /// Rates of the unknowns.
@@ -98,7 +99,21 @@ pub struct PathState {
     pub choice: Vec<f64>,
 }
 
+impl PathState {
+    /// Unknowns, tensions and parameter.
+    pub(super) fn place(&self) -> Rates {
+        Rates { x: self.x.clone(), tension: self.tension.clone(), parameter: self.parameter }
+    }
+}
+
 impl Rates {
+    /// Adds a multiple of other rates.
+    pub(super) fn add(&mut self, part: f64, other: &Self) {
+        add_scaled(&mut self.x, part, &other.x);
+        add_scaled(&mut self.tension, part, &other.tension);
+        self.parameter += part * other.parameter;
+    }
+
     /// These rates times a factor.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         self.x.iter_mut().chain(&mut self.tension).for_each(|rate| *rate *= factor);

@@ -67,17 +67,9 @@ impl Ring<'_> {
     /// A guess moved to another angle.
     fn turned(&self, mut at: Guess, [from, to]: [[f64; 2]; 2]) -> Guess {
         for (null, (from, to)) in self.nulls.iter().zip(from.into_iter().zip(to)) {
-            add_scaled(&mut at.x, to - from, &null.x);
-            add_scaled(&mut at.tension, to - from, &null.tension);
-            at.parameter += (to - from) * null.parameter;
+            at.add(to - from, null);
         }
         at
-    }
-
-    /// The branch point itself.
-    fn centre(&self) -> Guess {
-        let PathState { x, tension, parameter, .. } = self.point.clone();
-        Guess { x, tension, parameter }
     }
 }
 
@@ -125,7 +117,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         for k in 0..count {
             let angle = FIRST_ANGLE + TAU * k as f64 / count as f64;
             let guess = match states.last() {
-                None => ring.turned(ring.centre(), [[0.0; 2], ring.place(angle)]),
+                None => ring.turned(ring.point.place(), [[0.0; 2], ring.place(angle)]),
                 Some(last) => ring.turned(last.at.clone(), [last.angle, angle].map(|angle| ring.place(angle))),
             };
             let Some(state) = self.on_ring(ring, angle, guess)? else { return Ok(None) };
@@ -168,7 +160,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             if !(solved <= REFUSED_RESIDUAL && contracts && residual.is_finite()) {
                 return Ok(None);
             }
-            at.add(&step);
+            at.add(1.0, &step);
             pull += more[0];
             last = length;
         }
@@ -183,8 +175,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let (sin, cos) = zero.angle.sin_cos();
             let [one, other] = ring.nulls;
             let mut radial = one.clone().scaled(cos);
-            add_scaled(&mut radial.x, sin, &other.x);
-            radial.parameter += sin * other.parameter;
+            radial.add(sin, other);
             let plane = Plane::across(&radial, self.bordered.unit());
             let away = ring.radius / self.bordered.length();
             found.extend(self.settle(zero.at, &plane, away)?.filter(|(_, off)| *off <= NEAR * ring.radius));

@@ -1,7 +1,6 @@
 //! A path with all its branches, from where each begins to where it ends.
 
 use super::bordered::Plane;
-use super::corrector::Guess;
 use super::events::Watch;
 use super::exits::Exit;
 use super::follower::Follower;
@@ -203,13 +202,11 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     /// it does.
     fn turned(&mut self, states: &mut [MarkedState], sign: f64) -> Result<bool, PathError> {
         let Some(last) = states.last_mut() else { return Ok(false) };
-        let PathState { x, tension, parameter, arc_length, .. } = last.state.clone();
-        self.follower.problem.set_parameter(parameter);
+        self.follower.problem.set_parameter(last.state.parameter);
         self.follower.problem.set_reference(&last.reference);
-        let plane = Plane::of_parameter(x.len(), sign);
-        let Some((state, _)) = self.follower.settle(Guess { x, tension, parameter }, &plane, arc_length)? else {
-            return Ok(false);
-        };
+        let plane = Plane::of_parameter(last.state.x.len(), sign);
+        let found = self.follower.settle(last.state.place(), &plane, last.state.arc_length)?;
+        let Some((state, _)) = found else { return Ok(false) };
         (last.state, last.mark) = (state, Some(PathMark::Turned));
         Ok(true)
     }
