@@ -13,7 +13,7 @@
 //! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
 //! | [`root`] | roots by Newton's method with shortest steps |
 //! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
-//! | [`polynomial`], [`fourier`], [`homotopy`] | roots; trigonometric polynomials; all solutions of quadrics |
+//! | [`polynomial`], [`homotopy`] | roots; all solutions of quadrics |
 //! | [`parallel`], [`random`] | loops over the caller's threads; random numbers |
 //! | [`derivatives`] | the check of hand-written derivatives |
 //!
@@ -56,7 +56,6 @@ pub mod derivatives;
 pub mod eigen;
 pub mod factor;
 mod factor_error;
-pub mod fourier;
 pub(crate) mod fronts;
 pub mod homotopy;
 pub mod order;

@@ -9,7 +9,6 @@ use super::laurent::Laurent;
 use super::{BlochError, Counts, Rigidity};
 use crate::numerics::DenseMatrix;
 use crate::numerics::complex::ComplexMatrix;
-use crate::numerics::fourier;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 
@@ -53,7 +52,7 @@ impl Determinant {
         let lowest = [0, 1].map(|a| rigidity.powers(a)[0]);
         let values = samples(rigidity)?;
         let largest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
-        let coefficients = shifted(&fourier::coefficients(&values), lowest);
+        let coefficients = shifted(&coefficients(&values), lowest);
         let center = center(&coefficients);
         let absolute = [0, 1].map(|a| 0.5 * center.twice[a] as f64 + f64::from(lowest[a]));
         let polynomial = cropped(&coefficients, center.twice);
@@ -103,6 +102,15 @@ fn samples(rigidity: &Rigidity) -> Result<ComplexMatrix, BlochError> {
         }
     }
     Ok(values)
+}
+
+/// The coefficients `c_mn` with `values_jk = sum c_mn exp(2 pi i (m j / n1 + n k / n2))`, for an `n1 x n2` matrix of
+/// values, by a discrete Fourier transform: `c_mn` stands at row `m`, column `n`, which are known modulo `n1` and `n2`
+/// only. A fast transform would save nothing that can be felt beside the determinants.
+fn coefficients(values: &ComplexMatrix) -> ComplexMatrix {
+    let turn = |j: usize, n: usize| Complex::from_polar(1.0 / n as f64, -root(j % n, n));
+    let transform = |n: usize| ComplexMatrix::from_fn(n, n, |j, k| turn(j * k, n));
+    transform(values.nrows()) * values * transform(values.ncols())
 }
 
 /// Real parts of the coefficients, the one of the lowest powers first.
@@ -197,4 +205,32 @@ fn difference(rigidity: &Rigidity, polynomial: &Laurent, center: [f64; 2]) -> Re
         largest = if apart.is_nan() { f64::INFINITY } else { largest.max(apart) };
     }
     Ok(largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: a polynomial sampled at roots of unity gives its coefficients back, negative powers at the far end; also
+    /// for counts that are no powers of two. Tolerance: rounding.
+    #[test]
+    fn coefficients_come_back() {
+        for [n1, n2] in [[8, 8], [5, 9], [7, 1]] {
+            let terms = [(0i32, 0i32, 0.5), (1, -1, 2.0), (-2, 3, -0.25)];
+            let terms = terms.map(|(m, n, c)| (m, if n2 == 1 { 0 } else { n }, c));
+            let value = |j: usize, k: usize| {
+                let term = |&(m, n, c): &(i32, i32, f64)| {
+                    let phase = f64::from(m) * j as f64 / n1 as f64 + f64::from(n) * k as f64 / n2 as f64;
+                    Complex::from_polar(c, TAU * phase)
+                };
+                terms.iter().map(term).sum()
+            };
+            let found = coefficients(&ComplexMatrix::from_fn(n1, n2, value));
+            let mut expected = ComplexMatrix::zeros(n1, n2);
+            for (m, n, c) in terms {
+                expected[(m.rem_euclid(n1 as i32) as usize, n.rem_euclid(n2 as i32) as usize)] += c;
+            }
+            assert!((found - expected).norm() <= 1e-15);
+        }
+    }
 }
