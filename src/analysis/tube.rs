@@ -64,24 +64,19 @@ impl SeamPlace {
     /// first.
     pub(super) fn new(shape: &Shape, seam: &Seam, last: Option<&Self>) -> Option<Self> {
         let (screw, cell) = (&shape.screw, seam.lattice_vector());
-        let positive = sum(cell, screw.theta) >= 0.0;
         let along = screw.axis.or(last.map(|last| last.axis))?;
+        let mut screws = ScrewLattice { turn: screw.theta, rise: screw.chords.map(|chord| along.dot(&chord)) };
+        let positive = screws.turn_of(cell) >= 0.0;
         let same = last.map_or(positive, |last| last.axis.dot(&along) >= 0.0);
         let sign = if same { 1.0 } else { -1.0 };
-        let mut theta = screw.theta.map(|angle| sign * angle);
+        screws.turn = screw.theta.map(|angle| sign * angle);
         if let Some(last) = last {
             let near = |(angle, last): (&mut f64, f64)| *angle += TAU * ((last - *angle) / TAU).round();
-            theta.iter_mut().zip(last.theta).for_each(near);
+            screws.turn.iter_mut().zip(last.theta).for_each(near);
         }
-        let axis = sign * along;
-        let rise = sum(cell, screw.chords.map(|chord| axis.dot(&chord)));
-        Some(Self { turn: sum(cell, theta), rise, axis, theta })
+        let rise = sign * screws.rise_of(cell);
+        Some(Self { turn: screws.turn_of(cell), rise, axis: sign * along, theta: screws.turn })
     }
-}
-
-/// Returns `n1 a1 + n2 a2`.
-fn sum([n1, n2]: [i32; 2], each: [f64; 2]) -> f64 {
-    f64::from(n1) * each[0] + f64::from(n2) * each[1]
 }
 
 /// Returns the coordinates of a shape about its axis, which is z and has the direction of `axis`, about which the seam
@@ -89,20 +84,13 @@ fn sum([n1, n2]: [i32; 2], each: [f64; 2]) -> f64 {
 pub(super) fn coordinates(shape: &Shape, axis: &Vec3, seam: &Seam, kept: SeamKept) -> Vec<f64> {
     let screw = &shape.screw;
     let sign = if screw.axis.is_some_and(|own| own.dot(axis) < 0.0) { -1.0 } else { 1.0 };
-    let (turns, rises) = (screw.theta.map(|turn| sign * turn), screw.rise().map(|rise| sign * rise));
+    let screws = ScrewLattice { turn: screw.theta.map(|turn| sign * turn), rise: screw.rise().map(|rise| sign * rise) };
     let towards = screw.towards_axis();
     let (x, z) = (-towards.normalize(), screw.axis.unwrap_or_else(Vec3::zeros) * sign);
     let rotation = Matrix3::from_rows(&[x.transpose(), z.cross(&x).transpose(), z.transpose()]);
     let frame = Motion { rotation, translation: Vec3::new(1.0 / towards.norm(), 0.0, 0.0) };
     let mut found: Vec<f64> =
         shape.positions.iter().flat_map(|p| <[f64; 3]>::from(frame.apply(&(p - shape.positions[0])))).collect();
-    let [strand, row] = seam.basis();
-    found.extend([sum(row, turns), sum(row, rises)]);
-    if !kept.rise {
-        found.push(sum(strand, rises));
-    }
-    if !kept.turn {
-        found.push(sum(strand, turns));
-    }
+    found.extend(screws.shared(seam, kept));
     found
 }

@@ -79,15 +79,8 @@ impl Roll {
         if (kept.turn && (turn - TAU).abs() > CLOSED) || (kept.rise && rise.abs() > CLOSED * shorter) {
             return Err(RollError::Open { turn, rise });
         }
-        let [strand, row] = seam.basis();
         let mut coordinates: Vec<f64> = sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(*p)).collect();
-        coordinates.extend([screws.turn_of(row), screws.rise_of(row)]);
-        if !kept.rise {
-            coordinates.push(screws.rise_of(strand));
-        }
-        if !kept.turn {
-            coordinates.push(screws.turn_of(strand));
-        }
+        coordinates.extend(screws.shared(&seam, kept));
         let angles = sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap_or(f64::NAN)).collect();
         Ok(Self { seam, kept, coordinates, angles, frame: Matrix3::identity(), origin: Vec3::zeros() })
     }

@@ -88,8 +88,6 @@ pub enum Problem {
     /// Two lists that belong together differ in length.
     #[error("`{key}` has {found} entries; it should have {right}, one per entry of `edges_vertices`")]
     Length { key: &'static str, found: usize, right: usize },
-    #[error("`{found}` is no {what}; it should be {right}")]
-    ObjLine { found: String, what: &'static str, right: &'static str },
     #[error("{what} names vertex {found}; {}", numbering(*first, *last))]
     Index { what: String, found: String, first: usize, last: usize },
     #[error("the mesh has no {what}; a sheet needs at least one face of three vertices")]

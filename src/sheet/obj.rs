@@ -21,6 +21,7 @@ use super::assignment::Assignment;
 use super::build::{Drawing, build, draw};
 use super::cell::Sheet;
 use super::error::{Defect, MeshPart, Problem, SheetError};
+use super::pattern_fault::PatternFault;
 use super::text;
 use crate::math::Vec3;
 
@@ -78,13 +79,8 @@ struct Reader {
     line: usize,
     drawn: Drawing,
     lattice_vectors: Vec<Vec3>,
-    vertex_lines: Vec<usize>,
-    face_lines: Vec<usize>,
-    hole_lines: Vec<usize>,
-    edge_lines: Vec<usize>,
-    angle_lines: Vec<usize>,
+    lines: Vec<(MeshPart, usize)>,
     metadata: Vec<(String, String)>,
-    lattice_line: usize,
 }
 
 impl Reader {
@@ -93,12 +89,12 @@ impl Reader {
         let uncommented = rest.split('#').next().unwrap_or_default();
         match word {
             "v" => {
+                self.lines.push((MeshPart::Vertex(self.drawn.coords.len()), self.line));
                 self.drawn.coords.push(point(uncommented)?);
-                self.vertex_lines.push(self.line);
             }
             "f" => {
+                self.lines.push((MeshPart::Face(self.drawn.faces.len()), self.line));
                 self.drawn.faces.push(self.corners(uncommented, "face", self.drawn.faces.len() + 1)?);
-                self.face_lines.push(self.line);
             }
             "o" => self.drawn.title = rest.trim().to_owned(),
             "#" => self.read_comment(rest.trim())?,
@@ -111,12 +107,12 @@ impl Reader {
         let (word, rest) = comment.split_once(char::is_whitespace).unwrap_or((comment, ""));
         match word {
             "foldwell:lattice" => {
+                self.lines.push((MeshPart::Lattice, self.line));
                 self.lattice_vectors.push(point(rest)?);
-                self.lattice_line = self.line;
             }
             "foldwell:hole" => {
+                self.lines.push((MeshPart::Hole(self.drawn.holes.len()), self.line));
                 self.drawn.holes.push(self.corners(rest, "opening", self.drawn.holes.len())?);
-                self.hole_lines.push(self.line);
             }
             "foldwell:assignment" => {
                 let (ends, letter) = rest.trim().rsplit_once(char::is_whitespace).unwrap_or(("", rest));
@@ -124,8 +120,8 @@ impl Reader {
                 let (&[a, b], Some(assignment)) = (&ends[..], Assignment::from_letter(letter)) else {
                     return Err(wrong(rest, "assignment", "two vertex numbers and a letter of FOLD, `1 2 C`"));
                 };
+                self.lines.push((MeshPart::Edge(self.drawn.assignments.len()), self.line));
                 self.drawn.assignments.push(([a, b], assignment));
-                self.edge_lines.push(self.line);
             }
             "foldwell:fold_angle" => {
                 let (ends, degrees) = rest.trim().rsplit_once(char::is_whitespace).unwrap_or(("", rest));
@@ -134,8 +130,8 @@ impl Reader {
                 let (&[a, b], Some(degrees)) = (&ends[..], degrees) else {
                     return Err(wrong(rest, "fold angle", "two vertex numbers and degrees, `1 2 90.0`"));
                 };
+                self.lines.push((MeshPart::FoldAngle(self.drawn.fold_angles.len()), self.line));
                 self.drawn.fold_angles.push(([a, b], Some(degrees.to_radians())));
-                self.angle_lines.push(self.line);
             }
             "foldwell:metadata" => {
                 let (key, value) = rest.trim().split_once(char::is_whitespace).unwrap_or((rest, ""));
@@ -182,21 +178,14 @@ impl Reader {
     }
 
     fn located(&self, name: &str, defect: Defect) -> SheetError {
-        let line = match defect.place {
-            MeshPart::Vertex(v) => self.vertex_lines.get(v),
-            MeshPart::Face(f) => self.face_lines.get(f),
-            MeshPart::Hole(h) => self.hole_lines.get(h),
-            MeshPart::Lattice => Some(&self.lattice_line),
-            MeshPart::Edge(e) => self.edge_lines.get(e),
-            MeshPart::FoldAngle(e) => self.angle_lines.get(e),
-            MeshPart::Mesh => None,
-        };
-        SheetError::bad(name, [line.copied().unwrap_or(self.line).max(1), 1], defect.problem)
+        let listed = self.lines.iter().rfind(|(part, _)| *part == defect.place);
+        let line = listed.map_or(self.line, |(_, line)| *line);
+        SheetError::bad(name, [line.max(1), 1], defect.problem)
     }
 }
 
 fn wrong(found: &str, what: &'static str, right: &'static str) -> Problem {
-    Problem::ObjLine { found: found.chars().take(40).collect(), what, right }
+    PatternFault::value(found, what, right).into()
 }
 
 fn point(words: &str) -> Result<Vec3, Problem> {

@@ -77,6 +77,13 @@ pub enum PatternFault {
     NotFlat { found: &'static str },
 }
 
+impl PatternFault {
+    /// Returns the fault of a value that cannot be read.
+    pub(crate) fn value(found: &str, what: &'static str, right: &'static str) -> Self {
+        Self::Value { found: found.chars().take(40).collect(), what, right }
+    }
+}
+
 /// Returns the advice to merge points within another distance.
 fn merging(cure: Option<f64>) -> String {
     let how = "as `merge` in [sheet] of a scene and `foldwell convert --merge` do";

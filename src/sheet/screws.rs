@@ -1,5 +1,6 @@
 //! Screw motions that repeat a cell about an axis: the lattice of a tube that a file draws as it is, rolled up.
 
+use super::seam::{Seam, SeamKept};
 use crate::math::Vec3;
 
 /// Two commuting screw motions about the z axis, which repeat a cell as two lattice vectors do on a sheet that goes
@@ -33,6 +34,15 @@ impl ScrewLattice {
     /// Returns the translation along the axis from cell (0, 0) to a cell.
     pub fn rise_of(&self, cell: [i32; 2]) -> f64 {
         f64::from(cell[0]) * self.rise[0] + f64::from(cell[1]) * self.rise[1]
+    }
+
+    /// Returns the coordinates of a tube that all its vertices share: the turn and the rise of the next row, then those
+    /// of the next strand that the seam leaves free, rise before turn.
+    pub(crate) fn shared(&self, seam: &Seam, kept: SeamKept) -> Vec<f64> {
+        let [strand, row] = seam.basis();
+        let rise = (!kept.rise).then(|| self.rise_of(strand));
+        let turn = (!kept.turn).then(|| self.turn_of(strand));
+        [self.turn_of(row), self.rise_of(row)].into_iter().chain(rise).chain(turn).collect()
     }
 
     /// Returns the copy in a cell of a point of cell (0, 0).

@@ -6,9 +6,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::build::{Drawing, build, coincident};
+use super::build::{Drawing, build, merged};
 use super::cell::Sheet;
 use super::error::{Defect, MeshPart, Problem, SheetError};
+use super::pattern_fault::PatternFault;
 use super::text;
 use crate::math::Vec3;
 
@@ -35,20 +36,10 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<Sheet, SheetError> {
     let corners = binary(bytes).map_or_else(|| ascii(bytes), Ok);
     let corners = corners.map_err(|(line, problem)| SheetError::bad(name, [line, 1], problem))?;
     let coords: Vec<Vec3> = corners.iter().map(|(_, x)| *x).collect();
-    let mut number: Vec<usize> = (0..coords.len()).collect();
-    coincident(&coords).into_iter().for_each(|[v, first]| number[v] = first);
-    let mut places = Vec::new();
-    for v in 0..coords.len() {
-        if number[v] == v {
-            places.push(coords[v]);
-            number[v] = places.len() - 1;
-        } else {
-            number[v] = number[number[v]];
-        }
-    }
+    let (coords, number) = merged(&coords);
     let title = Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let faces = number.chunks_exact(3).map(<[usize]>::to_vec).collect();
-    let drawn = Drawing { title, coords: places, faces, ..Drawing::default() };
+    let drawn = Drawing { title, coords, faces, ..Drawing::default() };
     let line = |defect: &Defect| match defect.place {
         MeshPart::Face(face) => corners.get(3 * face).map_or(1, |(line, _)| *line),
         _ => 1,
@@ -77,7 +68,7 @@ fn binary(bytes: &[u8]) -> Option<Vec<LineCorner>> {
 /// Returns the corners of all triangles of a text.
 fn ascii(bytes: &[u8]) -> Result<Vec<LineCorner>, (usize, Problem)> {
     let wrong = |line: usize, found: &str, what: &'static str, right: &'static str| {
-        (line, Problem::ObjLine { found: found.chars().take(40).collect(), what, right })
+        (line, PatternFault::value(found, what, right).into())
     };
     let text = String::from_utf8_lossy(bytes);
     if !text.trim_start().starts_with("solid") {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::build::{Drawing, build, coincident, draw};
+use super::build::{Drawing, build, draw, merged};
 use super::cell::Sheet;
 use super::error::Defect;
 
@@ -27,12 +27,8 @@ use super::error::Defect;
 /// [`Defect`] if the assembly is no sheet: two corners of a face become one, or faces hang together at a vertex alone.
 pub fn welded(sheet: &Sheet) -> Result<(Sheet, [usize; 2]), Defect> {
     let drawn = draw(sheet);
-    let mut first: Vec<usize> = (0..drawn.coords.len()).collect();
-    coincident(&drawn.coords).into_iter().for_each(|[vertex, there]| first[vertex] = there);
-    let kept: BTreeSet<usize> = first.iter().copied().collect();
-    let mut number = vec![0; first.len()];
-    kept.iter().enumerate().for_each(|(k, &vertex)| number[vertex] = k);
-    let moved = |v: &usize| number[first[*v]];
+    let (coords, number) = merged(&drawn.coords);
+    let moved = |v: &usize| number[*v];
     let pair = |ends: &[usize; 2]| ends.each_ref().map(moved);
     let mut seen = BTreeSet::new();
     let mut faces: Vec<Vec<usize>> = drawn.faces.iter().map(|face| face.iter().map(moved).collect()).collect();
@@ -41,9 +37,9 @@ pub fn welded(sheet: &Sheet) -> Result<(Sheet, [usize; 2]), Defect> {
         corners.sort_unstable();
         seen.insert(corners)
     });
-    let less = [first.len() - kept.len(), drawn.faces.len() - faces.len()];
+    let less = [number.len() - coords.len(), drawn.faces.len() - faces.len()];
     let joined = Drawing {
-        coords: kept.iter().map(|&vertex| drawn.coords[vertex]).collect(),
+        coords,
         faces,
         holes: drawn.holes.iter().map(|hole| hole.iter().map(moved).collect()).collect(),
         assignments: drawn.assignments.iter().map(|(ends, letter)| (pair(ends), *letter)).collect(),

@@ -56,10 +56,7 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
     if cuts.is_empty() {
         return Ok(cuts);
     }
-    let mut uses: BTreeMap<EdgeKey, usize> = BTreeMap::new();
-    for key in polygons.iter().flat_map(|polygon| sides(polygon)) {
-        *uses.entry(key).or_default() += 1;
-    }
+    let uses = uses(polygons);
     cuts.retain(|key, _| uses.get(key) == Some(&2));
     match cuts.values().min() {
         Some(&edge) if drawn.is_repeated() => {
@@ -70,8 +67,10 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
     }
 }
 
-fn sides(polygon: &[Corner]) -> impl Iterator<Item = EdgeKey> + '_ {
-    sides::sides(polygon).map(|[a, b]| EdgeKey::new(a, b).0)
+/// Returns the number of polygons that have each edge.
+fn uses(polygons: &[Vec<Corner>]) -> BTreeMap<EdgeKey, usize> {
+    let sides = polygons.iter().flat_map(|polygon| sides::sides(polygon));
+    sides::uses(sides.map(|[a, b]| EdgeKey::new(a, b).0))
 }
 
 /// Returns the corners of faces at every vertex where a cut ends.
@@ -144,11 +143,7 @@ fn check_open(
     }
     let drawn_count = identified.homes.len() - origins.len();
     let origin = |v: usize| v.checked_sub(drawn_count).map_or(v, |k| origins[k]);
-    let mut seen: BTreeMap<EdgeKey, usize> = BTreeMap::new();
-    for key in polygons.iter().flat_map(|polygon| sides(polygon)) {
-        *seen.entry(key).or_default() += 1;
-    }
-    for (key, _) in seen.into_iter().filter(|(_, count)| *count > 1) {
+    for (key, _) in uses(polygons).into_iter().filter(|(_, count)| *count > 1) {
         let [i, j] = key.ends().map(|end| Corner { vertex: origin(end.vertex), ..end });
         if let Some(&edge) = cuts.get(&EdgeKey::new(i, j).0) {
             let ends = drawn.edge_name(drawn.assignments[edge].0);

@@ -34,8 +34,6 @@ pub fn draw(sheet: &Sheet) -> Drawing {
     Drawing {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
-        planar: false,
-        folded: false,
         coords,
         faces,
         lattice: sheet.lattice,
@@ -46,7 +44,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         names,
         glue,
         bars,
-        first: 0,
+        ..Drawing::default()
     }
 }
 

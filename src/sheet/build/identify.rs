@@ -67,6 +67,18 @@ pub(crate) fn coincident(coords: &[Vec3]) -> Vec<[usize; 2]> {
     pairs
 }
 
+/// Returns the places of vertices, each once and in the order of their first vertices, and the place of every vertex.
+pub(crate) fn merged(coords: &[Vec3]) -> (Vec<Vec3>, Vec<usize>) {
+    let mut first: Vec<usize> = (0..coords.len()).collect();
+    coincident(coords).into_iter().for_each(|[vertex, there]| first[vertex] = there);
+    let (mut places, mut of) = (Vec::new(), Vec::with_capacity(coords.len()));
+    for (vertex, &there) in first.iter().enumerate() {
+        of.push(if there == vertex { places.len() } else { of[there] });
+        places.extend((there == vertex).then_some(coords[vertex]));
+    }
+    (places, of)
+}
+
 /// Checks that every place has one vertex, as rebuilding faces from edges needs it.
 pub(crate) fn check_places(drawn: &Drawing) -> Result<(), Defect> {
     coincident(&drawn.coords).first().map_or(Ok(()), |&[vertex, other]| Err(duplicate(drawn, vertex, other)))

@@ -25,7 +25,7 @@ pub(crate) use assign::edges_by_drawn_name;
 pub use draw::draw;
 pub use drawing::{Drawing, GluedEdge};
 pub(crate) use faces::{listed_order, sides as drawn_sides};
-pub(crate) use identify::{Identified, check_places, coincident};
+pub(crate) use identify::{Identified, check_places, coincident, merged};
 pub(crate) use rebuild::rebuild_faces;
 
 /// Bytes for each vertex while a sheet is made: its faces, edges and their names. Measured: 2,300 in FOLD files of

@@ -16,6 +16,7 @@ use robust::{Coord, orient2d};
 
 use crate::math::Vec2;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
+use crate::sheet::pieces::find;
 use crate::sheet::sides::sorted;
 
 /// Most repetitions of splitting; two are usual.
@@ -146,12 +147,8 @@ impl Places {
     }
 
     /// Returns the first of the points that are one with `v`.
-    fn first(&mut self, mut v: usize) -> usize {
-        while self.merged[v] != v {
-            self.merged[v] = self.merged[self.merged[v]];
-            v = self.merged[v];
-        }
-        v
+    fn first(&mut self, v: usize) -> usize {
+        find(&mut self.merged, v)
     }
 
     fn position(&mut self, v: usize) -> Vec2 {

@@ -30,7 +30,9 @@ pub(super) fn typed(
 ) -> Result<Line, PatternFault> {
     let number: Option<i64> = found.parse().ok();
     let known = types.iter().find(|(type_, ..)| Some(*type_) == number);
-    let Some(&(_, letter, angle, auxiliary)) = known else { return Err(value(found, "type of a line", right)) };
+    let Some(&(_, letter, angle, auxiliary)) = known else {
+        return Err(PatternFault::value(found, "type of a line", right));
+    };
     let [x1, y1, x2, y2] = numbers;
     let ends = [Vec2::new(x1, flip(y1)), Vec2::new(x2, flip(y2))];
     Ok(Line { ends, letter, angle, auxiliary, contour: letter == Assignment::Boundary, at, flipped: true })
@@ -38,12 +40,7 @@ pub(super) fn typed(
 
 /// Returns the number that a word says, NaN and infinities included.
 pub(super) fn number(word: &str) -> Result<f64, PatternFault> {
-    word.parse().map_err(|_| value(word, "coordinate", "a number"))
-}
-
-/// Returns the fault of a value that cannot be read.
-pub(super) fn value(found: &str, what: &'static str, right: &'static str) -> PatternFault {
-    PatternFault::Value { found: found.chars().take(40).collect(), what, right }
+    word.parse().map_err(|_| PatternFault::value(word, "coordinate", "a number"))
 }
 
 /// Reads the lines of a text.
@@ -63,7 +60,11 @@ pub(super) fn lines(text: &str) -> Lines {
                 drawn.push(typed(type_, (&TYPES, RIGHT), ends, at).map_err(located)?);
             }
             _ => {
-                return Err(located(value(row.trim(), "line of a crease pattern", "five numbers, `type x1 y1 x2 y2`")));
+                return Err(located(PatternFault::value(
+                    row.trim(),
+                    "line of a crease pattern",
+                    "five numbers, `type x1 y1 x2 y2`",
+                )));
             }
         }
     }

@@ -13,7 +13,7 @@ use kurbo::{Affine, Arc, BezPath, Circle, Point, Shape, Vec2};
 
 use super::bspline::BSpline;
 use super::colour;
-use super::cp::{number, value};
+use super::cp::number;
 use super::line::{DrawnLines, Line, Lines, Misread, offset, place};
 use super::outline::{self, Outline};
 use crate::sheet::assignment::Assignment;
@@ -283,7 +283,9 @@ impl<'t> Entity<'t> {
                 let rgb = self.colour()?.or(of_layer).filter(|rgb| *rgb != [255; 3]).unwrap_or_default();
                 let name = || format!("{} of layer {layer}", self.first(COLOUR).unwrap_or("256"));
                 match colour::letter(rgb) {
-                    None if !colour::is_grey(rgb) => return Err(value(&name(), "colour of a line", colour::RIGHT)),
+                    None if !colour::is_grey(rgb) => {
+                        return Err(PatternFault::value(&name(), "colour of a line", colour::RIGHT));
+                    }
                     letter => letter,
                 }
             }

@@ -10,7 +10,7 @@
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-use super::cp::{self, LineType, typed, value};
+use super::cp::{self, LineType, typed};
 use super::line::{DrawnLines, Line, Lines, offset, place};
 use crate::sheet::pattern_fault::PatternFault;
 
@@ -58,12 +58,13 @@ pub(super) fn lines(text: &str) -> Lines {
 fn line(segment: &Segment, at: usize) -> Result<Line, PatternFault> {
     let mut numbers = Vec::with_capacity(4);
     for point in [&segment.a, &segment.b] {
-        let (x, y) = point.split_once(',').ok_or_else(|| value(point, "point", "two numbers, `-200.0,200.0`"))?;
+        let (x, y) =
+            point.split_once(',').ok_or_else(|| PatternFault::value(point, "point", "two numbers, `-200.0,200.0`"))?;
         numbers.extend([cp::number(x.trim())?, cp::number(y.trim())?]);
     }
     let number = segment.color.rsplit_once('_').map_or("", |(_, number)| number);
     let is_colour = number.parse::<usize>().is_ok_and(|number| number > 3);
     let found = if is_colour { "3" } else { number };
     let ends = [numbers[0], numbers[1], numbers[2], numbers[3]];
-    typed(found, (&TYPES, RIGHT), ends, at).map_err(|_| value(&segment.color, "colour of a line", RIGHT))
+    typed(found, (&TYPES, RIGHT), ends, at).map_err(|_| PatternFault::value(&segment.color, "colour of a line", RIGHT))
 }

@@ -10,7 +10,6 @@ use roxmltree::{Document, Node};
 use svgtypes::{Color, Transform};
 
 use super::colour;
-use super::cp::value;
 use super::line::{DrawnLines, Line, Lines, Misread, flip};
 use super::outline::{self, Outline};
 use super::svg_shape::{length, outline};
@@ -31,7 +30,7 @@ pub(super) fn lines(text: &str) -> Lines {
     let document = xml::document(text, "an SVG file")?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
-        let fault = value(root.tag_name().name(), "outermost element of an SVG file", "`svg`");
+        let fault = PatternFault::value(root.tag_name().name(), "outermost element of an SVG file", "`svg`");
         return Err((xml::place(&document, root), fault.into()));
     }
     let title = root.children().find(|node| node.tag_name().name() == "title").and_then(|node| node.text());
@@ -107,7 +106,9 @@ impl<'d, 'input> Drawing<'d, 'input> {
         let named = node.attributes().find(|attribute| attribute.name() == "href").map(|name| name.value());
         let id = named.and_then(|name| name.strip_prefix('#'));
         let found = id.and_then(|id| self.document.descendants().find(|other| other.attribute("id") == Some(id)));
-        found.ok_or_else(|| value(named.unwrap_or_default(), "element of this file", "`#` and the `id` of an element"))
+        found.ok_or_else(|| {
+            PatternFault::value(named.unwrap_or_default(), "element of this file", "`#` and the `id` of an element")
+        })
     }
 
     fn shape(&mut self, node: Node, here: &Around) -> Result<(), PatternFault> {
@@ -118,7 +119,7 @@ impl<'d, 'input> Drawing<'d, 'input> {
         let rgb = [colour.red, colour.green, colour.blue];
         let [red, green, blue] = rgb;
         let name = || format!("#{red:02x}{green:02x}{blue:02x}");
-        let wrong = || value(&name(), "colour of a line", colour::RIGHT);
+        let wrong = || PatternFault::value(&name(), "colour of a line", colour::RIGHT);
         let auxiliary = colour::is_grey(rgb);
         self.grey += usize::from(auxiliary);
         let letter = colour::letter(rgb).or(auxiliary.then_some(Assignment::Flat)).ok_or_else(wrong)?;
@@ -154,13 +155,13 @@ impl Around {
             return Ok(Self { style, ..*self });
         };
         if let Some(origin) = properties.get("transform-origin").filter(|origin| !is_origin(origin)) {
-            return Err(value(
+            return Err(PatternFault::value(
                 origin,
                 "origin of a transform that is read",
                 "`0 0`, and the shift a part of `transform`",
             ));
         }
-        let wrong = |_| value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like");
+        let wrong = |_| PatternFault::value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like");
         let Transform { a, b, c, d, e, f } = text.parse().map_err(wrong)?;
         Ok(Self { style, transform: self.transform * Affine::new([a, b, c, d, e, f]) })
     }

@@ -4,7 +4,6 @@ use kurbo::{BezPath, Ellipse, Point, Rect, RoundedRect, RoundedRectRadii, Shape}
 use roxmltree::Node;
 use svgtypes::{Length, LengthUnit, NumberListParser, SimplePathSegment, SimplifyingPathParser};
 
-use super::cp::value;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// Largest distance of the cubic curves of a circle from it, relative to its radius.
@@ -41,7 +40,8 @@ pub(super) fn length(node: Node, name: &str) -> Result<f64, PatternFault> {
         _ => None,
     };
     let number = length.and_then(|length| Some(length.number * unit(length.unit)?)).filter(|number| number.is_finite());
-    number.ok_or_else(|| value(text, "length", "a number, without a unit or with px, mm, cm, in, pt or pc"))
+    number
+        .ok_or_else(|| PatternFault::value(text, "length", "a number, without a unit or with px, mm, cm, in, pt or pc"))
 }
 
 fn point(node: Node, x: &str, y: &str) -> Result<Point, PatternFault> {
@@ -51,7 +51,7 @@ fn point(node: Node, x: &str, y: &str) -> Result<Point, PatternFault> {
 /// Returns the points of a polyline or polygon.
 fn points(node: Node) -> Result<Vec<Point>, PatternFault> {
     let text = node.attribute("points").unwrap_or_default();
-    let wrong = || value(text, "list of points", "pairs of numbers, `0,0 10,0 10,10`");
+    let wrong = || PatternFault::value(text, "list of points", "pairs of numbers, `0,0 10,0 10,10`");
     let numbers: Vec<f64> = NumberListParser::from(text).collect::<Result<_, _>>().map_err(|_| wrong())?;
     let (pairs, rest) = numbers.as_chunks::<2>();
     if rest.is_empty() { Ok(pairs.iter().map(|&[x, y]| Point::new(x, y)).collect()) } else { Err(wrong()) }
@@ -103,7 +103,7 @@ fn path(commands: &str) -> Result<BezPath, PatternFault> {
     let mut path = BezPath::new();
     for command in SimplifyingPathParser::from(commands) {
         let right = "commands and numbers, `M 0 0 L 10 0 Z`";
-        match command.map_err(|_| value(commands, "path", right))? {
+        match command.map_err(|_| PatternFault::value(commands, "path", right))? {
             SimplePathSegment::MoveTo { x, y } => path.move_to((x, y)),
             SimplePathSegment::LineTo { x, y } => path.line_to((x, y)),
             SimplePathSegment::ClosePath => path.close_path(),

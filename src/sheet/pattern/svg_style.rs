@@ -6,7 +6,6 @@ use roxmltree::{Document, Node};
 use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, Selector, StyleSheet};
 use svgtypes::{Color, Paint};
 
-use super::cp::value;
 use super::line::Misread;
 use super::xml;
 use crate::sheet::pattern_fault::PatternFault;
@@ -56,7 +55,7 @@ fn unread(text: &str) -> Option<PatternFault> {
         (!is_read && properties.any(|property| USED.contains(&property.name))).then_some(selectors.trim().to_owned())
     })?;
     let right = "made of names, classes, ids and attributes of elements, and in no other rule";
-    Some(value(&selectors, "selector of a style sheet that is read", right))
+    Some(PatternFault::value(&selectors, "selector of a style sheet that is read", right))
 }
 
 /// The values of the properties of an element.
@@ -102,7 +101,8 @@ impl Style {
         let given = |name: &str| properties.get(name).copied().filter(|value| *value != "inherit");
         let mut style = *self;
         if let Some(text) = given("color") {
-            style.color = text.parse().map_err(|_| value(text, "colour", "`#f00`, `red` or `rgb(255, 0, 0)`"))?;
+            style.color =
+                text.parse().map_err(|_| PatternFault::value(text, "colour", "`#f00`, `red` or `rgb(255, 0, 0)`"))?;
         }
         if let Some(text) = given("stroke") {
             style.stroke = stroke(text, style.color, self.stroke)?;
@@ -128,7 +128,7 @@ fn stroke(text: &str, color: Color, inherited: Option<Color>) -> Result<Option<C
         Ok(Paint::Inherit) => Ok(inherited),
         Ok(Paint::CurrentColor) => Ok(Some(color)),
         Ok(Paint::Color(color)) => Ok(Some(color)),
-        _ => Err(value(text, "colour of a stroke", right)),
+        _ => Err(PatternFault::value(text, "colour of a stroke", right)),
     }
 }
 
@@ -138,7 +138,9 @@ fn opacity(text: &str) -> Result<f64, PatternFault> {
         None => text.parse(),
     };
     let number = number.ok().filter(|number: &f64| number.is_finite());
-    number.map(|number| number.clamp(0.0, 1.0)).ok_or_else(|| value(text, "opacity", "a number from 0 to 1"))
+    number
+        .map(|number| number.clamp(0.0, 1.0))
+        .ok_or_else(|| PatternFault::value(text, "opacity", "a number from 0 to 1"))
 }
 
 /// An element whose selectors are matched.
