@@ -26,16 +26,12 @@ impl AngleConditions for SpatiallyPeriodic<'_> {
 
     /// The derivatives are right to first order in the rotation vectors.
     fn linearize(&self, angles: &[f64], values: &mut [f64], rates: &mut DenseMatrix) {
-        let mut moving = vec![0.0; angles.len()];
-        for edge in 0..angles.len() {
-            moving[edge] = 1.0;
-            let lattice = Displacement::new(self.0, angles, &moving).lattice;
-            moving[edge] = 0.0;
+        Displacement::for_each_edge(self.0, angles, |edge, lattice| {
             for (k, one) in lattice.iter().flatten().enumerate() {
                 values[3 * k..3 * k + 3].copy_from_slice(rotation::log(&one.motion.rotation).as_slice());
                 rates.view_mut((3 * k, edge), (3, 1)).copy_from(&one.twist.angular);
             }
-        }
+        });
     }
 }
 

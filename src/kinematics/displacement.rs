@@ -8,7 +8,7 @@
 
 use super::embedding::Embedding;
 use super::motion::{Moving, Rigid};
-use super::walk::{Crossing, Walked};
+use super::walk::{Crossing, Loop, Walked};
 use crate::math::Vec3;
 use crate::numerics::larger;
 use crate::sheet::Corner;
@@ -49,8 +49,9 @@ impl Displacement {
         });
         let (positions, velocities) = homes.unzip();
         let ways = embedding.walk.loops.iter().zip(&walked.loops);
-        let apart = ways.map(|(closing, way)| way.twist - Moving::lattice_power(lattice, closing.cell).twist);
-        let disagreement = apart.map(|twist| twist.angular.amax()).fold(0.0, larger);
+        let spin = |closing: &Loop| Moving::lattice_power(lattice, closing.cell).twist.angular;
+        let apart = ways.map(|(closing, way)| (way.twist.angular - spin(closing)).amax());
+        let disagreement = apart.fold(0.0, larger);
         Self {
             positions,
             velocities,
@@ -58,6 +59,20 @@ impl Displacement {
             disagreement,
             #[cfg(test)]
             walked,
+        }
+    }
+
+    /// Calls `visit` with every edge and the lattice motions, with their rates if this edge alone folds at rate 1.
+    pub(super) fn for_each_edge(
+        embedding: &Embedding,
+        angles: &[f64],
+        mut visit: impl FnMut(usize, &Option<[Moving; 2]>),
+    ) {
+        let mut moving = vec![0.0; angles.len()];
+        for edge in 0..angles.len() {
+            moving[edge] = 1.0;
+            visit(edge, &Self::new(embedding, angles, &moving).lattice);
+            moving[edge] = 0.0;
         }
     }
 

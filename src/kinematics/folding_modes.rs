@@ -76,8 +76,8 @@ pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<Fold
     Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
 }
 
-/// Returns the rates of all edges, zero for those that are not in `folding`.
-fn with_zero_rates(edges: usize, folding: &[usize], rates: &DenseMatrix) -> DenseMatrix {
+/// Returns the rates of all edges, from a row for each edge in `folding`; zero for the others.
+pub(super) fn with_zero_rates(edges: usize, folding: &[usize], rates: &DenseMatrix) -> DenseMatrix {
     let mut all = DenseMatrix::zeros(edges, rates.ncols());
     folding.iter().enumerate().for_each(|(row, &edge)| all.set_row(edge, &rates.row(row)));
     all

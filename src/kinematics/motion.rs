@@ -8,7 +8,7 @@
 
 use crate::math::Vec3;
 use nalgebra::Matrix3;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Mul};
 
 /// Types with the composition of rigid motions; `A * B` applies `B` first and `A` after it.
 pub(crate) trait Rigid: Copy + Mul<Output = Self> {
@@ -143,22 +143,6 @@ impl Add for Twist {
     }
 }
 
-impl Neg for Twist {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self { angular: -self.angular, linear: -self.linear }
-    }
-}
-
-impl Sub for Twist {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
 impl Moving {
     /// Returns the rotation about a line by an angle that changes at an angular speed.
     pub(crate) fn about(line: &Line, angle: f64, speed: f64) -> Self {
@@ -178,7 +162,8 @@ impl Rigid for Moving {
 
     fn inverse(&self) -> Self {
         let motion = self.motion.inverse();
-        Self { motion, twist: -self.twist.carried_by(&motion) }
+        let Twist { angular, linear } = self.twist.carried_by(&motion);
+        Self { motion, twist: Twist { angular: -angular, linear: -linear } }
     }
 }
 

@@ -8,6 +8,7 @@
 //! `Nv` quadrics, one for each vertex; the loop is their sum.
 
 use super::closure::DIRECTION;
+use super::folding_modes::with_zero_rates;
 use super::{Closure, KinematicsError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::orthonormal_triangular;
@@ -51,10 +52,7 @@ impl SecondOrder {
         }
         let right = closure.motions(angles)?;
         let left = null_space_of_sums(&closure.jacobian(angles).transpose(), DIRECTION)?.basis;
-        let mut modes = DenseMatrix::zeros(angles.len(), right.basis.ncols());
-        for (row, &edge) in right.basis.row_iter().zip(closure.folding_edges()) {
-            modes.row_mut(edge).copy_from(&row);
-        }
+        let modes = with_zero_rates(angles.len(), closure.folding_edges(), &right.basis);
         let parts = closure.second_order(angles, &modes);
         let along = |y: &[f64]| -> DenseMatrix {
             let zero = DenseMatrix::zeros(modes.ncols(), modes.ncols());

@@ -22,6 +22,7 @@
 
 mod cut;
 
+use super::folding_modes::with_zero_rates;
 use super::motion::Moving;
 use super::{AngleConditions, Closing, Closure, Displacement, Embedding, KinematicsError, folding_modes};
 use crate::math::{Vec3, rotation};
@@ -118,16 +119,6 @@ impl<'a> Tube<'a> {
         [turn.norm() - TAU, turn.dot(&chord) / (TAU * self.length)]
     }
 
-    /// Calls `visit` with every edge and the lattice motions, with their rates if this edge alone folds at rate 1.
-    fn each_edge(&self, angles: &[f64], mut visit: impl FnMut(usize, &Option<[Moving; 2]>)) {
-        let mut moving = self.still();
-        for edge in 0..angles.len() {
-            moving[edge] = 1.0;
-            visit(edge, &Displacement::new(&self.embedding, angles, &moving).lattice);
-            moving[edge] = 0.0;
-        }
-    }
-
     /// Returns the closure Jacobian followed by a row for each condition in `kept`: its null vectors are the motions
     /// through screw-periodic sheets that satisfy these conditions.
     pub fn jacobian(&self, angles: &[f64], kept: &[Condition]) -> DenseMatrix {
@@ -192,9 +183,7 @@ impl<'a> Tube<'a> {
     ) -> Result<DenseMatrix, KinematicsError> {
         let moving: Vec<usize> = (0..angles.len()).filter(|edge| !locked.contains(edge)).collect();
         let basis = null_space(&self.jacobian(angles, kept).select_columns(&moving))?.basis;
-        let mut motions = DenseMatrix::zeros(angles.len(), basis.ncols());
-        moving.iter().zip(basis.row_iter()).for_each(|(&edge, rates)| motions.row_mut(edge).copy_from(&rates));
-        Ok(motions)
+        Ok(with_zero_rates(angles.len(), &moving, &basis))
     }
 
     /// Returns a motion that keeps a condition in the direction in which the quantity of the other one grows: the rise
@@ -309,7 +298,8 @@ impl AngleConditions for TubeCondition<'_, '_> {
     }
 
     fn linearize(&self, angles: &[f64], values: &mut [f64], rates: &mut DenseMatrix) {
-        self.tube.each_edge(angles, |edge, lattice| [values[0], rates[(0, edge)]] = self.value(lattice));
+        let visit = |edge, lattice: &_| [values[0], rates[(0, edge)]] = self.value(lattice);
+        Displacement::for_each_edge(&self.tube.embedding, angles, visit);
     }
 }
 

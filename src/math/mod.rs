@@ -33,5 +33,11 @@ pub(crate) mod taylor;
 
 /// A point or a vector in space, in the user's unit of length.
 pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// Returns point `k` of a list of coordinates, three for each point.
+pub(crate) fn point(coordinates: &[f64], k: usize) -> Vec3 {
+    Vec3::from_column_slice(&coordinates[3 * k..3 * k + 3])
+}
+
 /// A point or vector in the plane.
 pub(crate) type Vec2 = nalgebra::Vector2<f64>;

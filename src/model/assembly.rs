@@ -78,8 +78,11 @@ impl Assembly {
         let drawn = Drawn::new(&sheet, &tiling, boundary, 0.0);
         let angles = on_sides_of_sheet(drawn.fold_angles(&tiling), &sheet, &tiling);
         let start_angles = angles.clone();
-        let geometry = Geometry { sheet, tiling, shown: cells, angles, start_angles };
-        Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
+        Ok(Self::of(Geometry { sheet, tiling, shown: cells, angles, start_angles }, drawn))
+    }
+
+    fn of(geometry: Geometry, drawn: Drawn) -> Self {
+        Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() }
     }
 
     /// Makes an assembly of a tube that was [rolled up](Roll) or is drawn as one, without terms. `cells` counts the
@@ -93,8 +96,7 @@ impl Assembly {
         let of_file = |tiled: &TiledEdge| sheet.drawn_angle(&sheet.edges[tiled.edge]).unwrap_or(f64::NAN);
         let angles = tiling.edges.iter().map(of_file).collect();
         let start_angles = tiling.edges.iter().map(|tiled| roll.angles[tiled.edge]).collect();
-        let geometry = Geometry { sheet, tiling, shown: cells, angles, start_angles };
-        Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
+        Ok(Self::of(Geometry { sheet, tiling, shown: cells, angles, start_angles }, drawn))
     }
 
     /// Makes an assembly of one cell on a domain of one's own, without terms. The drawn state has these coordinates: x,
@@ -112,8 +114,7 @@ impl Assembly {
         }
         let angles = drawn.fold_angles(&tiling);
         let start_angles = angles.clone();
-        let geometry = Geometry { sheet, tiling, shown: cells, angles, start_angles };
-        Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
+        Ok(Self::of(Geometry { sheet, tiling, shown: cells, angles, start_angles }, drawn))
     }
 
     /// Returns the same sheet with other terms, in the same drawn state. Stiffnesses that are given for each edge and

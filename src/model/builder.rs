@@ -75,6 +75,7 @@ type NamedVertex = (usize, [usize; 2]);
 /// An assembly under construction; [`Assembly::patch`] and the similar functions begin one and [`Builder::build`]
 /// ends it.
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Builder {
     sheet: Sheet,
     cells: [usize; 2],
@@ -120,14 +121,12 @@ impl Builder {
 
     /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly. The stiffness
     /// is one number, or a list with one for each edge of the tiling.
-    #[must_use]
     pub fn bars(mut self, stiffness: impl Into<Stiffness>) -> Self {
         self.given.bars = Some(stiffness.into());
         self
     }
 
     /// Sets the rest lengths of the bars. Without this call they are the drawn lengths.
-    #[must_use]
     pub fn rest_lengths(mut self, lengths: RestLengths) -> Self {
         self.given.lengths = Some(lengths);
         self
@@ -135,7 +134,6 @@ impl Builder {
 
     /// Gives every crease this stiffness, in torque per radian and length: one number, or a list with one for each edge
     /// of the tiling, of which only those of creases are used.
-    #[must_use]
     pub fn creases(mut self, stiffness: impl Into<Stiffness>) -> Self {
         self.given.creases = Some(stiffness.into());
         self
@@ -143,28 +141,24 @@ impl Builder {
 
     /// Gives the diagonals of polygons this stiffness, in torque per radian and length: one number, or a list with one
     /// for each edge of the tiling, of which only those of diagonals are used. Without this call polygons are rigid.
-    #[must_use]
     pub fn facets(mut self, stiffness: impl Into<Stiffness>) -> Self {
         self.given.facets = Some(stiffness.into());
         self
     }
 
     /// Sets the rest angles of the diagonals of polygons. Without this call they are the drawn angles.
-    #[must_use]
     pub fn facet_rest(mut self, rest: Rest) -> Self {
         self.given.facet_rest = rest;
         self
     }
 
     /// Sets the rest angles of the creases. Without this call they are the drawn angles.
-    #[must_use]
     pub fn rest(mut self, rest: Rest) -> Self {
         self.given.rest = Some(rest);
         self
     }
 
     /// Gives bars, creases and facets the stiffness of an elastic sheet, unless another one is given.
-    #[must_use]
     pub fn material(mut self, material: Material) -> Self {
         self.given.material = Some(material);
         self
@@ -172,14 +166,12 @@ impl Builder {
 
     /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle,
     /// or that of the closed tube.
-    #[must_use]
     pub fn lock(mut self, crease: EdgeKey, angle: Option<f64>) -> Self {
         self.given.locks.push((crease, angle));
         self
     }
 
     /// Pins a vertex of a cell: its coordinates along the axes (x, y, z) that are true keep their drawn values.
-    #[must_use]
     pub fn pin(mut self, vertex: usize, cell: [usize; 2], axes: [bool; 3]) -> Self {
         self.given.pins.push(((vertex, cell), axes));
         self
@@ -187,7 +179,6 @@ impl Builder {
 
     /// Lets a vertex of a cell move only across a direction: its coordinate along it keeps its drawn value, as that of
     /// a roller on an inclined plane, or of a vertex in a plane of symmetry.
-    #[must_use]
     pub fn guide(mut self, vertex: usize, cell: [usize; 2], normal: [f64; 3]) -> Self {
         self.given.guides.push(((vertex, cell), Vec3::from(normal).normalize()));
         self
@@ -195,28 +186,24 @@ impl Builder {
 
     /// Makes vertices, each of a cell, one rigid body, which keeps free what is true: displacements along x, y, z and
     /// rotations about x, y, z through the centroid of its vertices. See [`Part`].
-    #[must_use]
     pub fn part(mut self, vertices: impl IntoIterator<Item = (usize, [usize; 2])>, free: [bool; 6]) -> Self {
         self.given.parts.push((vertices.into_iter().collect(), free));
         self
     }
 
     /// Applies a force (x, y, z) to a vertex of a cell.
-    #[must_use]
     pub fn load(mut self, vertex: usize, cell: [usize; 2], force: [f64; 3]) -> Self {
         self.given.loads.push(((vertex, cell), Vec3::from(force)));
         self
     }
 
     /// Lets the mass of the sheet weigh: `gravity` is the acceleration (x, y, z).
-    #[must_use]
     pub fn weight(mut self, gravity: [f64; 3]) -> Self {
         self.given.gravity = Some(Vec3::from(gravity));
         self
     }
 
     /// Gives the sheet a mass, from which frequencies follow; it weighs nothing without [`Builder::weight`].
-    #[must_use]
     pub fn mass(mut self, mass: Mass) -> Self {
         self.given.mass = Some(mass);
         self
@@ -224,21 +211,18 @@ impl Builder {
 
     /// Gives the bars that are not rigid a law other than that of a spring, or a list of laws, one for each edge of the
     /// tiling; their stiffness is that at rest.
-    #[must_use]
     pub fn bar_law(mut self, law: impl Into<TermLaw>) -> Self {
         self.given.laws.bars = Some(law.into());
         self
     }
 
     /// Gives the creases that are not rigid a law, as [`Builder::bar_law`] does.
-    #[must_use]
     pub fn crease_law(mut self, law: impl Into<TermLaw>) -> Self {
         self.given.laws.creases = Some(law.into());
         self
     }
 
     /// Gives the diagonals of polygons that are not rigid a law, as [`Builder::bar_law`] does.
-    #[must_use]
     pub fn facet_law(mut self, law: impl Into<TermLaw>) -> Self {
         self.given.laws.facets = Some(law.into());
         self
@@ -299,7 +283,7 @@ impl Builder {
             let numbers = vertices.into_iter().map(|vertex| numbered(&bare, vertex));
             terms.parts.push(Part { vertices: numbers.collect::<Result<_, _>>()?, free });
         }
-        match terms.unbalanced_axis() {
+        match terms.unbalanced_axis(&[]) {
             Some((axis, force)) => Err(AssemblyError::Unbalanced { axis, force }),
             None => Ok(bare.with_terms(terms).with_best_axis()),
         }

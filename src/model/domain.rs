@@ -24,8 +24,8 @@ mod screw;
 mod shared;
 mod tube;
 
-use crate::math::Vec3;
 use crate::math::taylor::{Path, Taylor};
+use crate::math::{Vec3, point};
 pub use crate::sheet::tiling::Site;
 use crate::sheet::{Seam, SeamKept};
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -344,5 +344,5 @@ fn add<const R: usize, const C: usize>(to: &mut Pulled, (row, column): (usize, u
 
 #[inline]
 fn vertex(x: &[f64], site: Site) -> Vec3 {
-    Vec3::from_column_slice(&x[3 * site.vertex..3 * site.vertex + 3])
+    point(x, site.vertex)
 }

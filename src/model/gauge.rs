@@ -6,7 +6,7 @@
 //! that they separate the rigid motions well (Gram-Schmidt with pivoting on the rows of the matrix of rigid motions).
 
 use super::domain::{Domain, Site};
-use crate::math::Vec3;
+use crate::math::{Vec3, point};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::{reciprocal_condition, symmetric_eigen_3};
 use crate::numerics::dense::{NullSpace, null_space_of_sums};
@@ -28,7 +28,6 @@ pub(crate) type Motion = SVector<f64, 6>;
 /// that rotation, like those of vertex 0, are held by the drawn state itself.
 pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
-    let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
     match domain {
         Domain::Tube { .. } => return tube_motions(x, domain.shared(), rotations),
         Domain::Own(_) => return kept_motions(domain, x, rotations),
@@ -37,7 +36,7 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
     let (centre, size) = centre_and_size(domain, x);
     let turns = rotations && matches!(domain, Domain::Patch | Domain::FreeTorus);
     let turn = if turns { 1.0 / size } else { 0.0 };
-    let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows_of(1.0, turn * (point(k) - centre))).collect();
+    let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows_of(1.0, turn * (point(x, k) - centre))).collect();
     match domain {
         Domain::FreeTorus => {
             let lattice = &x[3 * vertices..];
@@ -86,7 +85,7 @@ fn kept_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     };
     let mut rates = DenseMatrix::zeros(x.len(), motions + shared.len());
     for vertex in 0..vertices {
-        let of_vertex = velocity(Vec3::from_column_slice(&x[3 * vertex..3 * vertex + 3]));
+        let of_vertex = velocity(point(x, vertex));
         rates.view_mut((3 * vertex, 0), (3, motions)).copy_from(&of_vertex.columns(0, motions));
     }
     units.iter().enumerate().for_each(|(k, unit)| rates[(3 * vertices + k, motions + k)] = *unit);
@@ -110,9 +109,8 @@ fn tube_motions(x: &[f64], shared: usize, rotations: bool) -> Vec<Motion> {
 /// Returns the centroid of all vertices, and the largest distance of one from it.
 pub(crate) fn centre_and_size(domain: &Domain, x: &[f64]) -> (Vec3, f64) {
     let vertices = (x.len() - domain.shared()) / 3;
-    let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
-    let centre = (0..vertices).map(point).sum::<Vec3>() / vertices as f64;
-    (centre, (0..vertices).map(|k| (point(k) - centre).norm()).fold(f64::MIN_POSITIVE, f64::max))
+    let centre = (0..vertices).map(|k| point(x, k)).sum::<Vec3>() / vertices as f64;
+    (centre, (0..vertices).map(|k| (point(x, k) - centre).norm()).fold(f64::MIN_POSITIVE, f64::max))
 }
 
 /// Returns the velocity of a point, `translation + omega x arm`, as one row for each component.

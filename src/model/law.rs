@@ -213,33 +213,25 @@ impl Stored {
     /// Returns energy, force and stiffness at a value.
     pub(super) fn at(&self, value: f64, spring: Spring, memory: Memory) -> [f64; 3] {
         let off = value - spring.rest;
-        let linear = [0.5 * off * off, off, 1.0];
-        let known = |law: &Arc<dyn Law>| match law.remembering(memory) {
-            Some(law) => law.at(value, spring.rest),
-            None => law.at(value, spring.rest),
-        };
-        let unit = match self {
-            Self::Spring => {
-                let force = spring.stiffness * off;
-                return [0.5 * force * off, force, spring.stiffness];
-            }
-            Self::Law(law) => known(law),
-            Self::BeyondSpring(law) => beyond(known(law), linear),
-        };
-        unit.map(|part| spring.stiffness * part)
+        if let Self::Spring = self {
+            let force = spring.stiffness * off;
+            return [0.5 * force * off, force, spring.stiffness];
+        }
+        self.scaled(spring, memory, [0.5 * off * off, off, 1.0], |law| law.at(value, spring.rest))
     }
 
     /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
     pub(super) fn by_rest(&self, value: f64, spring: Spring, memory: Memory) -> [f64; 3] {
-        let linear = [spring.rest - value, -1.0, 1.0];
-        let known = |law: &Arc<dyn Law>| match law.remembering(memory) {
-            Some(law) => law.by_rest(value, spring.rest),
-            None => law.by_rest(value, spring.rest),
-        };
+        self.scaled(spring, memory, [spring.rest - value, -1.0, 1.0], |law| law.by_rest(value, spring.rest))
+    }
+
+    /// Returns the stiffness times what the law says with this memory, where a spring says `linear`.
+    fn scaled(&self, spring: Spring, memory: Memory, linear: [f64; 3], ask: impl Fn(&dyn Law) -> [f64; 3]) -> [f64; 3] {
+        let known = |law: &dyn Law| law.remembering(memory).map_or_else(|| ask(law), |own| ask(&*own));
         let unit = match self {
             Self::Spring => linear,
-            Self::Law(law) => known(law),
-            Self::BeyondSpring(law) => beyond(known(law), linear),
+            Self::Law(law) => known(&**law),
+            Self::BeyondSpring(law) => beyond(known(&**law), linear),
         };
         unit.map(|part| spring.stiffness * part)
     }

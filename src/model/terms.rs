@@ -170,14 +170,9 @@ impl Terms {
 
     /// Returns the axis (0, 1, 2 for x, y, z) along which most of the loads is neither balanced nor supported, and the
     /// sum of the loads along it that is not; there is no equilibrium then. `None` if there is no such axis. Pins,
-    /// guides and parts that are held along an axis support loads.
-    pub fn unbalanced_axis(&self) -> Option<(usize, f64)> {
-        self.unbalanced_axis_beside(&[])
-    }
-
-    /// Returns the same as [`Terms::unbalanced_axis`] where the sheet is also supported along `directions`, unit
-    /// vectors.
-    pub fn unbalanced_axis_beside(&self, directions: &[Vec3]) -> Option<(usize, f64)> {
+    /// guides and parts that are held along an axis support loads, and so do other supports of the sheet along
+    /// `directions`, unit vectors.
+    pub fn unbalanced_axis(&self, directions: &[Vec3]) -> Option<(usize, f64)> {
         let largest = self.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
         let mut left: Vec3 = self.loads.iter().map(|(_, force)| force).sum();
         let axes = (0..3).filter(|&axis| self.holds(axis)).map(|axis| Vec3::ith(axis, 1.0));

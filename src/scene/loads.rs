@@ -121,7 +121,7 @@ fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>)
 /// no equilibrium.
 fn balance(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
     let driven = drives::supported(file, assembly)?;
-    let Some((axis, force)) = assembly.terms().unbalanced_axis_beside(&driven) else { return Ok(()) };
+    let Some((axis, force)) = assembly.terms().unbalanced_axis(&driven) else { return Ok(()) };
     let place = |load: &Located<LoadSpec>| load.force.as_ref().or(load.weight.as_ref()).map_or(0..0, Located::span);
     let span = file.scene.loads.first().map_or(0..0, place);
     let message = AssemblyError::Unbalanced { axis, force }.to_string();

@@ -11,7 +11,7 @@
 
 use super::cell::{CellElement, PeriodicCell};
 use crate::kinematics::motion::{Motion, Moving, Rigid, Twist};
-use crate::math::Vec3;
+use crate::math::{Vec3, point};
 use crate::model::Local;
 use crate::numerics::{DenseMatrix, larger};
 use nalgebra::{Matrix2, Vector2};
@@ -64,7 +64,7 @@ pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates 
         element.element.local(&cell.coordinates, false, &mut local);
         let unit = if element.element.is_angle() { length } else { 1.0 };
         for (k, place) in element.places.iter().enumerate() {
-            let gradient = Vec3::from_column_slice(&local.gradient[3 * k..3 * k + 3]) * unit;
+            let gradient = point(&local.gradient, k) * unit;
             terms = larger(terms, gradient.amax());
             (0..3).for_each(|axis| by_vertices[(row, 3 * place.vertex + axis)] += gradient[axis]);
             for (component, lattice) in moving.iter().enumerate() {

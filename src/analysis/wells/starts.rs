@@ -16,7 +16,7 @@
 use super::placement::holds_shape;
 use super::settle::{MinimumTracker, Settled};
 use crate::analysis::state::State;
-use crate::math::Vec3;
+use crate::math::{Vec3, point};
 use crate::model::{Assembly, Configuration, Domain, Gauge};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
@@ -103,7 +103,7 @@ fn inside_out(assembly: &Assembly) -> Option<Vec<f64>> {
         return None;
     }
     let (drawn, pins) = (&assembly.drawn().coordinates, &assembly.terms().pins);
-    let point = |vertex: usize| Vec3::from_column_slice(&drawn[3 * vertex..3 * vertex + 3]);
+    let point = |vertex: usize| point(drawn, vertex);
     let across = assembly.tiling().triangles.iter().map(|triangle| {
         let [a, b, c] = triangle.corners.map(|site| point(site.vertex));
         (b - a).cross(&(c - a))

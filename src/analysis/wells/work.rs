@@ -1,6 +1,6 @@
 //! The work of loads, which the energy of a loaded sheet includes.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, point};
 use crate::model::{Assembly, Gauge, Model};
 
 /// The loads on a sheet, and where they act in the drawn state.
@@ -37,8 +37,4 @@ impl Work {
         let of_pressure = self.pressure.as_ref().map(|(model, drawn)| model.work_of_pressure(coordinates) - drawn);
         self.loads.iter().map(moved).sum::<f64>() + of_pressure.unwrap_or(0.0)
     }
-}
-
-fn point(coordinates: &[f64], vertex: usize) -> Vec3 {
-    Vec3::from_column_slice(&coordinates[3 * vertex..3 * vertex + 3])
 }

@@ -16,20 +16,13 @@ mod word;
 
 use super::configuration::Configuration;
 use super::element::{Element, TermKind};
+use super::law::Spring;
 use super::problem::Model;
-use crate::numerics::sparse::FIXED;
 use crate::solver::constrained::{Block, Blocks, ConstrainedProblem};
 use crate::solver::{Problem, Start};
 use loops::{Step, Topology};
 pub use unsupported::Unsupported;
-use word::{Corner, Ends, Factor, Source, Word};
-
-/// A number of an edge that is a variable or fixed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Value {
-    Variable(u32),
-    Fixed(f64),
-}
+use word::{Corner, Ends, Factor, Value, Word};
 
 /// A patch in fold angles and lengths.
 #[derive(Debug)]
@@ -46,13 +39,6 @@ pub struct IntrinsicModel {
     blocks: Blocks,
 }
 
-/// The spring of an edge: its rest value and its compliance.
-#[derive(Clone, Copy)]
-struct Law {
-    rest: f64,
-    compliance: f64,
-}
-
 impl IntrinsicModel {
     /// Makes the intrinsic form of a model.
     ///
@@ -65,15 +51,16 @@ impl IntrinsicModel {
         }
         let Collected { bars, hinges, topology } = Collected::of(model)?;
         let (mut target, mut compliance) = (vec![], vec![]);
-        let mut value = |law: Law| {
-            if law.compliance == 0.0 {
-                return Value::Fixed(law.rest);
+        let mut value = |spring: Spring| {
+            if spring.stiffness.is_infinite() {
+                return Value::Fixed(spring.rest);
             }
-            target.push(law.rest);
-            compliance.push(law.compliance);
+            target.push(spring.rest);
+            compliance.push(1.0 / spring.stiffness);
             Value::Variable(target.len() as u32 - 1)
         };
-        let angles: Vec<Value> = hinges.into_iter().map(|law| law.map_or(Value::Fixed(0.0), &mut value)).collect();
+        let angles: Vec<Value> =
+            hinges.into_iter().map(|spring| spring.map_or(Value::Fixed(0.0), &mut value)).collect();
         let lengths: Vec<Value> = bars.into_iter().map(&mut value).collect();
         let conditions = conditions(&topology)?;
         let mean_edge = model.unit_of_length();
@@ -107,11 +94,7 @@ impl IntrinsicModel {
 
     /// Returns the fold angle and the length of every edge.
     fn measures(&self, z: &[f64]) -> [Vec<f64>; 2] {
-        let number = |value: &Value| match *value {
-            Value::Variable(variable) => z[variable as usize],
-            Value::Fixed(value) => value,
-        };
-        [&self.angles, &self.lengths].map(|values| values.iter().map(number).collect())
+        [&self.angles, &self.lengths].map(|values| values.iter().map(|value| value.get(z)).collect())
     }
 
     /// Returns the torque at the hinge and the force along the bar of every edge, for multipliers of the closure:
@@ -196,10 +179,10 @@ impl ConstrainedProblem for IntrinsicModel {
     }
 }
 
-/// The laws of all bars and hinges by their edges, and the topology that follows from their vertices.
+/// The springs of all bars and hinges by their edges, and the topology that follows from their vertices.
 struct Collected {
-    bars: Vec<Law>,
-    hinges: Vec<Option<Law>>,
+    bars: Vec<Spring>,
+    hinges: Vec<Option<Spring>>,
     topology: Topology,
 }
 
@@ -211,24 +194,24 @@ impl Collected {
         let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
         for element in model.elements() {
             let Some(edge) = element.edge().filter(|_| !element.has_law()) else { return Err(Unsupported::Law) };
-            let kind = element.kind();
-            let law = Law { rest: element.spring.rest, compliance: 1.0 / element.spring.stiffness };
+            let (kind, spring) = (element.kind(), Some(element.spring));
             match (kind, element.sites()) {
                 (TermKind::Bars, &[i, j]) => {
-                    bars[edge] = Some(law);
+                    bars[edge] = spring;
                     ends[edge] = [i.vertex, j.vertex];
                 }
                 (TermKind::Creases | TermKind::Facets | TermKind::Locks, &[i, j, left, right]) => {
-                    hinges[edge] = if kind == TermKind::Locks { Some(law) } else { hinges[edge].or(Some(law)) };
+                    hinges[edge] = if kind == TermKind::Locks { spring } else { hinges[edge].or(spring) };
                     wings.push([i, j, left, right].map(|site| site.vertex));
                 }
                 _ => return Err(Unsupported::Topology),
             }
         }
         let missing = |edge: usize| Unsupported::NoBar { edge };
-        let bars = (0..).zip(bars).map(|(edge, law)| law.ok_or(missing(edge))).collect::<Result<Vec<Law>, _>>()?;
+        let bars =
+            (0..).zip(bars).map(|(edge, spring)| spring.ok_or(missing(edge))).collect::<Result<Vec<Spring>, _>>()?;
         let topology = Topology::new(vertices(model), &ends, &wings)?;
-        let folds = |law: &Option<Law>| law.is_some_and(|law| law.compliance.is_finite());
+        let folds = |hinge: &Option<Spring>| hinge.is_some_and(|spring| (1.0 / spring.stiffness).is_finite());
         let inside = |edge: usize| {
             let [i, j] = ends[edge];
             [[i, j], [j, i]].iter().all(|&[a, b]| topology.get(a, b).is_some_and(|found| found.left.is_some()))
@@ -282,30 +265,28 @@ fn words(conditions: &[Condition], angles: &[Value], lengths: &[Value], unit: f6
     let mut blocks = Blocks::default();
     let words = conditions.iter().map(|condition| {
         let mut variables: Vec<u32> = Vec::new();
-        let mut source = |value: Value| match value {
-            Value::Fixed(value) => Source { place: FIXED, value },
-            Value::Variable(variable) => {
-                let place = variables.iter().position(|v| *v == variable).unwrap_or_else(|| {
-                    variables.push(variable);
-                    variables.len() - 1
-                });
-                Source { place: place as u32, value: f64::NAN }
-            }
+        let mut own = |value: Value| {
+            let Value::Variable(variable) = value else { return value };
+            let place = variables.iter().position(|v| *v == variable).unwrap_or_else(|| {
+                variables.push(variable);
+                variables.len() - 1
+            });
+            Value::Variable(place as u32)
         };
         let (mut factors, mut ends) = (vec![], Ends::Round);
         for step in &condition.steps {
             match *step {
-                Step::Cross { edge, sign } => factors.push(Factor::Fold { angle: source(angles[edge]), sign }),
-                Step::Sector { edges, sign } => factors.push(sector(edges.map(|edge| source(lengths[edge])), sign)),
+                Step::Cross { edge, sign } => factors.push(Factor::Fold { angle: own(angles[edge]), sign }),
+                Step::Sector { edges, sign } => factors.push(sector(edges.map(|edge| own(lengths[edge])), sign)),
                 Step::Along { edge } => {
                     ends = Ends::Rim { unit };
-                    factors.push(Factor::Shift { length: source(lengths[edge]) });
+                    factors.push(Factor::Shift { length: own(lengths[edge]) });
                     factors.push(Factor::Turn { sine: 0.0, cosine: -1.0 });
                 }
             }
         }
         if let Some(edge) = condition.bridge {
-            ends = Ends::Bridge { length: source(lengths[edge]), unit };
+            ends = Ends::Bridge { length: own(lengths[edge]), unit };
         }
         let word = Word { factors, ends };
         blocks.push(word.rows(), &variables);
@@ -316,10 +297,8 @@ fn words(conditions: &[Condition], angles: &[Value], lengths: &[Value], unit: f6
 }
 
 /// Returns the rotation through a triangle with these sides, evaluated once if they are fixed.
-fn sector(lengths: [Source; 3], sign: f64) -> Factor {
-    if lengths.iter().any(|length| length.place != FIXED) {
-        return Factor::Sector { lengths, sign };
-    }
-    let corner = Corner::new(lengths.map(|length| length.value));
+fn sector(lengths: [Value; 3], sign: f64) -> Factor {
+    let [Value::Fixed(a), Value::Fixed(b), Value::Fixed(c)] = lengths else { return Factor::Sector { lengths, sign } };
+    let corner = Corner::new([a, b, c]);
     Factor::Turn { sine: sign * corner.sine, cosine: corner.cosine }
 }

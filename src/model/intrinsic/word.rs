@@ -14,27 +14,25 @@ use crate::numerics::sparse::FIXED;
 use crate::solver::constrained::Block;
 use nalgebra::Matrix3;
 
-/// A number that is a variable of a loop, or fixed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Source {
-    /// Place of the variable among those of the loop, or [`FIXED`].
-    pub place: u32,
-    /// The number if it is fixed.
-    pub value: f64,
+/// A number of an edge that is fixed, or a variable: its place among those of the sheet, or of a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Value {
+    Variable(u32),
+    Fixed(f64),
 }
 
 /// One motion of the frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Factor {
     /// Rotation about x by a fold angle times `sign`.
-    Fold { angle: Source, sign: f64 },
+    Fold { angle: Value, sign: f64 },
     /// Rotation about z by `sign` times the angle of a triangle between its sides `lengths[0]` and `lengths[1]`,
     /// opposite to `lengths[2]`.
-    Sector { lengths: [Source; 3], sign: f64 },
+    Sector { lengths: [Value; 3], sign: f64 },
     /// Rotation about z by a fixed angle.
     Turn { sine: f64, cosine: f64 },
     /// Translation along x.
-    Shift { length: Source },
+    Shift { length: Value },
 }
 
 /// What has to come of a product of motions. Positions are divided by a unit of length.
@@ -45,7 +43,7 @@ pub(super) enum Ends {
     /// The identity: six rows.
     Rim { unit: f64 },
     /// A position at this distance: one row.
-    Bridge { length: Source, unit: f64 },
+    Bridge { length: Value, unit: f64 },
 }
 
 /// A product of motions and what has to come of it.
@@ -65,9 +63,18 @@ struct Rate {
     hessian: Option<Matrix3<f64>>,
 }
 
-impl Source {
-    fn get(&self, z: &[f64]) -> f64 {
-        if self.place == FIXED { self.value } else { z[self.place as usize] }
+impl Value {
+    /// Returns the number, of these variables.
+    pub(super) fn get(&self, z: &[f64]) -> f64 {
+        match *self {
+            Self::Variable(variable) => z[variable as usize],
+            Self::Fixed(value) => value,
+        }
+    }
+
+    /// Returns the place of the variable, or [`FIXED`].
+    fn place(&self) -> u32 {
+        if let Self::Variable(variable) = *self { variable } else { FIXED }
     }
 }
 
@@ -137,7 +144,7 @@ impl Word {
     }
 
     /// Puts the distance of the product's position minus a length into `out`.
-    fn bridge(&self, rates: &[Rate], place: &Vec3, (length, unit): (Source, f64), z: &[f64], out: &mut Block) {
+    fn bridge(&self, rates: &[Rate], place: &Vec3, (length, unit): (Value, f64), z: &[f64], out: &mut Block) {
         out.values.push((place.norm() - length.get(z)) / unit);
         let towards = place.normalize();
         for rate in rates {
@@ -145,8 +152,8 @@ impl Word {
                 out.jacobian[variable] += factor * towards.dot(&rate.linear) / unit;
             }
         }
-        if length.place != FIXED {
-            out.jacobian[length.place as usize] -= 1.0 / unit;
+        if let Value::Variable(variable) = length {
+            out.jacobian[variable as usize] -= 1.0 / unit;
         }
     }
 }
@@ -219,15 +226,14 @@ fn add_product(first: &Rate, second: &Rate, same: bool, amount: f64, out: &mut [
 impl Factor {
     /// Returns how the product changes with this factor, if it varies. `axes` are x and z of the frame before it.
     fn rate(&self, z: &[f64], [x, up]: [Vec3; 2], place: &Vec3, want_hessian: bool) -> Option<Rate> {
-        let none = [FIXED; 3];
         let about = |axis: Vec3| (axis, place.cross(&axis));
         match self {
-            Self::Fold { angle, sign } if angle.place != FIXED => {
+            Self::Fold { angle: Value::Variable(angle), sign } => {
                 let (angular, linear) = about(x);
                 Some(Rate {
                     angular,
                     linear,
-                    places: [angle.place, FIXED, FIXED],
+                    places: [*angle, FIXED, FIXED],
                     gradient: [*sign, 0.0, 0.0],
                     hessian: None,
                 })
@@ -240,15 +246,15 @@ impl Factor {
                 Some(Rate {
                     angular,
                     linear,
-                    places: lengths.map(|l| l.place),
+                    places: lengths.map(|length| length.place()),
                     gradient: gradient.map(|g| sign * g),
                     hessian,
                 })
             }
-            Self::Shift { length } if length.place != FIXED => Some(Rate {
+            Self::Shift { length: Value::Variable(length) } => Some(Rate {
                 angular: Vec3::zeros(),
                 linear: x,
-                places: [length.place, none[1], none[2]],
+                places: [*length, FIXED, FIXED],
                 gradient: [1.0, 0.0, 0.0],
                 hessian: None,
             }),

@@ -5,7 +5,7 @@
 //! `centroid + displacement + R(w) r`. The *generalised coordinates* of a model are the coordinates of all vertices,
 //! followed by six for each part; those of the vertices of a part follow from its pose.
 
-use crate::math::{Vec3, rotation};
+use crate::math::{Vec3, point, rotation};
 use crate::model::element::Local;
 use crate::model::part::Part;
 use crate::numerics::dense::small::nearest_rotation;
@@ -121,11 +121,11 @@ impl Bodies {
     pub(super) fn find_all_poses(&self, generalised: &mut [f64], before: &[f64]) {
         for (part, body) in self.bodies.iter().enumerate() {
             let pose = self.pose(part, generalised);
-            let points = |k: usize| Vec3::from_column_slice(&generalised[3 * k..3 * k + 3]);
             let count = body.part.vertices.len() as f64;
-            let centroid = body.part.vertices.iter().map(|&v| points(v)).sum::<Vec3>() / count;
+            let centroid = body.part.vertices.iter().map(|&v| point(generalised, v)).sum::<Vec3>() / count;
             let pairs = body.part.vertices.iter().zip(&body.arms);
-            let moment: Matrix3<f64> = pairs.map(|(&v, arm)| (points(v) - centroid) * arm.transpose()).sum();
+            let moment: Matrix3<f64> =
+                pairs.map(|(&v, arm)| (point(generalised, v) - centroid) * arm.transpose()).sum();
             let turn = nearest_turn(rotation::log(&nearest_rotation(&moment)), self.rotation(part, before));
             let moved = centroid - body.centroid;
             let found = [moved.x, moved.y, moved.z, turn.x, turn.y, turn.z];
@@ -156,9 +156,9 @@ impl Bodies {
             })
             .collect();
         let size = maps.iter().map(DMatrix::ncols).sum();
-        let force = |k: usize| Vec3::from_column_slice(&local.gradient[3 * k..3 * k + 3]);
-        let gradient: Vec<f64> =
-            (0..maps.len()).flat_map(|k| (maps[k].transpose() * force(k)).as_slice().to_vec()).collect();
+        let gradient: Vec<f64> = (0..maps.len())
+            .flat_map(|k| (maps[k].transpose() * point(&local.gradient, k)).as_slice().to_vec())
+            .collect();
         if !local.hessian.is_empty() {
             let entry = |row: usize, column: usize| {
                 let (high, low) = (row.max(column), row.min(column));
@@ -172,7 +172,7 @@ impl Bodies {
                     place += left.transpose() * block * right;
                 }
                 if let Some(turned) = &turned[k] {
-                    add_curvature(turned, &force(k), starts[k] + 3, &mut pulled);
+                    add_curvature(turned, &point(&local.gradient, k), starts[k] + 3, &mut pulled);
                 }
             }
             local.hessian =
@@ -196,9 +196,8 @@ impl Bodies {
 
     /// Returns the parts that carry loads, each with its loads as pairs of a vertex and a force.
     pub(super) fn loaded(&self, loads: &[f64]) -> Vec<(usize, Vec<(usize, Vec3)>)> {
-        let force = |vertex: usize| Vec3::from_column_slice(&loads[3 * vertex..3 * vertex + 3]);
         let of = |body: &Body| -> Vec<(usize, Vec3)> {
-            body.part.vertices.iter().map(|&v| (v, force(v))).filter(|(_, force)| force.amax() > 0.0).collect()
+            body.part.vertices.iter().map(|&v| (v, point(loads, v))).filter(|(_, force)| force.amax() > 0.0).collect()
         };
         let all = self.bodies.iter().map(of).enumerate();
         all.filter(|(_, forces)| !forces.is_empty()).collect()
@@ -221,9 +220,8 @@ impl Bodies {
 
 impl Body {
     fn new(part: Part, drawn: &[f64]) -> Self {
-        let point = |v: &usize| Vec3::from_column_slice(&drawn[3 * v..3 * v + 3]);
-        let centroid = part.vertices.iter().map(point).sum::<Vec3>() / part.vertices.len() as f64;
-        let arms = part.vertices.iter().map(|v| point(v) - centroid).collect();
+        let centroid = part.vertices.iter().map(|&v| point(drawn, v)).sum::<Vec3>() / part.vertices.len() as f64;
+        let arms = part.vertices.iter().map(|&v| point(drawn, v) - centroid).collect();
         Self { part, centroid, arms }
     }
 }

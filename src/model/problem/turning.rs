@@ -4,7 +4,7 @@
 //! rotations have a small artificial stiffness, so that those which no load resists leave the Hessian regular.
 
 use super::{Gauge, Model};
-use crate::math::Vec3;
+use crate::math::{Vec3, point};
 use crate::model::domain::Domain;
 use crate::model::gauge;
 use crate::numerics::sparse::FIXED;
@@ -47,11 +47,9 @@ impl Model {
     /// Returns the point about which the whole sheet can rotate: its only pinned vertex, or the centroid without
     /// pins. `None` if more than one vertex is pinned.
     fn pivot(&self, all: &[f64]) -> Option<Vec3> {
-        let vertices = (all.len() - self.equations.domain.shared()) / 3;
-        let point = |k: usize| Vec3::from_column_slice(&all[3 * k..3 * k + 3]);
         match self.pinned.first().map(|k| k / 3) {
-            None => Some((0..vertices).map(point).sum::<Vec3>() / vertices as f64),
-            Some(pinned) => self.pinned.iter().all(|k| k / 3 == pinned).then(|| point(pinned)),
+            None => Some(gauge::centre_and_size(&self.equations.domain, all).0),
+            Some(pinned) => self.pinned.iter().all(|k| k / 3 == pinned).then(|| point(all, pinned)),
         }
     }
 
