@@ -7,11 +7,17 @@
 //! point gives a mean that is no solution; then the path goes on to a smaller circle.
 
 use super::elimination;
+use super::error::HomotopyError;
 use super::system::{C, Homotopy, Quadrics, distance, in_patch, norm, normalize};
-use super::track::{Lost, Tracker};
+use super::track::{Care, Lost, Tracker};
+use crate::parallel;
 
+/// Number of attempts at all paths.
+const ATTEMPTS: u32 = 4;
+/// First step of a path in its parameter, which goes from 1 to 0.
+const FIRST_STEP: f64 = 0.05;
 /// Parameter at which the endgame takes paths over.
-pub(super) const START: f64 = 0.02;
+const START: f64 = 0.02;
 /// Ratio of the radius of a circle to that of the one before.
 const RADIUS_RATIO: f64 = 0.25;
 /// Largest number of circles.
@@ -66,8 +72,32 @@ impl Target for Quadrics {
     }
 }
 
+/// Returns what the first attempt that succeeds finds; each has smaller steps and other random numbers than the one
+/// before.
+pub(super) fn attempted<T>(attempt: impl Fn(u32) -> Result<T, HomotopyError>) -> Result<T, HomotopyError> {
+    (1..ATTEMPTS).fold(attempt(0), |found, repeated| found.or_else(|_| attempt(repeated)))
+}
+
+/// Follows the paths from all starts, at `t = 1`, to their ends; fails where one is lost.
+pub(super) fn ends<H: Homotopy + Sync>(
+    homotopy: &H,
+    target: &(impl Target + Sync),
+    starts: &[Vec<C>],
+    repeated: u32,
+) -> Result<Vec<PathEnd>, HomotopyError> {
+    let path = |start: &Vec<C>| {
+        let mut tracker = Tracker::new(homotopy, Care::of_attempt(repeated));
+        let x = tracker.track(start, C::new(1.0, 0.0), C::new(START, 0.0), FIRST_STEP)?;
+        finish(&mut tracker, target, x)
+    };
+    let ends = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]));
+    let ends: Vec<PathEnd> = ends.into_iter().filter_map(Result::ok).collect();
+    let paths = starts.len() - ends.len();
+    if paths == 0 { Ok(ends) } else { Err(HomotopyError::Lost { paths }) }
+}
+
 /// Follows a path from [`START`] to its end.
-pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<PathEnd, Lost> {
+fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<PathEnd, Lost> {
     let (mut x, mut radius) = (x, START);
     for circle in 0..MOST_CIRCLES {
         let t = C::new(radius, 0.0);

@@ -107,7 +107,7 @@ impl Split {
         }
         let small = |row: &Series| row.iter().all(|entry| entry.norm() <= ZERO);
         rows.retain(|row| !small(row));
-        monomials.degrees.len() - elimination::rank(rows, ZERO)
+        monomials.degrees.len() - elimination::rank(&rows, ZERO)
     }
 
     /// The quadratic parts of the equations as series, with the unknowns of `rest` solved for.

@@ -12,24 +12,21 @@
 //! 2011). Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N`
 //! confirms them.
 
-use super::elimination::determinant;
-use super::endgame::{self, PathEnd, Simple, Target};
+use super::endgame::{PathEnd, Simple, Target, attempted, ends};
 use super::error::HomotopyError;
 use super::sections::on_linear_space;
 use super::sections::random_frame;
 use super::solutions::{SAME_SOLUTION_DISTANCE, conjugate, grouped, turned};
 use super::system::{C, Homotopy, Local, Quadrics, distance, unit};
-use super::track::{Care, Tracker};
+use crate::DenseMatrix;
+use crate::complex::{ComplexMatrix, determinant};
 use crate::dense::{full_svd, symmetric_eigenvalues};
-use crate::{DenseMatrix, parallel};
 use nalgebra::{Complex, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 /// Singular value of the Jacobian below which it counts as zero.
 const ZERO: f64 = 1e-6;
-/// Number of attempts, each with smaller steps and other random numbers than the one before.
-const ATTEMPTS: u32 = 4;
 
 /// A point, and the estimated distance to the exact one.
 type Estimate = (Vec<C>, f64);
@@ -55,14 +52,8 @@ pub struct SingularPoint {
 pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<SingularPoint>>, HomotopyError> {
     let count = quadrics.len();
     let quadrics = Quadrics::new(quadrics, count + 2)?;
-    let mut found = Err(HomotopyError::Lost { paths: 0 });
-    for attempt in 0..ATTEMPTS {
-        found = confirmed(&quadrics, attempt);
-        if found.is_ok() {
-            break;
-        }
-    }
-    Ok(found?.map(|points| points.into_iter().map(|(point, error)| described(&quadrics, point, error)).collect()))
+    let found = attempted(|attempt| confirmed(&quadrics, attempt))?;
+    Ok(found.map(|points| points.into_iter().map(|(point, error)| described(&quadrics, point, error)).collect()))
 }
 
 /// Real points that two choices of random numbers have in common.
@@ -91,20 +82,7 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     }
     let frame = random_frame(quadrics.unknowns, quadrics.count(), &mut random);
     let polar = Polar { quadrics, frame, planes, factor: unit(&mut random) };
-    let path = |start: &Vec<C>| {
-        let mut tracker = Tracker::new(&polar, Care::of_attempt(attempt));
-        let [begin, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
-        let x = tracker.track(start, begin, end, 0.05)?;
-        endgame::finish(&mut tracker, &polar, x)
-    };
-    let ends: Vec<PathEnd> = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]))
-        .into_iter()
-        .filter_map(Result::ok)
-        .collect();
-    if ends.len() < starts.len() {
-        return Err(HomotopyError::Lost { paths: starts.len() - ends.len() });
-    }
-    let singular = ends.into_iter().filter_map(|end| match end {
+    let singular = ends(&polar, &polar, &starts, attempt)?.into_iter().filter_map(|end| match end {
         PathEnd::Singular { point, error } => Some((point, error)),
         PathEnd::Simple(_) => None,
     });
@@ -160,7 +138,7 @@ impl Polar<'_> {
 fn cofactor(matrix: &[C], n: usize, row: usize, column: usize) -> C {
     let kept = matrix.iter().enumerate().filter(|(k, _)| k / n != row && k % n != column).map(|(_, entry)| *entry);
     let sign = if (row + column).is_multiple_of(2) { 1.0 } else { -1.0 };
-    determinant(&mut kept.collect::<Vec<C>>(), n - 1) * sign
+    determinant(ComplexMatrix::from_row_iterator(n - 1, n - 1, kept)) * sign
 }
 
 impl Homotopy for Polar<'_> {

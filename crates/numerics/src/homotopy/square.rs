@@ -1,19 +1,13 @@
 //! As many quadrics as determine points: all paths are followed, and what they find is checked.
 
-use super::endgame::{self, PathEnd, Simple};
+use super::endgame::{PathEnd, Simple, attempted, ends};
 use super::error::{HomotopyError, MOST_QUADRICS};
 use super::multiplicity::{Multiplicity, multiplicity};
 use super::solutions::{Group, SAME_SOLUTION_DISTANCE, Solution, Solutions, conjugate, grouped, multiple, turned};
 use super::system::{C, Quadrics, TotalDegree, distance};
-use super::track::{Care, Tracker};
 use crate::parallel;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-
-/// Number of attempts, each with smaller steps and other random numbers than the one before.
-const ATTEMPTS: u32 = 4;
-/// First step of a path in its parameter, which goes from 1 to 0.
-const FIRST_STEP: f64 = 0.05;
 
 /// Finds all solutions of `m` quadrics `x^T A_k x = 0` in `m + 1` homogeneous unknowns.
 ///
@@ -27,30 +21,14 @@ pub(super) fn solve_square(quadrics: &Quadrics) -> Result<Solutions, HomotopyErr
     if count > MOST_QUADRICS {
         return Err(HomotopyError::TooMany { quadrics: count });
     }
-    let mut found = attempt(quadrics, 0);
-    for repeated in 1..ATTEMPTS {
-        if found.is_ok() {
-            break;
-        }
-        found = attempt(quadrics, repeated);
-    }
-    found
+    attempted(|repeated| attempt(quadrics, repeated))
 }
 
 fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyError> {
     let homotopy = TotalDegree::new(quadrics, &mut ChaCha8Rng::seed_from_u64(u64::from(repeated)));
     let paths = 1 << quadrics.count();
-    let path = |number: usize| {
-        let mut tracker = Tracker::new(&homotopy, Care::of_attempt(repeated));
-        let [start, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
-        let x = tracker.track(&homotopy.start(number), start, end, FIRST_STEP)?;
-        endgame::finish(&mut tracker, quadrics, x)
-    };
-    let ends: Vec<PathEnd> =
-        parallel::map_with_state(paths, || (), |(), number| path(number)).into_iter().filter_map(Result::ok).collect();
-    if ends.len() < paths {
-        return Err(HomotopyError::Lost { paths: paths - ends.len() });
-    }
+    let starts: Vec<Vec<C>> = (0..paths).map(|number| homotopy.start(number)).collect();
+    let ends = ends(&homotopy, quadrics, &starts, repeated)?;
     let mut solutions = Solutions { paths, repeated, ..Solutions::default() };
     add_simple(&ends, &mut solutions)?;
     add_singular(quadrics, &ends, &mut solutions)?;
