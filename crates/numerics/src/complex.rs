@@ -1,11 +1,10 @@
-//! Dense complex matrices: determinants, eigenvalues, singular values and vectors.
+//! Dense complex matrices: determinants, linear systems and eigenvalues. Their singular values, and the eigenvalues of
+//! Hermitian ones, are in [`dense`](super::dense).
 
-use super::dense::{DenseError, binary_unit};
-use faer::diag::DiagMut;
+use super::dense::{DenseError, check_square, diagonal, view};
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_scratch, self_adjoint_evd, self_adjoint_evd_scratch};
-use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
-use faer::{ColMut, MatMut, MatRef, Par, Spec};
+use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_scratch};
+use faer::{Par, Spec};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// A dense complex matrix.
@@ -13,17 +12,6 @@ pub type ComplexMatrix = DMatrix<Complex<f64>>;
 
 /// A complex vector.
 pub type ComplexVector = DVector<Complex<f64>>;
-
-/// `matrix = u * diag(singular_values) * v^H` of a square matrix.
-#[derive(Clone, Debug)]
-pub struct ComplexSvd {
-    /// Left singular vectors.
-    pub u: ComplexMatrix,
-    /// Singular values, descending.
-    pub singular_values: Vec<f64>,
-    /// Right singular vectors.
-    pub v: ComplexMatrix,
-}
 
 /// The determinant of a square matrix, by elimination with row pivots of the largest modulus. (nalgebra's LU
 /// factorization chooses them by `|re| + |im|`, and its determinants differ in the last digits.)
@@ -82,7 +70,7 @@ pub fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Optio
 /// # Errors
 /// [`DenseError`] where the matrix is not square, or an entry is not finite.
 pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseError> {
-    let (rows, columns) = check(matrix)?;
+    let (rows, columns) = check_square(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
     if rows > 0 {
         let no = ComputeEigenvectors::No;
@@ -95,77 +83,10 @@ pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseErr
     Ok(values)
 }
 
-/// Eigenvalues of a Hermitian matrix, ascending; only the lower triangle is read.
-///
-/// # Errors
-/// As [`eigenvalues`].
-pub fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseError> {
-    let (rows, columns) = check(matrix)?;
-    let mut values = vec![Complex::ZERO; rows];
-    let unit = binary_unit(matrix.iter().map(|entry| entry.re.abs().max(entry.im.abs())));
-    if rows > 0 {
-        let matrix = matrix.map(|entry| entry / unit);
-        let no = ComputeEigenvectors::No;
-        let scratch = self_adjoint_evd_scratch::<Complex<f64>>(rows, no, Par::Seq, Spec::default());
-        let mut buffer = MemBuffer::new(scratch);
-        let stack = MemStack::new(&mut buffer);
-        self_adjoint_evd(view(&matrix), diagonal(&mut values), None, Par::Seq, stack, Spec::default())
-            .map_err(|_| DenseError::NoConvergence { rows, columns })?;
-    }
-    Ok(values.into_iter().map(|value| value.re * unit).collect())
-}
-
-/// Singular values and vectors of a square matrix.
-///
-/// # Errors
-/// As [`eigenvalues`].
-pub fn complex_svd(matrix: &ComplexMatrix) -> Result<ComplexSvd, DenseError> {
-    let (rows, columns) = check(matrix)?;
-    let (mut u, mut v) = (ComplexMatrix::identity(rows, rows), ComplexMatrix::identity(rows, rows));
-    let mut values = vec![Complex::ZERO; rows];
-    if rows > 0 {
-        let full = ComputeSvdVectors::Full;
-        let scratch = svd_scratch::<Complex<f64>>(rows, rows, full, full, Par::Seq, Spec::default());
-        let mut buffer = MemBuffer::new(scratch);
-        let (left, right) = (Some(view_mut(&mut u)), Some(view_mut(&mut v)));
-        let stack = MemStack::new(&mut buffer);
-        svd(view(matrix), diagonal(&mut values), left, right, Par::Seq, stack, Spec::default())
-            .map_err(|_| DenseError::NoConvergence { rows, columns })?;
-    }
-    Ok(ComplexSvd { u, singular_values: values.into_iter().map(|value| value.re).collect(), v })
-}
-
-/// The sizes of a square matrix of finite entries.
-fn check(matrix: &ComplexMatrix) -> Result<(usize, usize), DenseError> {
-    let (rows, columns) = matrix.shape();
-    if rows != columns {
-        return Err(DenseError::NotSquare { rows, columns });
-    }
-    match matrix.iter().position(|value| !(value.re.is_finite() && value.im.is_finite())) {
-        None => Ok((rows, columns)),
-        Some(at) => {
-            let (row, column) = (at % rows, at / rows);
-            Err(DenseError::NotFinite { row, column, value: matrix[(row, column)].norm() })
-        }
-    }
-}
-
-fn view(matrix: &ComplexMatrix) -> MatRef<'_, Complex<f64>> {
-    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
-}
-
-fn view_mut(matrix: &mut ComplexMatrix) -> MatMut<'_, Complex<f64>> {
-    let (rows, columns) = matrix.shape();
-    MatMut::from_column_major_slice_mut(matrix.as_mut_slice(), rows, columns)
-}
-
-fn diagonal(values: &mut [Complex<f64>]) -> DiagMut<'_, Complex<f64>> {
-    ColMut::from_slice_mut(values).as_diagonal_mut()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dense::{Svd, full_svd, symmetric_eigenvalues};
 
     /// Entries in the unit square that look random.
     fn scrambled(n: usize) -> ComplexMatrix {
@@ -181,7 +102,7 @@ mod tests {
             let matrix = scrambled(n);
             let found = determinant(matrix.clone());
             let product: Complex<f64> = eigenvalues(&matrix).unwrap().iter().product();
-            let ComplexSvd { u, singular_values, v } = complex_svd(&matrix).unwrap();
+            let Svd { u, singular_values, v } = full_svd(&matrix).unwrap();
             let size: f64 = singular_values.iter().product();
             let middle =
                 ComplexMatrix::from_fn(n, n, |i, j| Complex::new(if i == j { singular_values[i] } else { 0.0 }, 0.0));
@@ -195,9 +116,9 @@ mod tests {
     /// Claim: a Hermitian matrix with known eigenvalues gives them.
     #[test]
     fn hermitian() {
-        let ComplexSvd { u, .. } = complex_svd(&scrambled(9)).unwrap();
+        let Svd { u, .. } = full_svd(&scrambled(9)).unwrap();
         let middle = ComplexMatrix::from_fn(9, 9, |i, j| Complex::new(if i == j { i as f64 - 3.0 } else { 0.0 }, 0.0));
-        let found = hermitian_eigenvalues(&(&u * middle * u.adjoint())).unwrap();
+        let found = symmetric_eigenvalues(&(&u * middle * u.adjoint())).unwrap();
         assert!(found.iter().enumerate().all(|(k, value)| (value - (k as f64 - 3.0)).abs() <= 1e-13), "{found:?}");
     }
 
@@ -207,7 +128,7 @@ mod tests {
         let mut matrix = scrambled(3);
         matrix[(2, 1)].im = f64::NAN;
         assert!(matches!(eigenvalues(&matrix), Err(DenseError::NotFinite { row: 2, column: 1, .. })));
-        assert!(matches!(complex_svd(&ComplexMatrix::zeros(2, 3)), Err(DenseError::NotSquare { .. })));
+        assert!(matches!(eigenvalues(&ComplexMatrix::zeros(2, 3)), Err(DenseError::NotSquare { .. })));
         assert_eq!(determinant(ComplexMatrix::zeros(3, 3)), Complex::ZERO);
         assert!(eigenvalues(&ComplexMatrix::zeros(0, 0)).unwrap().is_empty());
     }

@@ -16,8 +16,9 @@ use super::rigidity::power;
 use crate::math::fold_angle::fold_angle_gradient;
 use crate::model::{Local, Model};
 use crate::numerics::DenseMatrix;
-use crate::numerics::complex::{ComplexMatrix, hermitian_eigenvalues};
+use crate::numerics::complex::ComplexMatrix;
 use crate::numerics::dense::eigenvalue_rounding;
+use crate::numerics::dense::symmetric_eigenvalues;
 use crate::sheet::{Corner, EdgeKind, Sheet};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
@@ -157,7 +158,7 @@ impl DynamicalMatrix {
     /// # Errors
     /// [`BlochError`] where the eigenvalues cannot be computed.
     pub fn bands(&self, q: [f64; 2]) -> Result<Vec<f64>, BlochError> {
-        Ok(hermitian_eigenvalues(&self.at(q))?)
+        Ok(symmetric_eigenvalues(&self.at(q))?)
     }
 
     /// Square roots of the eigenvalues of `D(q)`, ascending: angular frequencies if masses were given. Exactly 0 are
@@ -170,7 +171,7 @@ impl DynamicalMatrix {
     pub fn frequencies(&self, q: [f64; 2]) -> Result<Vec<f64>, BlochError> {
         let matrix = self.at(q);
         let rounding = eigenvalue_rounding(matrix.nrows(), matrix.diagonal().iter().map(|d| d.re).fold(0.0, f64::max));
-        let squares = hermitian_eigenvalues(&matrix)?.into_iter();
+        let squares = symmetric_eigenvalues(&matrix)?.into_iter();
         Ok(squares
             .map(|square| if square.abs() <= rounding { 0.0 } else { square.abs().sqrt().copysign(square) })
             .collect())

@@ -11,8 +11,9 @@
 use super::rigidity::TERM;
 use super::root::Root;
 use super::{Laurent, Rigidity};
-use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
+use crate::numerics::complex::{ComplexMatrix, eigenvalues};
 use crate::numerics::dense::small::inverse;
+use crate::numerics::dense::{Svd, full_svd};
 use nalgebra::Complex;
 
 /// Newton steps at most.
@@ -107,7 +108,7 @@ pub(crate) fn of_polynomial(
 
 /// Whether the matrix has a null vector up to rounding.
 pub(crate) fn is_singular(rigidity: &Rigidity, z: [Complex<f64>; 2]) -> bool {
-    let values = complex_svd(&rigidity.at(z)).map(|found| found.singular_values).unwrap_or_default();
+    let values = full_svd(&rigidity.at(z)).map(|found| found.singular_values).unwrap_or_default();
     let ends = values.first().zip(values.last());
     ends.is_some_and(|(most, least)| *least <= ROUNDINGS * f64::EPSILON * most.max(TERM))
 }
@@ -128,12 +129,12 @@ impl Steps {
             matrix.row_mut(k).scale_mut(scale);
             slope.row_mut(k).scale_mut(scale);
         }
-        let ComplexSvd { u, singular_values, v } = complex_svd(&matrix).ok()?;
+        let Svd { u, singular_values, v } = full_svd(&matrix).ok()?;
         let first = singular_values.len().checked_sub(count)?;
         let slope = u.columns(first, count).adjoint() * slope * v.columns(first, count);
         let value = |k: usize| Complex::new(singular_values[first + k], 0.0);
         let diagonal = ComplexMatrix::from_fn(count, count, |i, j| if i == j { value(i) } else { Complex::ZERO });
-        let least = *complex_svd(&slope).ok()?.singular_values.last()?;
+        let least = *full_svd(&slope).ok()?.singular_values.last()?;
         let all = eigenvalues(&(-inverse(slope)? * diagonal)).ok()?;
         let condition = singular_values[0] / least;
         (condition.is_finite() && all.iter().all(|step| step.norm() <= FARTHEST)).then_some(Self { all, condition })

@@ -6,7 +6,8 @@
 
 use super::rigidity::TERM;
 use super::{BlochError, Rigidity};
-use crate::numerics::complex::{ComplexMatrix, complex_svd};
+use crate::numerics::complex::ComplexMatrix;
+use crate::numerics::dense::full_svd;
 use nalgebra::Complex;
 
 /// Singular values below this part of the largest, or of the terms of the matrix, are zero.
@@ -55,7 +56,7 @@ impl Counts {
 
 /// The number of null vectors of a square matrix, and how clearly they stand out.
 fn nullity(matrix: &ComplexMatrix) -> Result<(usize, f64), BlochError> {
-    let values = complex_svd(matrix)?.singular_values;
+    let values = full_svd(matrix)?.singular_values;
     let (rank, gap) = rank_and_gap(&values);
     Ok((values.len() - rank, gap))
 }

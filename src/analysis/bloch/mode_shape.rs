@@ -3,7 +3,7 @@
 use super::rigidity::power;
 use super::{BlochError, Rigidity};
 use crate::math::Vec3;
-use crate::numerics::complex::{ComplexSvd, complex_svd};
+use crate::numerics::dense::{Svd, full_svd};
 use nalgebra::Complex;
 
 /// A mode at Bloch factors.
@@ -24,7 +24,7 @@ impl ModeShape {
     /// [`BlochError`] where the matrix is not square.
     pub fn new(rigidity: &Rigidity, z: [Complex<f64>; 2]) -> Result<Self, BlochError> {
         rigidity.require_square()?;
-        let ComplexSvd { singular_values, v, .. } = complex_svd(&rigidity.at(z))?;
+        let Svd { singular_values, v, .. } = full_svd(&rigidity.at(z))?;
         let last = singular_values.len() - 1;
         let null = v.column(last);
         let largest = null.iter().max_by(|a, b| a.norm().total_cmp(&b.norm())).copied().unwrap_or(Complex::ONE);

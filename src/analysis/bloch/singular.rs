@@ -136,7 +136,7 @@ fn solved(matrix: &DMatrix<Complex<f64>>, [b, c]: &[ComplexVector; 2]) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::complex::complex_svd;
+    use crate::numerics::dense::full_svd;
     use crate::sheet::generate::{Pattern, Random, generate};
 
     const Z: [Complex<f64>; 2] = [Complex::new(0.6, 0.8), Complex::new(-1.1, 0.3)];
@@ -184,7 +184,7 @@ mod tests {
         let z1 = Complex::from_polar(1.0, 0.9);
         for root in decay.roots.iter().filter(|root| root.condition < 1e3) {
             let found = search.root([z1, root.z * Complex::new(1.0, 0.002)], 1).unwrap();
-            let values = complex_svd(&rigidity.at([z1, found.z])).unwrap().singular_values;
+            let values = full_svd(&rigidity.at([z1, found.z])).unwrap().singular_values;
             assert!(values[11] <= 1e-15 * values[0] * found.condition.max(1.0), "{values:?}");
             assert!((found.z / root.z - 1.0).norm() <= 1e-12, "{found:?} {root:?}");
         }

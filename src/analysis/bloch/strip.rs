@@ -15,7 +15,8 @@
 use super::counts::rank_and_gap;
 use super::rigidity::Row;
 use super::{BlochError, Rigidity};
-use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
+use crate::numerics::complex::{ComplexMatrix, eigenvalues};
+use crate::numerics::dense::{Svd, full_svd};
 use crate::sheet::{Corner, Sheet};
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
@@ -182,7 +183,7 @@ impl Strip {
         let matrix = self.matrix(q1, &rows);
         let (size, width) = (matrix.ncols(), self.below.columns());
         let columns = width * self.cells;
-        let ComplexSvd { u, singular_values, v } = complex_svd(&matrix)?;
+        let Svd { u, singular_values, v } = full_svd(&matrix)?;
         let (rank, gap) = rank_and_gap(&singular_values);
         if !(gap >= SMALLEST_GAP) {
             return Err(BlochError::StripRank { q1, gap });
@@ -213,7 +214,7 @@ impl StripModes {
     /// The zero modes that have most of their squared amplitude in some cells, by themselves.
     pub(crate) fn bound_to(&self, cells: Range<usize>) -> Result<Self, BlochError> {
         let part = self.modes.rows(cells.start * self.width, cells.len() * self.width).into_owned();
-        let ComplexSvd { singular_values, v, .. } = complex_svd(&(part.adjoint() * part))?;
+        let Svd { singular_values, v, .. } = full_svd(&(part.adjoint() * part))?;
         let count = singular_values.iter().filter(|value| **value > MAJORITY).count();
         Ok(Self { modes: &self.modes * v.columns(0, count), ..self.clone() })
     }
@@ -242,7 +243,7 @@ impl StripModes {
             found
         };
         let (here, next) = (window(0), window(1));
-        let ComplexSvd { u, singular_values, v } = svd_of(&here)?;
+        let Svd { u, singular_values, v } = svd_of(&here)?;
         let seen = singular_values.iter().filter(|value| **value > UNSEEN * singular_values[0]).count();
         let u = u.view((0, 0), (here.nrows(), seen));
         let v = v.view((0, 0), (here.ncols(), seen));
@@ -285,15 +286,15 @@ pub(crate) fn span(row: &Row) -> [i32; 2] {
 }
 
 /// The singular values and vectors of any matrix, made square by zeros.
-fn svd_of(matrix: &ComplexMatrix) -> Result<ComplexSvd, BlochError> {
+fn svd_of(matrix: &ComplexMatrix) -> Result<Svd<Complex<f64>>, BlochError> {
     let n = matrix.nrows().max(matrix.ncols());
-    Ok(complex_svd(&matrix.clone().resize(n, n, Complex::ZERO))?)
+    Ok(full_svd(&matrix.clone().resize(n, n, Complex::ZERO))?)
 }
 
 /// The number of directions among orthonormal columns of which these rows hold most of the square.
 fn majority(rows: &ComplexMatrix) -> Result<usize, BlochError> {
     let gram = rows.adjoint() * rows;
-    let values = complex_svd(&gram)?.singular_values;
+    let values = full_svd(&gram)?.singular_values;
     Ok(values.iter().filter(|value| **value > MAJORITY).count())
 }
 

@@ -13,7 +13,8 @@ use foldwell::analysis::bloch::{
 };
 use foldwell::kinematics::{Embedding, Shape};
 use foldwell::numerics::DenseMatrix;
-use foldwell::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
+use foldwell::numerics::complex::{ComplexMatrix, eigenvalues};
+use foldwell::numerics::dense::{Svd, full_svd};
 use foldwell::sheet::build::{Drawing, build, draw};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Corner, EdgeKey, Pattern, Sheet, generate};
@@ -120,7 +121,7 @@ fn flat_sheets_have_no_determinant() {
 /// by its gradient, `u^H dR v`. The rounding error of singular values, 1e-15 of the largest, is subtracted.
 fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
     let z = q.map(|q| Complex::from_polar(1.0, q));
-    let ComplexSvd { u, singular_values, v } = complex_svd(&rigidity.at(z)).unwrap();
+    let Svd { u, singular_values, v } = full_svd(&rigidity.at(z)).unwrap();
     let last = singular_values.len() - 1;
     let slope = |a: usize| (u.column(last).adjoint() * rigidity.derivative(z, a) * v.column(last))[(0, 0)] * z[a];
     (singular_values[last] - 1e-15 * singular_values[0]).max(0.0) / slope(0).norm().hypot(slope(1).norm())
@@ -269,7 +270,7 @@ fn duality_at_finite_wavenumber() {
         for root in decay.roots.iter().filter(|root| root.condition <= 1e4 && root.kappa().abs() < 2.0) {
             let z = [Complex::from_polar(1.0, 0.9), root.z];
             let inverse = z.map(|z| z.inv());
-            let ComplexSvd { u, singular_values, v } = complex_svd(&rigidity.at(z)).unwrap();
+            let Svd { u, singular_values, v } = full_svd(&rigidity.at(z)).unwrap();
             let last = u.ncols() - 1;
             let rank = singular_values.iter().filter(|value| **value > 1e-7 * singular_values[0]).count();
             assert_eq!(rank, last, "{singular_values:?}");
@@ -315,7 +316,7 @@ fn equilibrium(sheet: &Sheet, bars: &[usize], z: [Complex<f64>; 2]) -> ComplexMa
 fn rank(matrix: &ComplexMatrix) -> usize {
     let n = matrix.nrows().max(matrix.ncols());
     let square = matrix.clone().resize(n, n, Complex::ZERO);
-    let values = complex_svd(&square).unwrap().singular_values;
+    let values = full_svd(&square).unwrap().singular_values;
     values.iter().filter(|value| **value > 1e-9 * values[0]).count()
 }
 
@@ -682,7 +683,7 @@ fn strips_decay_as_predicted() {
                 }
             }
         }
-        let ComplexSvd { singular_values, v, .. } = complex_svd(&matrix).unwrap();
+        let Svd { singular_values, v, .. } = full_svd(&matrix).unwrap();
         let zero_modes = singular_values.iter().filter(|value| **value < 1e-11 * singular_values[0]).count();
         assert_eq!(zero_modes, size - rows);
         let null = v.columns(size - zero_modes, zero_modes).into_owned();

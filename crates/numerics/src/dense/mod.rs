@@ -1,6 +1,6 @@
 //! Dense decompositions: singular values, null spaces with a certified rank, symmetric eigenpairs, least squares.
 //!
-//! Matrices come and go as [`DenseMatrix`]; everything runs on the calling thread.
+//! Matrices come and go as [`DenseMatrix`], some also as [complex](super::complex) ones; everything runs on the calling thread.
 
 pub mod small;
 mod unit;
@@ -13,7 +13,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
-pub(super) use unit::binary_unit;
+use nalgebra::{Complex, DMatrix};
+use unit::binary_unit;
 pub use unit::eigenvalue_rounding;
 
 /// The smallest gap between kept and dropped singular values at which a rank is believed.
@@ -38,15 +39,21 @@ pub enum DenseError {
     NoGap { rank: usize, kept: f64, dropped: f64, gap: f64, singular_values: Vec<f64> },
 }
 
-/// `matrix = u * diag(singular_values) * v^T` with square orthogonal `u` and `v`.
+/// An entry of a matrix that is decomposed: a real number, or a complex one.
+pub trait Number: Copy + nalgebra::ComplexField<RealField = f64> + faer::traits::ComplexField<Real = f64> {}
+
+impl Number for f64 {}
+impl Number for Complex<f64> {}
+
+/// `matrix = u * diag(singular_values) * v^H` with square orthogonal, or unitary, `u` and `v`.
 #[derive(Clone, Debug)]
-pub struct Svd {
+pub struct Svd<T = f64> {
     /// Left singular vectors, `rows x rows`; those beyond the singular values span the rest.
-    pub u: DenseMatrix,
+    pub u: DMatrix<T>,
     /// `min(rows, columns)` singular values, descending.
     pub singular_values: Vec<f64>,
     /// Right singular vectors, `columns x columns`.
-    pub v: DenseMatrix,
+    pub v: DMatrix<T>,
 }
 
 /// A rank read off singular values, and how clearly.
@@ -116,10 +123,10 @@ pub fn singular_values(matrix: &DenseMatrix) -> Result<Vec<f64>, DenseError> {
 ///
 /// # Errors
 /// As [`singular_values`].
-pub fn full_svd(matrix: &DenseMatrix) -> Result<Svd, DenseError> {
+pub fn full_svd<T: Number>(matrix: &DMatrix<T>) -> Result<Svd<T>, DenseError> {
     let (rows, columns) = matrix.shape();
-    let mut u = DenseMatrix::identity(rows, rows);
-    let mut v = DenseMatrix::identity(columns, columns);
+    let mut u = DMatrix::identity(rows, rows);
+    let mut v = DMatrix::identity(columns, columns);
     let singular_values = decompose(matrix, Some((&mut u, &mut v)))?;
     Ok(Svd { u, singular_values, v })
 }
@@ -233,73 +240,76 @@ pub fn symmetric_eigen(matrix: &DenseMatrix) -> Result<SymmetricEigen, DenseErro
     Ok(SymmetricEigen { values, vectors })
 }
 
-/// Eigenvalues of a symmetric matrix, ascending; only the lower triangle is read.
+/// Eigenvalues of a symmetric matrix, or a Hermitian one, ascending; only the lower triangle is read.
 ///
 /// # Errors
 /// As [`symmetric_eigen`].
-pub fn symmetric_eigenvalues(matrix: &DenseMatrix) -> Result<Vec<f64>, DenseError> {
+pub fn symmetric_eigenvalues<T: Number>(matrix: &DMatrix<T>) -> Result<Vec<f64>, DenseError> {
     diagonalize(matrix, None)
 }
 
 /// Singular values; the vectors are written where a place for them is given.
-fn decompose(
-    matrix: &DenseMatrix,
-    vectors: Option<(&mut DenseMatrix, &mut DenseMatrix)>,
+fn decompose<T: Number>(
+    matrix: &DMatrix<T>,
+    vectors: Option<(&mut DMatrix<T>, &mut DMatrix<T>)>,
 ) -> Result<Vec<f64>, DenseError> {
     check_finite(matrix)?;
     let (rows, columns) = matrix.shape();
-    let mut values = vec![0.0; rows.min(columns)];
+    let mut values = vec![T::zero(); rows.min(columns)];
     if values.is_empty() {
-        return Ok(values);
+        return Ok(vec![]);
     }
     let (what, u, v) = match vectors {
         Some((u, v)) => (ComputeSvdVectors::Full, Some(view_mut(u)), Some(view_mut(v))),
         None => (ComputeSvdVectors::No, None, None),
     };
-    let mut buffer = MemBuffer::new(svd_scratch::<f64>(rows, columns, what, what, Par::Seq, Spec::default()));
+    let mut buffer = MemBuffer::new(svd_scratch::<T>(rows, columns, what, what, Par::Seq, Spec::default()));
     svd(view(matrix), diagonal(&mut values), u, v, Par::Seq, MemStack::new(&mut buffer), Spec::default())
         .map_err(|_| DenseError::NoConvergence { rows, columns })?;
-    Ok(values)
+    Ok(values.into_iter().map(T::real).collect())
 }
 
 /// Eigenvalues; the eigenvectors are written where a place for them is given.
-fn diagonalize(matrix: &DenseMatrix, vectors: Option<&mut DenseMatrix>) -> Result<Vec<f64>, DenseError> {
-    check_finite(matrix)?;
-    let (rows, columns) = matrix.shape();
-    if rows != columns {
-        return Err(DenseError::NotSquare { rows, columns });
-    }
-    let unit = binary_unit(matrix.iter().map(|entry| entry.abs()));
-    let (matrix, mut values) = (matrix / unit, vec![0.0; rows]);
+fn diagonalize<T: Number>(matrix: &DMatrix<T>, vectors: Option<&mut DMatrix<T>>) -> Result<Vec<f64>, DenseError> {
+    let (rows, columns) = check_square(matrix)?;
+    let unit = binary_unit(matrix.iter().map(|&entry| entry.real().abs().max(entry.imaginary().abs())));
+    let (matrix, mut values) = (matrix.map(|entry| entry.unscale(unit)), vec![T::zero(); rows]);
     let what = if vectors.is_some() { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
-    let mut buffer = MemBuffer::new(self_adjoint_evd_scratch::<f64>(rows, what, Par::Seq, Spec::default()));
+    let mut buffer = MemBuffer::new(self_adjoint_evd_scratch::<T>(rows, what, Par::Seq, Spec::default()));
     let (stack, u) = (MemStack::new(&mut buffer), vectors.map(view_mut));
     self_adjoint_evd(view(&matrix), diagonal(&mut values), u, Par::Seq, stack, Spec::default())
         .map_err(|_| DenseError::NoConvergence { rows, columns })?;
-    values.iter_mut().for_each(|value| *value *= unit);
-    Ok(values)
+    Ok(values.into_iter().map(|value| value.real() * unit).collect())
 }
 
-fn check_finite(matrix: &DenseMatrix) -> Result<(), DenseError> {
-    match matrix.iter().position(|value| !value.is_finite()) {
+/// Returns the sizes of a square matrix of finite entries.
+pub(super) fn check_square<T: Number>(matrix: &DMatrix<T>) -> Result<(usize, usize), DenseError> {
+    check_finite(matrix)?;
+    let (rows, columns) = matrix.shape();
+    if rows == columns { Ok((rows, columns)) } else { Err(DenseError::NotSquare { rows, columns }) }
+}
+
+fn check_finite<T: Number>(matrix: &DMatrix<T>) -> Result<(), DenseError> {
+    match matrix.iter().position(|value| !nalgebra::ComplexField::is_finite(value)) {
         None => Ok(()),
         Some(at) => {
-            let (row, column) = (at % matrix.nrows(), at / matrix.nrows());
-            Err(DenseError::NotFinite { row, column, value: matrix[(row, column)] })
+            let (row, column, entry) = (at % matrix.nrows(), at / matrix.nrows(), matrix[at]);
+            let value = if entry.imaginary() == 0.0 { entry.real() } else { entry.modulus() };
+            Err(DenseError::NotFinite { row, column, value })
         }
     }
 }
 
-fn view(matrix: &DenseMatrix) -> MatRef<'_, f64> {
+pub(super) fn view<T: Number>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
     MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
 }
 
-fn view_mut(matrix: &mut DenseMatrix) -> MatMut<'_, f64> {
+fn view_mut<T: Number>(matrix: &mut DMatrix<T>) -> MatMut<'_, T> {
     let (rows, columns) = matrix.shape();
     MatMut::from_column_major_slice_mut(matrix.as_mut_slice(), rows, columns)
 }
 
-fn diagonal(values: &mut [f64]) -> DiagMut<'_, f64> {
+pub(super) fn diagonal<T: Number>(values: &mut [T]) -> DiagMut<'_, T> {
     ColMut::from_slice_mut(values).as_diagonal_mut()
 }
 
