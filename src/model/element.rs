@@ -6,7 +6,6 @@ use super::measure::Measure;
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 /// Distance from rest at which the stiffness on both sides is asked for: a strain, or an angle in radians.
 const BESIDE_REST: f64 = 1e-6;
@@ -45,18 +44,29 @@ impl TermKind {
     }
 }
 
+/// What a term says of its elements beside their measures.
+#[derive(Clone, Debug)]
+pub(super) struct Head {
+    pub kind: TermKind,
+    pub name: String,
+    /// Whether the values are angles.
+    pub is_angle: bool,
+    /// Whether the elements are hinges; see [`Measure::HINGE`].
+    pub is_hinge: bool,
+    /// The number of the edge to which each element belongs; `None` if it lies on none.
+    pub edges: Vec<Option<usize>>,
+    /// How each element stores energy.
+    pub stored: Vec<Stored>,
+}
+
 /// A term: a list of elements with a measure `M` of `N` points, which have `D = 3 N` coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Term<M, const N: usize, const D: usize> {
-    /// The kind of the elements.
-    kind: TermKind,
-    name: Arc<str>,
+    head: Head,
     /// The measure of each element, or one for all.
     measures: Vec<M>,
-    /// The points of each element, in the order of the measure's arguments, and the number of its edge in the tiling.
-    elements: Vec<([Site; N], Option<usize>)>,
-    /// How each element stores energy.
-    stored: Vec<Stored>,
+    /// The points of each element, in the order of the measure's arguments.
+    sites: Vec<[Site; N]>,
 }
 
 /// The measure of one element with its derivatives in the element's coordinates: those of its points, then the shared
@@ -95,22 +105,10 @@ impl Local {
 /// The measures of a term, independent of the number of their points. They never change: springs and the angles from
 /// which values continue belong to a [`Model`](super::Model).
 pub(super) trait Elements: Send + Sync {
-    /// Returns the kind of the elements.
-    fn kind(&self) -> TermKind;
-    /// Returns the name of the term.
-    fn name(&self) -> &str;
-    /// Returns the number of elements.
-    fn len(&self) -> usize;
-    /// Whether the values are angles.
-    fn is_angle(&self) -> bool;
-    /// Whether the elements are hinges; see [`Measure::HINGE`].
-    fn is_hinge(&self) -> bool;
+    /// Returns what else there is to say of the elements.
+    fn head(&self) -> &Head;
     /// Returns the points of element `k`.
     fn sites(&self, k: usize) -> &[Site];
-    /// Returns the number of the edge to which element `k` belongs; `None` if it lies on none.
-    fn edge(&self, k: usize) -> Option<usize>;
-    /// Returns how element `k` stores energy.
-    fn stored(&self, k: usize) -> &Stored;
     /// Returns the value of element `k` at the coordinates `x`; angles are between -pi and pi.
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
     /// Puts value and gradient of element `k` at the coordinates `x` into `out`, and its Hessian if it is wanted.
@@ -118,24 +116,41 @@ pub(super) trait Elements: Send + Sync {
     /// Returns the Taylor series of element `k` along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not
     /// valid for screws.
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Option<Taylor>;
+
+    /// Returns the number of elements.
+    fn len(&self) -> usize {
+        self.head().stored.len()
+    }
 }
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
     /// Makes a term of elements, each given by its points and its edge, and by `stored` of its edge.
     pub(super) fn new(
-        (kind, name): (TermKind, &str),
+        name: (TermKind, &str),
         measure: M,
         elements: Vec<([Site; N], Option<usize>)>,
         stored: impl Fn(Option<usize>) -> Stored,
     ) -> Self {
-        let stored = elements.iter().map(|(_, edge)| stored(*edge)).collect();
-        Self { kind, name: name.into(), measures: vec![measure], elements, stored }
+        let (sites, edges): (_, Vec<_>) = elements.into_iter().unzip();
+        let stored = edges.iter().map(|edge| stored(*edge)).collect();
+        Self::storing(name, vec![measure], sites, (edges, stored))
     }
 
     /// Makes a term of springs, each with a measure of its own.
-    pub(super) fn of_each((kind, name): (TermKind, &str), elements: Vec<(M, [Site; N])>) -> Self {
-        let (measures, elements): (Vec<M>, Vec<_>) = elements.into_iter().map(|(m, sites)| (m, (sites, None))).unzip();
-        Self { kind, name: name.into(), measures, stored: vec![Stored::Spring; elements.len()], elements }
+    pub(super) fn of_each(name: (TermKind, &str), elements: Vec<(M, [Site; N])>) -> Self {
+        let count = elements.len();
+        let (measures, sites) = elements.into_iter().unzip();
+        Self::storing(name, measures, sites, (vec![None; count], vec![Stored::Spring; count]))
+    }
+
+    fn storing(
+        (kind, name): (TermKind, &str),
+        measures: Vec<M>,
+        sites: Vec<[Site; N]>,
+        (edges, stored): (Vec<Option<usize>>, Vec<Stored>),
+    ) -> Self {
+        let head = Head { kind, name: name.to_owned(), is_angle: M::ANGLE, is_hinge: M::HINGE, edges, stored };
+        Self { head, measures, sites }
     }
 
     fn measure(&self, k: usize) -> &M {
@@ -144,44 +159,20 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
 }
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D> {
-    fn kind(&self) -> TermKind {
-        self.kind
-    }
-
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn len(&self) -> usize {
-        self.elements.len()
-    }
-
-    fn is_angle(&self) -> bool {
-        M::ANGLE
-    }
-
-    fn is_hinge(&self) -> bool {
-        M::HINGE
+    fn head(&self) -> &Head {
+        &self.head
     }
 
     fn sites(&self, k: usize) -> &[Site] {
-        &self.elements[k].0
-    }
-
-    fn edge(&self, k: usize) -> Option<usize> {
-        self.elements[k].1
-    }
-
-    fn stored(&self, k: usize) -> &Stored {
-        &self.stored[k]
+        &self.sites[k]
     }
 
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
-        self.measure(k).value(&domain.points(x, &self.elements[k].0))
+        self.measure(k).value(&domain.points(x, &self.sites[k]))
     }
 
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
-        let sites = &self.elements[k].0;
+        let sites = &self.sites[k];
         out.gradient.clear();
         out.hessian.clear();
         let of = self.measure(k);
@@ -204,7 +195,7 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Elements for Term<M, N, D
     }
 
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Option<Taylor> {
-        self.measure(k).along(&self.elements[k].0.map(|site| domain.path(x, site)))
+        self.measure(k).along(&self.sites[k].map(|site| domain.path(x, site)))
     }
 }
 
@@ -228,12 +219,12 @@ pub struct Element<'a> {
 impl<'a> Element<'a> {
     /// Returns the kind of the element.
     pub fn kind(&self) -> TermKind {
-        self.term.kind()
+        self.term.head().kind
     }
 
     /// Whether its value is an angle.
     pub fn is_angle(&self) -> bool {
-        self.term.is_angle()
+        self.term.head().is_angle
     }
 
     /// Whether it is a hinge of finite stiffness.
@@ -248,12 +239,16 @@ impl<'a> Element<'a> {
 
     /// Returns the name of its term.
     pub fn name(&self) -> &'a str {
-        self.term.name()
+        &self.term.head().name
     }
 
     /// Returns the number of its edge in the tiling; `None` for elements of a term of one's own.
     pub fn edge(&self) -> Option<usize> {
-        self.term.edge(self.index)
+        self.term.head().edges[self.index]
+    }
+
+    fn stored(&self) -> &'a Stored {
+        &self.term.head().stored[self.index]
     }
 
     /// Returns its value at the coordinates `x`, a length or an angle in radians, which continues from the last
@@ -265,22 +260,22 @@ impl<'a> Element<'a> {
     /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value. The energy is what
     /// it stores and has dissipated.
     pub fn response(&self, value: f64) -> [f64; 3] {
-        self.term.stored(self.index).at(value, self.spring, self.memory)
+        self.stored().at(value, self.spring, self.memory)
     }
 
     /// Whether its law has a memory.
     pub(crate) fn remembers(&self) -> bool {
-        self.term.stored(self.index).remembers()
+        self.stored().remembers()
     }
 
     /// Returns its memory after a value, and what it has dissipated up to there.
     pub(crate) fn after(&self, value: f64) -> (Memory, f64) {
-        self.term.stored(self.index).after(value, self.spring, self.memory)
+        self.stored().after(value, self.spring, self.memory)
     }
 
     /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
     pub(crate) fn by_rest(&self, value: f64) -> [f64; 3] {
-        self.term.stored(self.index).by_rest(value, self.spring, self.memory)
+        self.stored().by_rest(value, self.spring, self.memory)
     }
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
@@ -290,7 +285,7 @@ impl<'a> Element<'a> {
 
     /// Whether it stores what a law has beyond a spring, which is another element.
     pub(crate) fn is_beyond_spring(&self) -> bool {
-        matches!(self.term.stored(self.index), Stored::BeyondSpring(_))
+        matches!(self.stored(), Stored::BeyondSpring(_))
     }
 
     /// Whether it is a load, whose potential is no energy of the sheet.
@@ -300,13 +295,13 @@ impl<'a> Element<'a> {
 
     /// Whether it has another law than a spring.
     pub(crate) fn has_law(&self) -> bool {
-        self.term.stored(self.index).is_law()
+        self.stored().is_law()
     }
 
     /// Whether it has no force at its rest value, and the stiffness of its spring there and on both sides.
     pub(crate) fn is_spring_at_rest(&self) -> bool {
         let Spring { stiffness: of_spring, rest } = self.spring;
-        let at = |value: f64| self.term.stored(self.index).at(value, self.spring, Memory::default());
+        let at = |value: f64| self.stored().at(value, self.spring, Memory::default());
         let expected = if self.is_beyond_spring() { 0.0 } else { of_spring };
         let is_off = |value: f64, known: f64| (at(value)[2] - expected).abs() > known * of_spring;
         let beside = BESIDE_REST * if self.is_angle() { 1.0 } else { rest };
@@ -318,7 +313,7 @@ impl<'a> Element<'a> {
 
     /// Whether its stiffness jumps at some values.
     pub(crate) fn has_kinks(&self) -> bool {
-        self.term.stored(self.index).has_kinks()
+        self.stored().has_kinks()
     }
 
     /// Puts value and gradient at the coordinates `x` into `out`, and the Hessian if it is wanted.

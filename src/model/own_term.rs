@@ -78,12 +78,12 @@ impl OwnTerm {
 
     /// Returns its name.
     pub fn name(&self) -> &str {
-        self.elements.name()
+        &self.elements.head().name
     }
 
     /// Whether it is a load and no energy: the pressure on faces.
     pub fn is_load(&self) -> bool {
-        self.elements.kind() == TermKind::Pressure
+        self.elements.head().kind == TermKind::Pressure
     }
 }
 

@@ -145,7 +145,7 @@ impl Model {
         let soft = self.soft_elements();
         let Self { equations, last, .. } = self;
         let terms = numbered(&equations.soft, 0).chain(numbered(&equations.stiff, soft));
-        for (first, term) in terms.filter(|(_, term)| term.is_angle()) {
+        for (first, term) in terms.filter(|(_, term)| term.head().is_angle) {
             for (k, last) in last[first..first + term.len()].iter_mut().enumerate() {
                 *last = continued(*last, term.value(k, &equations.domain, points));
             }
@@ -230,9 +230,9 @@ impl Model {
     ) {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
-            let size = match term.kind() {
+            let size = match term.head().kind {
                 TermKind::Pressure => f64::INFINITY,
-                _ if term.is_angle() => 1.0,
+                _ if term.head().is_angle => 1.0,
                 _ => self.equations.mean_edge,
             };
             let add = |k: usize, local: &Local| {
@@ -286,7 +286,7 @@ impl Model {
     /// Largest gradient of a measure that counts where forces are given a size: those of angles grow without bound as a
     /// triangle collapses, and would hide every other force.
     fn most_arm(&self, term: &dyn Elements) -> f64 {
-        if term.is_angle() { SHORTEST_ARMS / self.equations.mean_edge } else { f64::INFINITY }
+        if term.head().is_angle { SHORTEST_ARMS / self.equations.mean_edge } else { f64::INFINITY }
     }
 
     /// Returns the force to which those of a model without soft elements and loads are relative where all of them

@@ -246,7 +246,7 @@ impl Model {
         for element in self.elements() {
             let cliques = if element.number < self.soft_elements() { &mut soft } else { &mut stiff };
             let members = self.members(&element, number);
-            let splits = element.term.is_hinge() && !self.equations.bodies.touch(element.sites());
+            let splits = element.term.head().is_hinge && !self.equations.bodies.touch(element.sites());
             if splits { cliques.push_split(members, LEFT_WING, RIGHT_WING) } else { cliques.push(members) }
         }
         let points = self.points();

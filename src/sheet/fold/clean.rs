@@ -50,7 +50,7 @@ pub(super) fn sheet(
         None => source.at_start(*problem),
     })?;
     edges.rebuilt = true;
-    sheet.record = FileRecord { redrawing: sheet.record.redrawing, ..record::read_renumbered(frame, &edges) };
+    sheet.record = FileRecord { redrawing: sheet.record.redrawing, ..record::record(frame, &edges, false) };
     let lost = LOST.into_iter().filter(|key| frame.values.get(key).is_some());
     sheet.record.left_out.extend(lost.map(str::to_owned));
     Ok(sheet)

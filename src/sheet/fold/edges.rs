@@ -28,7 +28,7 @@ pub(super) struct Edges<'a> {
 pub(super) fn read<'a>(source: &Source<'a>, keys: &Values<'a>, count: usize) -> Result<Edges<'a>, SheetError> {
     let mut edges = Edges::default();
     if let Some(value) = keys.get("edges_vertices") {
-        edges.rows = source.list(value, || "`edges_vertices`".into(), "a list of edges, [[0, 1], ...]")?;
+        edges.rows = source.typed(value, || "`edges_vertices`".into(), "a list of edges, [[0, 1], ...]")?;
     }
     edges.ends = edges.rows.iter().enumerate().map(|(e, row)| ends(source, row, e, count)).collect::<Result<_, _>>()?;
     edges.angles = angles(source, keys, edges.rows.len())?;
@@ -49,9 +49,7 @@ fn angles<'a>(
     keys: &Values<'a>,
     count: usize,
 ) -> Result<Vec<(&'a RawValue, Option<f64>)>, SheetError> {
-    let Some(value) = keys.get("edges_foldAngle") else { return Ok(Vec::new()) };
-    let rows = source.list(value, || "`edges_foldAngle`".into(), "a list of degrees and nulls")?;
-    check_length(source, value, "edges_foldAngle", rows.len(), count)?;
+    let rows = per_edge(source, keys, ("edges_foldAngle", "a list of degrees and nulls"), count)?;
     let read = |(e, row): (usize, &&'a RawValue)| {
         let right = "a number of degrees or null";
         Ok((*row, source.typed(row, || format!("the fold angle of edge {e} of the list"), right)?))
@@ -60,9 +58,7 @@ fn angles<'a>(
 }
 
 fn assignments(source: &Source, keys: &Values, count: usize) -> Result<Vec<Assignment>, SheetError> {
-    let Some(value) = keys.get("edges_assignment") else { return Ok(Vec::new()) };
-    let rows = source.list(value, || "`edges_assignment`".into(), "a list of letters")?;
-    check_length(source, value, "edges_assignment", rows.len(), count)?;
+    let rows = per_edge(source, keys, ("edges_assignment", "a list of letters"), count)?;
     let read = |(e, row): (usize, &&RawValue)| {
         let right = "one of \"B\", \"M\", \"V\", \"F\", \"U\", \"C\", \"J\"";
         let what = || format!("the assignment of edge {e} of the list");
@@ -75,9 +71,7 @@ fn assignments(source: &Source, keys: &Values, count: usize) -> Result<Vec<Assig
 /// Reads the joints between the faces of edges of more than two faces, an entry for each edge: no word, one, or one for each
 /// face.
 pub(super) fn glue(source: &Source, keys: &Values, ends: &[[usize; 2]]) -> Result<Vec<GluedEdge>, SheetError> {
-    let Some(value) = keys.get(GLUE) else { return Ok(Vec::new()) };
-    let rows = source.list(value, || format!("`{GLUE}`"), "a list of words, lists of words, and nulls")?;
-    check_length(source, value, GLUE, rows.len(), ends.len())?;
+    let rows = per_edge(source, keys, (GLUE, "a list of words, lists of words, and nulls"), ends.len())?;
     let read = |(e, (row, ends)): (usize, (&&RawValue, &[usize; 2]))| {
         let right = "\"fold\", \"weld\", \"free\", a list of these, one for each face of the edge, or null";
         let one = serde_json::from_str::<Option<Glue>>(row.get()).map(|word| word.into_iter().collect());
@@ -87,14 +81,17 @@ pub(super) fn glue(source: &Source, keys: &Values, ends: &[[usize; 2]]) -> Resul
     rows.iter().zip(ends).enumerate().map(read).collect()
 }
 
-pub(super) fn check_length(
-    source: &Source,
-    value: &RawValue,
-    key: &'static str,
-    found: usize,
-    right: usize,
-) -> Result<(), SheetError> {
-    if found == right { Ok(()) } else { Err(source.at(value, Problem::Length { key, found, right })) }
+/// Reads a list with an entry for each of `count` edges; an empty one if the frame does not have the key.
+pub(super) fn per_edge<'a>(
+    source: &Source<'a>,
+    keys: &Values<'a>,
+    (key, right): (&'static str, &'static str),
+    count: usize,
+) -> Result<Vec<&'a RawValue>, SheetError> {
+    let Some(value) = keys.get(key) else { return Ok(vec![]) };
+    let rows: Vec<&RawValue> = source.typed(value, || format!("`{key}`"), right)?;
+    let wrong = Problem::Length { key, found: rows.len(), right: count };
+    if rows.len() == count { Ok(rows) } else { Err(source.at(value, wrong)) }
 }
 
 impl Edges<'_> {

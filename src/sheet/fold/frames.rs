@@ -22,7 +22,7 @@ pub(super) fn choose<'a>(source: &Source<'a>, number: Option<usize>) -> Result<F
     let top: Values<'a> = read(source, source.text)?;
     let list = top.get("file_frames");
     let rows: Vec<&RawValue> = match list {
-        Some(list) => source.list(list, || "`file_frames`".into(), "a list of frames, [{..}, ...]")?,
+        Some(list) => source.typed(list, || "`file_frames`".into(), "a list of frames, [{..}, ...]")?,
         None => vec![],
     };
     let further = rows.iter().enumerate().map(|(k, row)| {

@@ -53,16 +53,6 @@ impl<'a> Source<'a> {
         self.at(value, Problem::Type { what, found: shortened(value.get()), right })
     }
 
-    /// Returns the entries of a list.
-    pub(crate) fn list(
-        &self,
-        value: &'a RawValue,
-        what: impl Fn() -> String,
-        right: &'static str,
-    ) -> Result<Vec<&'a RawValue>, SheetError> {
-        self.typed(value, what, right)
-    }
-
     /// Reads a list of vertex numbers below `count`.
     pub(crate) fn indices(
         &self,
@@ -70,7 +60,7 @@ impl<'a> Source<'a> {
         what: impl Fn() -> String,
         count: usize,
     ) -> Result<Vec<usize>, SheetError> {
-        let entries = self.list(value, &what, "a list of vertex numbers")?;
+        let entries: Vec<&RawValue> = self.typed(value, &what, "a list of vertex numbers")?;
         entries.into_iter().map(|entry| self.index(entry, &what, count)).collect()
     }
 

@@ -40,7 +40,10 @@ pub(super) fn sheet<'a>(
     check_ends(&edges.ends, drawn.coords.len()).map_err(|(e, problem)| source.at(edges.rows[e], problem))?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     drawn.fold_angles = edges.fold_angles();
-    read_holes(source, keys, &mut drawn, &mut rows)?;
+    if let Some(value) = keys.get("foldwell:holes") {
+        rows.holes = source.typed(value, || "`foldwell:holes`".into(), "a list of openings, [[0, 1, 2], ...]")?;
+        drawn.holes = polygons(source, &rows.holes, "opening", drawn.coords.len())?;
+    }
     drawn.glue = edges::glue(source, keys, &edges.ends)?;
     drawn.names = read_names(source, keys, drawn.coords.len())?;
     edges.rebuilt = keys.get("faces_vertices").is_none();
@@ -117,11 +120,11 @@ fn read_vertices<'a>(
     let right = "a list of points, [[x, y, z], ...]";
     let missing =
         || source.at_start(Problem::Missing { key: "vertices_coords", right: "it should be a list of points" });
-    rows.vertices =
-        source.list(keys.get("vertices_coords").ok_or_else(missing)?, || "`vertices_coords`".into(), right)?;
+    let value = keys.get("vertices_coords").ok_or_else(missing)?;
+    rows.vertices = source.typed(value, || "`vertices_coords`".into(), right)?;
     let mut dimension = None;
     for (v, row) in rows.vertices.iter().enumerate() {
-        let point = source.list(row, || format!("vertex {v}"), "a list of 2 or 3 numbers")?;
+        let point: Vec<&RawValue> = source.typed(row, || format!("vertex {v}"), "a list of 2 or 3 numbers")?;
         let numbers =
             point.iter().map(|c| source.typed(c, || format!("a coordinate of vertex {v}"), "a finite number"));
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
@@ -145,11 +148,9 @@ fn read_faces<'a>(
 ) -> Result<(), SheetError> {
     match keys.get("faces_vertices") {
         Some(value) => {
-            rows.faces = source.list(value, || "`faces_vertices`".into(), "a list of faces, [[0, 1, 2], ...]")?;
-            let count = drawn.coords.len();
-            let faces =
-                rows.faces.iter().enumerate().map(|(f, row)| source.indices(row, || format!("face {f}"), count));
-            drawn.faces = faces.collect::<Result<_, _>>()?;
+            let right = "a list of faces, [[0, 1, 2], ...]";
+            rows.faces = source.typed(value, || "`faces_vertices`".into(), right)?;
+            drawn.faces = polygons(source, &rows.faces, "face", drawn.coords.len())?;
             Ok(())
         }
         None if edges.ends.is_empty() => Err(source.at_start(Problem::Missing {
@@ -160,18 +161,15 @@ fn read_faces<'a>(
     }
 }
 
-fn read_holes<'a>(
+/// Reads a list of vertices for each polygon, which messages call `one` with its number.
+fn polygons<'a>(
     source: &Source<'a>,
-    keys: &Values<'a>,
-    drawn: &mut Drawing,
-    rows: &mut Rows<'a>,
-) -> Result<(), SheetError> {
-    let Some(value) = keys.get("foldwell:holes") else { return Ok(()) };
-    rows.holes = source.list(value, || "`foldwell:holes`".into(), "a list of openings, [[0, 1, 2], ...]")?;
-    let count = drawn.coords.len();
-    let holes = rows.holes.iter().enumerate().map(|(h, row)| source.indices(row, || format!("opening {h}"), count));
-    drawn.holes = holes.collect::<Result<_, _>>()?;
-    Ok(())
+    rows: &[&'a RawValue],
+    one: &str,
+    count: usize,
+) -> Result<Vec<Vec<usize>>, SheetError> {
+    let read = |(k, row): (usize, &&'a RawValue)| source.indices(row, || format!("{one} {k}"), count);
+    rows.iter().enumerate().map(read).collect()
 }
 
 /// Reads the named lists of vertices of a mesh with `count` drawn vertices.

@@ -64,12 +64,8 @@ pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord 
     record(frame, edges, !drawn.is_repeated() && all_listed)
 }
 
-/// Reads the same of a sheet whose vertices, edges and faces get other numbers.
-pub(super) fn read_renumbered(frame: &Frame, edges: &Edges) -> FileRecord {
-    record(frame, edges, false)
-}
-
-fn record(frame: &Frame, edges: &Edges, numbered: bool) -> FileRecord {
+/// Reads the same; `numbered` says whether vertices, edges and faces keep their numbers.
+pub(super) fn record(frame: &Frame, edges: &Edges, numbered: bool) -> FileRecord {
     let mut record = FileRecord { frame: frame.number, further_frames: frame.others, ..FileRecord::default() };
     for (key, value) in &frame.values.0 {
         let name = key.as_str();

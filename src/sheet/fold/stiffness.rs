@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::value::RawValue;
 
-use super::edges::{Edges, check_length};
+use super::edges::{Edges, per_edge};
 use super::keys::Values;
 use super::locate::Source;
 use crate::sheet::build::{Identified, edges_by_drawn_name};
@@ -26,9 +26,7 @@ pub(super) fn read(
     let known = edges_by_drawn_name(sheet);
     let list = |key: &'static str| -> Result<BTreeMap<EdgeKey, f64>, SheetError> {
         let mut found = BTreeMap::new();
-        let Some(value) = keys.get(key) else { return Ok(found) };
-        let rows: Vec<&RawValue> = source.list(value, || format!("`{key}`"), "a list of numbers and nulls")?;
-        check_length(source, value, key, rows.len(), edges.ends.len())?;
+        let rows = per_edge(source, keys, (key, "a list of numbers and nulls"), edges.ends.len())?;
         for (e, (row, ends)) in rows.iter().zip(&edges.ends).enumerate() {
             let Some(given) = number(source, row, || format!("entry {e} of `{key}`"))? else { continue };
             let [a, b] = ends.map(|v| identified.corner[v]);
