@@ -2,42 +2,34 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, length};
 use super::grid::VertexGrid;
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 
 const SOURCE: &str = "Eggbox: M. Schenk, S. D. Guest, PNAS 110, 3276 (2013); H. Nassar, A. Lebee, L. Monasse \
                       (2017) on the surfaces it makes.";
 
-/// One cell of the eggbox, 2 x 2 parallelograms with sides `a`, `b` and acute angle `sector`.
-///
-/// Vertex `(i, j)` is `(a cos(f) i, b cos(e) j, -a sin(f) [i odd] - b sin(e) [j odd])`: zigzags of slope `f` along x
-/// and of slope `e` along y, with `sin(f) sin(e) = cos(sector)` so that the angle between the sides is kept. Top and
-/// bottom vertices have four acute or four obtuse angles: the sheet is not developable and has no flat state.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Eggbox {
-    /// Side of the parallelograms along x. Default 1.
-    pub a: f64,
-    /// Side of the parallelograms along y. Default 1.
-    pub b: f64,
-    /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-    #[serde(deserialize_with = "radians")]
-    pub sector: f64,
-    /// Slope `f` of the sides `a` in radians, in `(pi/2 - sector, pi/2)`; the cell is closed along one direction at
-    /// either limit. Default pi/4.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-}
-
-impl Default for Eggbox {
-    fn default() -> Self {
-        Self { a: 1.0, b: 1.0, sector: FRAC_PI_3, fold: FRAC_PI_4 }
+parameters! {
+    /// One cell of the eggbox, 2 x 2 parallelograms with sides `a`, `b` and acute angle `sector`.
+    ///
+    /// Vertex `(i, j)` is `(a cos(f) i, b cos(e) j, -a sin(f) [i odd] - b sin(e) [j odd])`: zigzags of slope `f` along
+    /// x and of slope `e` along y, with `sin(f) sin(e) = cos(sector)` so that the angle between the sides is kept. Top
+    /// and bottom vertices have four acute or four obtuse angles: the sheet is not developable and has no flat state.
+    Eggbox {
+        /// Side of the parallelograms along x. Default 1.
+        a: f64 = 1.0,
+        /// Side of the parallelograms along y. Default 1.
+        b: f64 = 1.0,
+        /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+        #[serde(deserialize_with = "radians")]
+        sector: f64 = FRAC_PI_3,
+        /// Slope `f` of the sides `a` in radians, in `(pi/2 - sector, pi/2)`; the cell is closed along one direction at
+        /// either limit. Default pi/4.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = FRAC_PI_4,
     }
 }
 

@@ -2,58 +2,50 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, length};
 use super::grid::VertexGrid;
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 
 const SOURCE: &str = "Cell of four parallelograms: J. McInerney, G. H. Paulino, D. Z. Rocklin, PNAS 119, e2202777119 \
                       (2022).";
 
-/// One cell of four parallelograms: along one direction its sides are `a` and `b` in turn, along the other `c` and `d`.
-///
-/// Vertices are at `0, a, c, a + c`, the lattice vectors are `a + b` and `c + d`. The sides `c` and `d` have the
-/// directions `(0, cos f, -sin f)` and `(0, cos f, sin f)`; those of `a` and `b` have their angles with both, and point
-/// to the same side of the plane of `c` and `d`. All is then turned so that the lattice vectors lie in the plane of x
-/// and y, the first along x.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FourParallelogram {
-    /// First side of the zigzag along the first direction. Default 1.
-    pub a: f64,
-    /// Second side of that zigzag. Default 0.9.
-    pub b: f64,
-    /// First side of the zigzag along the second direction. Default 0.8.
-    pub c: f64,
-    /// Second side of that zigzag. Default 1.
-    pub d: f64,
-    /// Angle between `a` and `c` in radians, in `(0, pi)`. Default 65 degrees.
-    #[serde(deserialize_with = "radians")]
-    pub ac: f64,
-    /// Angle between `a` and `d` in radians, in `(0, pi)`. Default 110 degrees.
-    #[serde(deserialize_with = "radians")]
-    pub ad: f64,
-    /// Angle between `b` and `c` in radians, in `(0, pi)`. Default 105 degrees.
-    #[serde(deserialize_with = "radians")]
-    pub bc: f64,
-    /// Angle between `b` and `d` in radians, in `(0, pi)`. Default 60 degrees.
-    #[serde(deserialize_with = "radians")]
-    pub bd: f64,
-    /// Slope `f` of the sides `c` and `d` in radians, half the angle between them; the mirror image with the opposite
-    /// sign. `2 |f|` lies between the difference of `ac` and `ad` and their sum (or `2 pi` less that), and the same for
-    /// `bc` and `bd`. Default 45 degrees.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-}
-
-impl Default for FourParallelogram {
-    fn default() -> Self {
-        let [ac, ad, bc, bd, fold] = [65.0f64, 110.0, 105.0, 60.0, 45.0].map(f64::to_radians);
-        Self { a: 1.0, b: 0.9, c: 0.8, d: 1.0, ac, ad, bc, bd, fold }
+parameters! {
+    /// One cell of four parallelograms: along one direction its sides are `a` and `b` in turn, along the other `c` and
+    /// `d`.
+    ///
+    /// Vertices are at `0, a, c, a + c`, the lattice vectors are `a + b` and `c + d`. The sides `c` and `d` have the
+    /// directions `(0, cos f, -sin f)` and `(0, cos f, sin f)`; those of `a` and `b` have their angles with both, and
+    /// point to the same side of the plane of `c` and `d`. All is then turned so that the lattice vectors lie in the
+    /// plane of x and y, the first along x.
+    FourParallelogram {
+        /// First side of the zigzag along the first direction. Default 1.
+        a: f64 = 1.0,
+        /// Second side of that zigzag. Default 0.9.
+        b: f64 = 0.9,
+        /// First side of the zigzag along the second direction. Default 0.8.
+        c: f64 = 0.8,
+        /// Second side of that zigzag. Default 1.
+        d: f64 = 1.0,
+        /// Angle between `a` and `c` in radians, in `(0, pi)`. Default 65 degrees.
+        #[serde(deserialize_with = "radians")]
+        ac: f64 = 65f64.to_radians(),
+        /// Angle between `a` and `d` in radians, in `(0, pi)`. Default 110 degrees.
+        #[serde(deserialize_with = "radians")]
+        ad: f64 = 110f64.to_radians(),
+        /// Angle between `b` and `c` in radians, in `(0, pi)`. Default 105 degrees.
+        #[serde(deserialize_with = "radians")]
+        bc: f64 = 105f64.to_radians(),
+        /// Angle between `b` and `d` in radians, in `(0, pi)`. Default 60 degrees.
+        #[serde(deserialize_with = "radians")]
+        bd: f64 = 60f64.to_radians(),
+        /// Slope `f` of the sides `c` and `d` in radians, half the angle between them; the mirror image with the
+        /// opposite sign. `2 |f|` lies between the difference of `ac` and `ad` and their sum (or `2 pi` less that), and
+        /// the same for `bc` and `bd`. Default 45 degrees.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = 45f64.to_radians(),
     }
 }
 

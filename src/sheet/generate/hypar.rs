@@ -2,39 +2,31 @@
 
 use std::f64::consts::{PI, TAU};
 
-use serde::{Deserialize, Serialize};
-
 use super::error::{GenerateError, count, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Pleated hyperbolic paraboloid: traditional; E. D. Demaine, M. L. Demaine, V. Hart, G. N. Price, \
                       T. Tachi, Graphs and Combinatorics 27, 377 (2011), doi:10.1007/s00373-011-1025-2.";
 
-/// A flat sheet with the creases of the pleated hyperbolic paraboloid: concentric regular polygons at equal distances,
-/// and the diagonals from the centre to the corners.
-///
-/// Polygon `k` has the distance `k width` from the centre. Polygons are mountains and valleys by turns, the outermost
-/// one is the rim. The diagonals between polygons `k` and `k+1` have the letter of polygon `k`, so that every vertex
-/// but the centre has three creases of one letter and one of the other.
-///
-/// Vertex 0 is the centre, vertex `1 + (k-1) sides + s` the corner `s` of polygon `k`. With pleats that do not bend,
-/// this pattern of squares cannot be folded at all, as the source proves; a sheet folds by bending its faces.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Hypar {
-    /// Number of sides of the polygons, 3 to 100. Default 4.
-    pub sides: usize,
-    /// Number of polygons, the rim included, 2 to 200. Default 6.
-    pub pleats: usize,
-    /// Distance between polygons. Default 1.
-    pub width: f64,
-}
-
-impl Default for Hypar {
-    fn default() -> Self {
-        Self { sides: 4, pleats: 6, width: 1.0 }
+parameters! {
+    /// A flat sheet with the creases of the pleated hyperbolic paraboloid: concentric regular polygons at equal
+    /// distances, and the diagonals from the centre to the corners.
+    ///
+    /// Polygon `k` has the distance `k width` from the centre. Polygons are mountains and valleys by turns, the
+    /// outermost one is the rim. The diagonals between polygons `k` and `k+1` have the letter of polygon `k`, so that
+    /// every vertex but the centre has three creases of one letter and one of the other.
+    ///
+    /// Vertex 0 is the centre, vertex `1 + (k-1) sides + s` the corner `s` of polygon `k`. With pleats that do not
+    /// bend, this pattern of squares cannot be folded at all, as the source proves; a sheet folds by bending its faces.
+    Hypar {
+        /// Number of sides of the polygons, 3 to 100. Default 4.
+        sides: usize = 4,
+        /// Number of polygons, the rim included, 2 to 200. Default 6.
+        pleats: usize = 6,
+        /// Distance between polygons. Default 1.
+        width: f64 = 1.0,
     }
 }
 

@@ -2,49 +2,41 @@
 
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, count, length};
 use super::grid::VertexGrid;
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in shells: from the hawkmoth's bellows to \
                       the deployable Kresling-pattern and cylindrical Miura-ori, IASS-IACM (2008).";
 
-/// A finite ring of Kresling's pattern about the z axis without lattice, open at both ends or closed to a drum by a
-/// polygon at either end.
-///
-/// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has the
-/// edges `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of `pi /
-/// sides` makes all triangles isosceles: that is the Yoshimura pattern.
-///
-/// With radius `r`, height `h` and twist `t` the edges between two polygons have the length `sqrt(h^2 + 2 r^2 (1 - cos
-/// t))`, and the diagonals the same with `t - 2 pi / sides` in place of `t`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Kresling {
-    /// Number of sides of the polygons, 3 to 1000. Default 6.
-    pub sides: usize,
-    /// Number of storeys, 1 to 1000. Default 3, and 1 for a closed drum.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub levels: Option<usize>,
-    /// Height of a storey. Default 0.8.
-    pub height: f64,
-    /// Rotation of a storey against the one below in radians, in `(-pi, pi)`. Default pi/6.
-    #[serde(deserialize_with = "radians")]
-    pub twist: f64,
-    /// Radius of the polygons. Default 1.
-    pub radius: f64,
-    /// Whether the lowest and the highest polygon are faces, so that the sheet is a closed drum. Default false.
-    pub closed: bool,
-}
-
-impl Default for Kresling {
-    fn default() -> Self {
-        Self { sides: 6, levels: None, height: 0.8, twist: FRAC_PI_6, radius: 1.0, closed: false }
+parameters! {
+    /// A finite ring of Kresling's pattern about the z axis without lattice, open at both ends or closed to a drum by a
+    /// polygon at either end.
+    ///
+    /// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has
+    /// the edges `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of
+    /// `pi / sides` makes all triangles isosceles: that is the Yoshimura pattern.
+    ///
+    /// With radius `r`, height `h` and twist `t` the edges between two polygons have the length `sqrt(h^2 + 2 r^2 (1 -
+    /// cos t))`, and the diagonals the same with `t - 2 pi / sides` in place of `t`.
+    Kresling {
+        /// Number of sides of the polygons, 3 to 1000. Default 6.
+        sides: usize = 6,
+        /// Number of storeys, 1 to 1000. Default 3, and 1 for a closed drum.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        levels: Option<usize> = None,
+        /// Height of a storey. Default 0.8.
+        height: f64 = 0.8,
+        /// Rotation of a storey against the one below in radians, in `(-pi, pi)`. Default pi/6.
+        #[serde(deserialize_with = "radians")]
+        twist: f64 = FRAC_PI_6,
+        /// Radius of the polygons. Default 1.
+        radius: f64 = 1.0,
+        /// Whether the lowest and the highest polygon are faces, so that the sheet is a closed drum. Default false.
+        closed: bool = false,
     }
 }
 

@@ -2,65 +2,50 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, angle_from, count, length};
 use super::grid::VertexGrid;
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 
 const SOURCE: &str = "Miura-ori: K. Miura, Method of packaging and deployment of large membranes in space, ISAS Report \
                       618 (1985); coordinates as in M. Schenk, S. D. Guest, PNAS 110, 3276 (2013).";
 
-/// One cell of Miura-ori, 2 x 2 parallelograms, partly folded.
-///
-/// Vertex `(i, j)` is `(s i, l j + v [i odd], h [j odd])` with `h = a sin t sin g`, `q = sqrt(1 + cos^2 g tan^2 t)`,
-/// `s = b cos g tan t / q`, `v = b / q`, `l = a sqrt(1 - sin^2 g sin^2 t)`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Miura {
-    /// Side `a` of the parallelograms, across the zigzags. Default 1.
-    pub a: f64,
-    /// Side `b` of the parallelograms, along the zigzags. Default 1.
-    pub b: f64,
-    /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-    #[serde(deserialize_with = "radians")]
-    pub sector: f64,
-    /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-}
-
-/// A finite Miura-ori of `cells` whole cells, `(2 n1 + 1) x (2 n2 + 1)` vertices, with the parameters of [`Miura`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MiuraPatch {
-    /// Side `a` of the parallelograms, across the zigzags. Default 1.
-    pub a: f64,
-    /// Side `b` of the parallelograms, along the zigzags. Default 1.
-    pub b: f64,
-    /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-    #[serde(deserialize_with = "radians")]
-    pub sector: f64,
-    /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-    /// Numbers of cells along the two directions, 1 to 500 each. Default `[5, 5]`.
-    pub cells: [usize; 2],
-}
-
-impl Default for Miura {
-    fn default() -> Self {
-        Self { a: 1.0, b: 1.0, sector: FRAC_PI_3, fold: PI / 12.0 }
+parameters! {
+    /// One cell of Miura-ori, 2 x 2 parallelograms, partly folded.
+    ///
+    /// Vertex `(i, j)` is `(s i, l j + v [i odd], h [j odd])` with `h = a sin t sin g`, `q = sqrt(1 + cos^2 g tan^2
+    /// t)`, `s = b cos g tan t / q`, `v = b / q`, `l = a sqrt(1 - sin^2 g sin^2 t)`.
+    Miura {
+        /// Side `a` of the parallelograms, across the zigzags. Default 1.
+        a: f64 = 1.0,
+        /// Side `b` of the parallelograms, along the zigzags. Default 1.
+        b: f64 = 1.0,
+        /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+        #[serde(deserialize_with = "radians")]
+        sector: f64 = FRAC_PI_3,
+        /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = PI / 12.0,
     }
 }
 
-impl Default for MiuraPatch {
-    fn default() -> Self {
-        let Miura { a, b, sector, fold } = Miura::default();
-        Self { a, b, sector, fold, cells: [5, 5] }
+parameters! {
+    /// A finite Miura-ori of `cells` whole cells, `(2 n1 + 1) x (2 n2 + 1)` vertices, with the parameters of [`Miura`].
+    MiuraPatch {
+        /// Side `a` of the parallelograms, across the zigzags. Default 1.
+        a: f64 = 1.0,
+        /// Side `b` of the parallelograms, along the zigzags. Default 1.
+        b: f64 = 1.0,
+        /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+        #[serde(deserialize_with = "radians")]
+        sector: f64 = FRAC_PI_3,
+        /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = PI / 12.0,
+        /// Numbers of cells along the two directions, 1 to 500 each. Default `[5, 5]`.
+        cells: [usize; 2] = [5, 5],
     }
 }
 

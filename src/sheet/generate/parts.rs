@@ -1,4 +1,4 @@
-//! The step from the vertices and polygons of a generator to a sheet.
+//! What generators share: how their parameters are defined, and the step from vertices and polygons to a sheet.
 
 use super::error::GenerateError;
 use crate::math::Vec3;
@@ -6,6 +6,25 @@ use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, GluedEdge, build, draw};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};
 use std::f64::consts::PI;
+
+/// Defines the parameters of a pattern, each with its default.
+macro_rules! parameters {
+    ($(#[$about:meta])* $pattern:ident { $($(#[$note:meta])* $name:ident: $kind:ty = $default:expr,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct $pattern {
+            $($(#[$note])* pub $name: $kind,)+
+        }
+
+        impl Default for $pattern {
+            fn default() -> Self {
+                Self { $($name: $default),+ }
+            }
+        }
+    };
+}
+pub(super) use parameters;
 
 /// The parts of a sheet that a generator gives; edges and triangles are computed from them.
 pub(super) struct Parts {

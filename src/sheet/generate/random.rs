@@ -1,63 +1,48 @@
 //! Random triangulated cells.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use serde::{Deserialize, Serialize};
-
 use super::error::{GenerateError, between, count, from};
 use super::grid::VertexGrid;
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::numerics::random::symmetric;
 use crate::sheet::cell::{Corner, Sheet};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, \
                       D. Z. Rocklin, PNAS 117, 30252 (2020).";
 
-/// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing.
-/// Each is displaced in the plane by at most `jitter` of the spacing along both lattice directions and by at most
-/// `height` along z; then all are translated so that vertex 0 is at the origin. Quadrilaterals are split along a
-/// random diagonal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Random {
-    /// Vertices along the two lattice vectors, 1 to 1000 each. Default `[2, 2]`.
-    pub size: [usize; 2],
-    /// Largest displacement along z, in `[0, 100)`. Default 0.3.
-    pub height: f64,
-    /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle has a positive area seen
-    /// from above, whichever diagonal splits its quadrilateral. Default 0.2.
-    pub jitter: f64,
-    /// Displacement of each row along x relative to the row below, in `(-10, 10)`. Default 0.3.
-    pub skew: f64,
-    /// Seed of the random numbers. Default 0.
-    pub seed: u64,
-}
-
-/// A generic random flat cell: as [`Random`] with height 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct RandomDevelopable {
-    /// Vertices along the two lattice vectors, 1 to 1000 each. Default `[2, 2]`.
-    pub size: [usize; 2],
-    /// Largest displacement in the plane, in `[0, 0.25)`. Default 0.2.
-    pub jitter: f64,
-    /// Displacement of each row along x relative to the row below, in `(-10, 10)`. Default 0.3.
-    pub skew: f64,
-    /// Seed of the random numbers. Default 0.
-    pub seed: u64,
-}
-
-impl Default for Random {
-    fn default() -> Self {
-        Self { size: [2, 2], height: 0.3, jitter: 0.2, skew: 0.3, seed: 0 }
+parameters! {
+    /// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing.
+    /// Each is displaced in the plane by at most `jitter` of the spacing along both lattice directions and by at most
+    /// `height` along z; then all are translated so that vertex 0 is at the origin. Quadrilaterals are split along a
+    /// random diagonal.
+    Random {
+        /// Vertices along the two lattice vectors, 1 to 1000 each. Default `[2, 2]`.
+        size: [usize; 2] = [2, 2],
+        /// Largest displacement along z, in `[0, 100)`. Default 0.3.
+        height: f64 = 0.3,
+        /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle has a positive area seen
+        /// from above, whichever diagonal splits its quadrilateral. Default 0.2.
+        jitter: f64 = 0.2,
+        /// Displacement of each row along x relative to the row below, in `(-10, 10)`. Default 0.3.
+        skew: f64 = 0.3,
+        /// Seed of the random numbers. Default 0.
+        seed: u64 = 0,
     }
 }
 
-impl Default for RandomDevelopable {
-    fn default() -> Self {
-        let Random { size, jitter, skew, seed, .. } = Random::default();
-        Self { size, jitter, skew, seed }
+parameters! {
+    /// A generic random flat cell: as [`Random`] with height 0.
+    RandomDevelopable {
+        /// Vertices along the two lattice vectors, 1 to 1000 each. Default `[2, 2]`.
+        size: [usize; 2] = [2, 2],
+        /// Largest displacement in the plane, in `[0, 0.25)`. Default 0.2.
+        jitter: f64 = 0.2,
+        /// Displacement of each row along x relative to the row below, in `(-10, 10)`. Default 0.3.
+        skew: f64 = 0.3,
+        /// Seed of the random numbers. Default 0.
+        seed: u64 = 0,
     }
 }
 

@@ -2,42 +2,34 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use serde::{Deserialize, Serialize};
-
 use super::error::{GenerateError, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Ron Resch's triangular tessellation: R. D. Resch, US patent 3407558 (1968); C. Lv, D. \
                       Krishnaraju, G. Konjevod, H. Yu, H. Jiang, Sci. Rep. 4, 5979 (2014), doi:10.1038/srep05979.";
 
-/// One flat cell of Ron Resch's triangular tessellation, with the angles to which it folds.
-///
-/// ```text
-///       o-------o-------o       a tuck: a triangle of side 2a, divided by its three medians into six
-///        \  \   |   /  /        right triangles; two tiles, triangles of side a, stand beside it in
-///         \    \|/    /         every cell
-///          o----x----o          (the spokes to the corners and to the middles of the sides all meet at x)
-///           \   |   /
-///             \ | /
-///               o
-/// ```
-///
-/// Folded, the tiles cover a plane, turned against each other, and the right triangles of a tuck stand below them in
-/// three upright walls of two layers each. The target angles say so: -pi/2 along the sides of tiles, -pi/3 from the
-/// middles of the sides of a tuck to its centre, pi from its corners. The lattice vectors are then shorter by the
-/// factor `sqrt 3`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Resch {
-    /// Side of the tiles. Default 1.
-    pub a: f64,
-}
-
-impl Default for Resch {
-    fn default() -> Self {
-        Self { a: 1.0 }
+parameters! {
+    /// One flat cell of Ron Resch's triangular tessellation, with the angles to which it folds.
+    ///
+    /// ```text
+    ///       o-------o-------o       a tuck: a triangle of side 2a, divided by its three medians into six
+    ///        \  \   |   /  /        right triangles; two tiles, triangles of side a, stand beside it in
+    ///         \    \|/    /         every cell
+    ///          o----x----o          (the spokes to the corners and to the middles of the sides all meet at x)
+    ///           \   |   /
+    ///             \ | /
+    ///               o
+    /// ```
+    ///
+    /// Folded, the tiles cover a plane, turned against each other, and the right triangles of a tuck stand below them
+    /// in three upright walls of two layers each. The target angles say so: -pi/2 along the sides of tiles, -pi/3 from
+    /// the middles of the sides of a tuck to its centre, pi from its corners. The lattice vectors are then shorter by
+    /// the factor `sqrt 3`.
+    Resch {
+        /// Side of the tiles. Default 1.
+        a: f64 = 1.0,
     }
 }
 

@@ -2,11 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, angle_from, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
@@ -14,38 +12,32 @@ const SOURCE: &str = "Square twists: J. L. Silverberg et al., Nature Materials (
                       assignment that folds rigidly: T. A. Evans, R. J. Lang, S. P. Magleby, L. L. Howell, \
                       R. Soc. Open Sci. 2, 150067 (2015).";
 
-/// One cell of a tessellation by square twists: a square of side `a`, a square of side `b`, and two parallelograms
-/// between them with the angle `twist`, rigidly folded by `fold`.
-///
-/// The vertices are the corners of the square `a`, which lies in the plane. The sides of square `b` that leave its
-/// right and its upper side are, with `t = pi/2 - twist`,
-///
-/// ```text
-/// e = b ( cos t cos u,  sin t,         cos t sin u )       lattice vectors:  (a, 0, 0) + e
-/// f = b ( -sin t,       cos t cos w,   cos t sin w )                         (0, a, 0) + f
-/// ```
-///
-/// so that the parallelograms keep their angles, and square `b` keeps its right angle if `tan t (cos w - cos u) + sin
-/// u sin w = 0`. The parameter `fold` is `u`, and `w` follows; 0 is the flat crease pattern.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct SquareTwist {
-    /// Side of the squares that twist. Default 1.
-    pub a: f64,
-    /// Side of the squares between them. Default 2.
-    pub b: f64,
-    /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/4.
-    #[serde(deserialize_with = "radians")]
-    pub twist: f64,
-    /// Fold angle between the squares `a` and the parallelograms on their right in radians, in `[0, pi/2)`. Default
-    /// 0.3.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-}
-
-impl Default for SquareTwist {
-    fn default() -> Self {
-        Self { a: 1.0, b: 2.0, twist: FRAC_PI_4, fold: 0.3 }
+parameters! {
+    /// One cell of a tessellation by square twists: a square of side `a`, a square of side `b`, and two parallelograms
+    /// between them with the angle `twist`, rigidly folded by `fold`.
+    ///
+    /// The vertices are the corners of the square `a`, which lies in the plane. The sides of square `b` that leave its
+    /// right and its upper side are, with `t = pi/2 - twist`,
+    ///
+    /// ```text
+    /// e = b ( cos t cos u,  sin t,         cos t sin u )       lattice vectors:  (a, 0, 0) + e
+    /// f = b ( -sin t,       cos t cos w,   cos t sin w )                         (0, a, 0) + f
+    /// ```
+    ///
+    /// so that the parallelograms keep their angles, and square `b` keeps its right angle if `tan t (cos w - cos u) +
+    /// sin u sin w = 0`. The parameter `fold` is `u`, and `w` follows; 0 is the flat crease pattern.
+    SquareTwist {
+        /// Side of the squares that twist. Default 1.
+        a: f64 = 1.0,
+        /// Side of the squares between them. Default 2.
+        b: f64 = 2.0,
+        /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/4.
+        #[serde(deserialize_with = "radians")]
+        twist: f64 = FRAC_PI_4,
+        /// Fold angle between the squares `a` and the parallelograms on their right in radians, in `[0, pi/2)`. Default
+        /// 0.3.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = 0.3,
     }
 }
 

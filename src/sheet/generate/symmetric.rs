@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{GenerateError, count, from};
 use super::grid::VertexGrid;
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use super::random::split;
 use crate::math::Vec3;
 use crate::numerics::random::symmetric;
@@ -31,27 +31,21 @@ pub enum CellSymmetry {
     GlideAlong,
 }
 
-/// A random cell with one symmetry: as [`Random`](super::Random) without skew, its displacements averaged over the
-/// symmetry.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Symmetric {
-    /// The symmetry. Default `"two-fold"`.
-    pub symmetry: CellSymmetry,
-    /// Vertices along the two lattice vectors, 1 to 1000 each; even along the first for a screw axis or a glide plane,
-    /// along the second for a mirror plane. Default `[4, 4]`.
-    pub size: [usize; 2],
-    /// Largest displacement along z, in `[0, 100)`. Default 0.3.
-    pub height: f64,
-    /// Largest displacement in the plane, in `[0, 0.25)`. Default 0.2.
-    pub jitter: f64,
-    /// Seed of the random numbers. Default 0.
-    pub seed: u64,
-}
-
-impl Default for Symmetric {
-    fn default() -> Self {
-        Self { symmetry: CellSymmetry::TwoFold, size: [4, 4], height: 0.3, jitter: 0.2, seed: 0 }
+parameters! {
+    /// A random cell with one symmetry: as [`Random`](super::Random) without skew, its displacements averaged over the
+    /// symmetry.
+    Symmetric {
+        /// The symmetry. Default `"two-fold"`.
+        symmetry: CellSymmetry = CellSymmetry::TwoFold,
+        /// Vertices along the two lattice vectors, 1 to 1000 each; even along the first for a screw axis or a glide
+        /// plane, along the second for a mirror plane. Default `[4, 4]`.
+        size: [usize; 2] = [4, 4],
+        /// Largest displacement along z, in `[0, 100)`. Default 0.3.
+        height: f64 = 0.3,
+        /// Largest displacement in the plane, in `[0, 0.25)`. Default 0.2.
+        jitter: f64 = 0.2,
+        /// Seed of the random numbers. Default 0.
+        seed: u64 = 0,
     }
 }
 

@@ -1,49 +1,42 @@
 //! Miura-ori of thick panels, whose creases lie at several heights.
 
-use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_3, PI};
 
 use super::super::angle::radians;
 use super::error::{GenerateError, between};
 use super::grid::VertexGrid;
 use super::miura::{Miura, MiuraShape};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str =
     "Miura-ori of thick panels: Y. Chen, R. Peng, Z. You, Origami of thick panels, Science 349, 396 (2015).";
 
-/// One cell of Miura-ori of thick panels, partly folded: four rigid panels whose hinges lie at three heights.
-///
-/// The panels turn as the parallelograms of [`Miura`] do. The zigzag creases lie at the middle of the panels, those
-/// along y on them where they are mountains and below them where they are valleys, so that the four hinges round each
-/// vertex are a Bennett linkage. Hinges end before the vertices: an opening is left at each, and every panel is a
-/// polygon of eight corners that is not plane. The cell along x is shorter than that of the sheet without thickness by
-/// `4 d`, `d = thickness v h / n` with the lengths of [`Miura`] and the area `n` of a parallelogram.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ThickMiura {
-    /// As of [`Miura`].
-    pub a: f64,
-    /// As of [`Miura`].
-    pub b: f64,
-    /// As of [`Miura`].
-    #[serde(deserialize_with = "radians")]
-    pub sector: f64,
-    /// As of [`Miura`].
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-    /// Thickness of the panels, from the lowest hinge to the highest; above 0 and so small that the cell keeps a length
-    /// at this fold. Default 0.1.
-    pub thickness: f64,
-    /// Part of each crease that is left open at each end, above 0 and below 1/2. Default 0.1.
-    pub gap: f64,
-}
-
-impl Default for ThickMiura {
-    fn default() -> Self {
-        let Miura { a, b, sector, fold } = Miura::default();
-        Self { a, b, sector, fold, thickness: 0.1, gap: 0.1 }
+parameters! {
+    /// One cell of Miura-ori of thick panels, partly folded: four rigid panels whose hinges lie at three heights.
+    ///
+    /// The panels turn as the parallelograms of [`Miura`] do. The zigzag creases lie at the middle of the panels, those
+    /// along y on them where they are mountains and below them where they are valleys, so that the four hinges round
+    /// each vertex are a Bennett linkage. Hinges end before the vertices: an opening is left at each, and every panel
+    /// is a polygon of eight corners that is not plane. The cell along x is shorter than that of the sheet without
+    /// thickness by `4 d`, `d = thickness v h / n` with the lengths of [`Miura`] and the area `n` of a parallelogram.
+    ThickMiura {
+        /// As of [`Miura`].
+        a: f64 = 1.0,
+        /// As of [`Miura`].
+        b: f64 = 1.0,
+        /// As of [`Miura`].
+        #[serde(deserialize_with = "radians")]
+        sector: f64 = FRAC_PI_3,
+        /// As of [`Miura`].
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = PI / 12.0,
+        /// Thickness of the panels, from the lowest hinge to the highest; above 0 and so small that the cell keeps a
+        /// length at this fold. Default 0.1.
+        thickness: f64 = 0.1,
+        /// Part of each crease that is left open at each end, above 0 and below 1/2. Default 0.1.
+        gap: f64 = 0.1,
     }
 }
 

@@ -1,36 +1,28 @@
 //! The von Mises truss: two bars that meet in an apex and snap through when it is pressed down.
 
-use serde::{Deserialize, Serialize};
-
 use super::error::{GenerateError, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Two-bar truss: R. von Mises, Ueber die Stabilitaetsprobleme der Elastizitaetstheorie, ZAMM 3, 406 \
                       (1923).";
 
-/// The two-bar truss of von Mises in the plane `y = 0`, as one triangle without lattice.
-///
-/// ```text
-///            1                 vertices: 0 (-w, 0, 0), 1 (0, 0, h), 2 (w, 0, 0)
-///         /     \              bars: 0-1 and 1-2 of length sqrt(w^2 + h^2), 0-2 of length 2 w
-///      0 --------- 2
-/// ```
-///
-/// The bar 0-2 joins the two supports; where both are pinned it carries nothing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Truss {
-    /// Half the distance `w` of the supports. Default 1.
-    pub half_span: f64,
-    /// Height `h` of the apex above the supports. Default 0.3.
-    pub height: f64,
-}
-
-impl Default for Truss {
-    fn default() -> Self {
-        Self { half_span: 1.0, height: 0.3 }
+parameters! {
+    /// The two-bar truss of von Mises in the plane `y = 0`, as one triangle without lattice.
+    ///
+    /// ```text
+    ///            1                 vertices: 0 (-w, 0, 0), 1 (0, 0, h), 2 (w, 0, 0)
+    ///         /     \              bars: 0-1 and 1-2 of length sqrt(w^2 + h^2), 0-2 of length 2 w
+    ///      0 --------- 2
+    /// ```
+    ///
+    /// The bar 0-2 joins the two supports; where both are pinned it carries nothing.
+    Truss {
+        /// Half the distance `w` of the supports. Default 1.
+        half_span: f64 = 1.0,
+        /// Height `h` of the apex above the supports. Default 0.3.
+        height: f64 = 0.3,
     }
 }
 

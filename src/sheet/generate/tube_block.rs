@@ -1,9 +1,10 @@
 //! A block of aligned Miura tubes: a cellular solid that folds without stretching.
 
-use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_3, FRAC_PI_4};
 
 use super::super::angle::radians;
 use super::error::{GenerateError, count};
+use super::parts::parameters;
 use super::tubes::MiuraTubes;
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
@@ -11,33 +12,26 @@ use crate::sheet::cell::Sheet;
 /// Most tubes on top of each other.
 const MOST_TUBES: usize = 100;
 
-/// A block of `tubes[0]` by `tubes[1]` aligned tubes of Miura-ori along x, which share their walls.
-///
-/// Each is the tube of [`MiuraTubes`], moved by multiples of its sides `u` and `v`: all walls of one direction are the
-/// same, so that the block folds as one tube does. Four faces meet at the lines inside it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct TubeBlock {
-    /// As of [`MiuraTubes`].
-    pub a: f64,
-    /// As of [`MiuraTubes`].
-    pub b: f64,
-    /// As of [`MiuraTubes`].
-    #[serde(deserialize_with = "radians")]
-    pub sector: f64,
-    /// As of [`MiuraTubes`].
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-    /// Number of zigzags along the axis, 1 to 500. Default 2.
-    pub cells: usize,
-    /// Numbers of tubes along the sides `u` and `v` of a tube, 1 to 100. Default 2 by 2.
-    pub tubes: [usize; 2],
-}
-
-impl Default for TubeBlock {
-    fn default() -> Self {
-        let MiuraTubes { a, b, sector, fold, cells } = MiuraTubes::default();
-        Self { a, b, sector, fold, cells, tubes: [2, 2] }
+parameters! {
+    /// A block of `tubes[0]` by `tubes[1]` aligned tubes of Miura-ori along x, which share their walls.
+    ///
+    /// Each is the tube of [`MiuraTubes`], moved by multiples of its sides `u` and `v`: all walls of one direction are
+    /// the same, so that the block folds as one tube does. Four faces meet at the lines inside it.
+    TubeBlock {
+        /// As of [`MiuraTubes`].
+        a: f64 = 1.0,
+        /// As of [`MiuraTubes`].
+        b: f64 = 1.0,
+        /// As of [`MiuraTubes`].
+        #[serde(deserialize_with = "radians")]
+        sector: f64 = FRAC_PI_3,
+        /// As of [`MiuraTubes`].
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = FRAC_PI_4,
+        /// Number of zigzags along the axis, 1 to 500. Default 2.
+        cells: usize = 2,
+        /// Numbers of tubes along the sides `u` and `v` of a tube, 1 to 100. Default 2 by 2.
+        tubes: [usize; 2] = [2, 2],
     }
 }
 

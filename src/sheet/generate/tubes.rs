@@ -2,41 +2,33 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, count, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 pub(super) const SOURCE: &str = "Coupled Miura tubes: E. T. Filipov, T. Tachi, G. H. Paulino, PNAS 112, 12321 (2015).";
 
-/// Two coupled tubes of Miura-ori along x.
-///
-/// Ring `r` of the first tube is that of `r = 0` moved by `(r b cos f, [r odd] b sin f, 0)`. It has the sides
-/// `u = (0, y, z)` and `v = (0, y, -z)` of length `a`, `y = a cos t / sin f`; the wall of the side `u` touches the second
-/// tube.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct MiuraTubes {
-    /// Side `a` of the parallelograms round the tubes. Default 1.
-    pub a: f64,
-    /// Side `b` of the parallelograms along the tubes. Default 1.
-    pub b: f64,
-    /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-    #[serde(deserialize_with = "radians")]
-    pub sector: f64,
-    /// Angle `f` between the zigzags and the axis in radians, in `(pi/2 - t, pi/2)`. Default pi/4.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-    /// Number of zigzags along the axis, 1 to 500. Default 2.
-    pub cells: usize,
-}
-
-impl Default for MiuraTubes {
-    fn default() -> Self {
-        Self { a: 1.0, b: 1.0, sector: FRAC_PI_3, fold: FRAC_PI_4, cells: 2 }
+parameters! {
+    /// Two coupled tubes of Miura-ori along x.
+    ///
+    /// Ring `r` of the first tube is that of `r = 0` moved by `(r b cos f, [r odd] b sin f, 0)`. It has the sides `u =
+    /// (0, y, z)` and `v = (0, y, -z)` of length `a`, `y = a cos t / sin f`; the wall of the side `u` touches the
+    /// second tube.
+    MiuraTubes {
+        /// Side `a` of the parallelograms round the tubes. Default 1.
+        a: f64 = 1.0,
+        /// Side `b` of the parallelograms along the tubes. Default 1.
+        b: f64 = 1.0,
+        /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+        #[serde(deserialize_with = "radians")]
+        sector: f64 = FRAC_PI_3,
+        /// Angle `f` between the zigzags and the axis in radians, in `(pi/2 - t, pi/2)`. Default pi/4.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = FRAC_PI_4,
+        /// Number of zigzags along the axis, 1 to 500. Default 2.
+        cells: usize = 2,
     }
 }
 

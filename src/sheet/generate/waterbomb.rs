@@ -2,46 +2,38 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_from, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, Proc. R. Soc. A \
                       472, 20150846 (2016).";
 
-/// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and displaced by `a`; every
-/// vertex has six creases.
-///
-/// ```text
-///     x---x---x       a base: two diagonals and the upright middle line; rows alternate between bases
-///     | \ | / |       that begin at even and at odd multiples of a, and the lines between rows are creases
-///     |   o   |
-///     | / | \ |
-///     x---x---x
-/// ```
-///
-/// Folded evenly this sheet rolls up to a cylinder, which no drawing with a flat lattice can show: if all bases are
-/// equal, square and mirror-symmetric, the six edge lengths allow the flat state only. `fold` is therefore the fold
-/// that a flat lattice allows, pleats along the lines between rows; 0 is the flat crease pattern.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Waterbomb {
-    /// Half the width of a base. Default 1.
-    pub a: f64,
-    /// Half the height of a base. Default 1.
-    pub b: f64,
-    /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-}
-
-impl Default for Waterbomb {
-    fn default() -> Self {
-        Self { a: 1.0, b: 1.0, fold: 0.0 }
+parameters! {
+    /// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and displaced by `a`; every
+    /// vertex has six creases.
+    ///
+    /// ```text
+    ///     x---x---x       a base: two diagonals and the upright middle line; rows alternate between bases
+    ///     | \ | / |       that begin at even and at odd multiples of a, and the lines between rows are creases
+    ///     |   o   |
+    ///     | / | \ |
+    ///     x---x---x
+    /// ```
+    ///
+    /// Folded evenly this sheet rolls up to a cylinder, which no drawing with a flat lattice can show: if all bases are
+    /// equal, square and mirror-symmetric, the six edge lengths allow the flat state only. `fold` is therefore the fold
+    /// that a flat lattice allows, pleats along the lines between rows; 0 is the flat crease pattern.
+    Waterbomb {
+        /// Half the width of a base. Default 1.
+        a: f64 = 1.0,
+        /// Half the height of a base. Default 1.
+        b: f64 = 1.0,
+        /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = 0.0,
     }
 }
 

@@ -2,38 +2,30 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use serde::{Deserialize, Serialize};
-
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_from, length};
-use super::parts::Parts;
+use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Yoshimura pattern: Y. Yoshimura, On the mechanism of buckling of a circular cylindrical shell \
                       under axial compression, NACA TM 1390 (1955).";
 
-/// One cell of the Yoshimura pattern: two rows of isosceles triangles with base `a` and height `b`, every other row
-/// displaced by `a / 2`.
-///
-/// Folded evenly this sheet rolls up to a cylinder, which a drawing with a flat lattice cannot show. `fold` is the
-/// fold that a flat lattice allows, pleats along the bases; 0 is the flat crease pattern.
-/// [`Kresling`](super::Kresling) with a twist of `pi / sides` gives the pattern as rings of a cylinder.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Yoshimura {
-    /// Base of the triangles. Default 2.
-    pub a: f64,
-    /// Height of the triangles. Default 1.
-    pub b: f64,
-    /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
-    #[serde(deserialize_with = "radians")]
-    pub fold: f64,
-}
-
-impl Default for Yoshimura {
-    fn default() -> Self {
-        Self { a: 2.0, b: 1.0, fold: 0.0 }
+parameters! {
+    /// One cell of the Yoshimura pattern: two rows of isosceles triangles with base `a` and height `b`, every other row
+    /// displaced by `a / 2`.
+    ///
+    /// Folded evenly this sheet rolls up to a cylinder, which a drawing with a flat lattice cannot show. `fold` is the
+    /// fold that a flat lattice allows, pleats along the bases; 0 is the flat crease pattern.
+    /// [`Kresling`](super::Kresling) with a twist of `pi / sides` gives the pattern as rings of a cylinder.
+    Yoshimura {
+        /// Base of the triangles. Default 2.
+        a: f64 = 2.0,
+        /// Height of the triangles. Default 1.
+        b: f64 = 1.0,
+        /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
+        #[serde(deserialize_with = "radians")]
+        fold: f64 = 0.0,
     }
 }
 
