@@ -11,7 +11,7 @@ use super::walk::{FaceWalk, Walked, relative};
 use super::{KinematicsError, drawn_fold_angles};
 use crate::math::Vec3;
 use crate::numerics::larger;
-use crate::sheet::{Corner, EdgeKey, Sheet};
+use crate::sheet::{Corner, Sheet};
 
 /// The precomputed data from which a sheet is placed at any fold angles.
 #[derive(Clone, Debug)]
@@ -22,8 +22,6 @@ pub struct Embedding {
     /// Lattice vectors as drawn, or chords of the screw motions that repeat the drawn cell.
     pub(super) lattice: Option<[Vec3; 2]>,
     drawn_angles: Vec<f64>,
-    edges: Vec<EdgeKey>,
-    lengths: Vec<f64>,
     longest: f64,
 }
 
@@ -89,20 +87,14 @@ impl Embedding {
         let walk = FaceWalk::new(sheet)?;
         let faces: Vec<DrawnFace> = (0..walk.cells.len()).map(|face| DrawnFace::new(sheet, &walk, face)).collect();
         let seats = seats(sheet, &faces).ok_or(KinematicsError::Disconnected { faces: faces.len() })?;
-        let edges: Vec<EdgeKey> = sheet.edges.iter().map(|edge| edge.key).collect();
-        let length = |key: &EdgeKey| {
-            let [i, j] = key.ends().map(|end| sheet.position(end));
-            (j - i).norm()
-        };
-        let lengths: Vec<f64> = edges.iter().map(length).collect();
-        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let longest = sheet.edges.iter().map(|edge| sheet.length(edge.key)).fold(0.0, f64::max);
         let drawn_angles = drawn_fold_angles(sheet);
-        Ok(Self { walk, seats, faces, lattice: sheet.chords(), drawn_angles, edges, lengths, longest })
+        Ok(Self { walk, seats, faces, lattice: sheet.chords(), drawn_angles, longest })
     }
 
     /// Number of edges, which is the number of fold angles.
     pub(crate) fn edges(&self) -> usize {
-        self.edges.len()
+        self.drawn_angles.len()
     }
 
     /// Returns the fold angles of the drawn sheet in radians, valley positive; zero on the rim.
@@ -146,16 +138,6 @@ impl Embedding {
         placement.compatibility = self.compatibility(walked);
     }
 
-    /// Returns the largest error of the length of an edge, relative to the drawn length.
-    pub fn bar_error(&self, placement: &Placement) -> f64 {
-        let bars = self.edges.iter().zip(&self.lengths);
-        let errors = bars.map(|(key, length)| {
-            let [i, j] = key.ends().map(|end| placement.corner(end));
-            ((j - i).norm() - length).abs() / length
-        });
-        errors.fold(0.0, larger)
-    }
-
     /// Returns the sum of the drawn areas of the faces times their normals.
     pub(super) fn drawn_area(&self) -> Vec3 {
         self.faces.iter().map(|face| face.area).sum()
@@ -183,7 +165,7 @@ impl Embedding {
 impl Placement {
     /// Returns the position of a corner, by applying the lattice motions one by one; for a finite sheet only in cell
     /// (0, 0).
-    pub(crate) fn corner(&self, corner: Corner) -> Vec3 {
+    pub fn corner(&self, corner: Corner) -> Vec3 {
         let home = self.positions[corner.vertex];
         match &self.lattice {
             Some(lattice) if corner.shift != [0, 0] => Motion::lattice_power(lattice, corner.shift).apply(&home),
@@ -227,6 +209,15 @@ mod tests {
     use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
     use std::f64::consts::TAU;
 
+    /// Returns the largest error of the length of an edge, relative to the drawn length.
+    fn bar_error(sheet: &Sheet, placement: &Placement) -> f64 {
+        let errors = sheet.edges.iter().map(|edge| {
+            let [i, j] = edge.key.ends().map(|end| placement.corner(end));
+            ((j - i).norm() / sheet.length(edge.key) - 1.0).abs()
+        });
+        errors.fold(0.0, larger)
+    }
+
     /// Claim: the drawn fold angles give the drawn sheet with vertex 0 at the origin and translations as lattice
     /// motions, for periodic and finite sheets, also for sheets with openings. Tolerance: rounding of positions.
     #[test]
@@ -237,7 +228,7 @@ mod tests {
             let drawn = sheet.vertices.iter().map(|x| x - sheet.vertices[0]);
             assert!(drawn.zip(&placement.positions).all(|(drawn, x)| (drawn - x).norm() <= 1e-15));
             assert!(placement.compatibility.largest() <= 1e-15);
-            assert!(embedding.bar_error(&placement) <= 2e-15);
+            assert!(bar_error(&sheet, &placement) <= 2e-15);
             let lattice = placement.lattice.map(|lattice| lattice.map(|motion| motion.translation));
             assert_eq!(lattice.is_some(), sheet.lattice.is_some());
             let pairs = sheet.lattice.into_iter().flatten().zip(lattice.into_iter().flatten());
@@ -273,7 +264,7 @@ mod tests {
             let embedding = Embedding::new(&sheet).unwrap();
             let placement = embedding.place(&angles);
             assert!(placement.compatibility.largest() <= 1e-13, "{:?}", placement.compatibility);
-            assert!(embedding.bar_error(&placement) <= 1e-13);
+            assert!(bar_error(&sheet, &placement) <= 1e-13);
             for (edge, angle) in sheet.edges.iter().zip(&angles) {
                 let (Some(left), Some(right)) = (edge.wings[0], edge.wings[1]) else { continue };
                 let [i, j] = edge.key.ends();

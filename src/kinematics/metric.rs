@@ -4,7 +4,7 @@
 //! `g_ij = l_i . l_j`.
 
 use crate::math::Vec3;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 
 /// The frame of a drawn lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,13 +44,6 @@ impl LatticeFrame {
     pub fn strain_rate(&self, chords: &[Vec3; 2], rates: &[Vec3; 2]) -> [f64; 3] {
         self.tensor(&Matrix2::from_fn(|i, j| rates[i].dot(&chords[j]) + chords[i].dot(&rates[j])))
     }
-
-    /// Returns the angle of the line along `n1 l1 + n2 l2` in the drawn plane to x, in radians, in `(-pi/2, pi/2]`.
-    pub(crate) fn line_angle(&self, n: [f64; 2]) -> f64 {
-        let [x, y]: [f64; 2] = (self.vectors * Vector2::from(n)).into();
-        let flipped = x < 0.0 || (x == 0.0 && y < 0.0);
-        if flipped { (-y).atan2(-x) } else { y.atan2(x) }
-    }
 }
 
 #[cfg(test)]
@@ -75,17 +68,5 @@ mod tests {
         close(strained(&|l| l), [0.0; 3]);
         close(strained(&|l| l + 0.1 * x * x.dot(&l)), [0.21, 0.0, 0.0]);
         close(strained(&|l| l + 0.1 * x * y.dot(&l)), [0.0, 0.01, 0.1]);
-    }
-
-    /// Claim: the angle of a line to the first lattice vector does not depend on the direction along the line.
-    #[test]
-    fn lines_have_angles() {
-        let frame = LatticeFrame::new(&LATTICE.map(Vec3::from));
-        let expected = 2f64.atan2(0.6);
-        for (n, angle) in [([1.0, 0.0], 0.0), ([-1.0, 0.0], 0.0), ([0.0, 3.0], expected), ([0.0, -3.0], expected)] {
-            assert!((frame.line_angle(n) - angle).abs() <= 1e-15);
-        }
-        assert!((frame.line_angle([-0.3, 1.0]) - std::f64::consts::FRAC_PI_2).abs() <= 1e-15);
-        assert!((frame.line_angle([0.3, -1.0]) - std::f64::consts::FRAC_PI_2).abs() <= 1e-15);
     }
 }

@@ -44,10 +44,6 @@ pub struct Shape {
     pub curvature: f64,
     /// Strain `[strain11, strain22, strain12]` of the chords from vertex 0 relative to the drawn lattice.
     pub strain: [f64; 3],
-    /// Direction of the axis in the plane of the drawn sheet: that of `n1 l1 + n2 l2` with `n1 theta1 + n2 theta2 = 0`,
-    /// which stays straight. Given as the angle of the line to the first lattice vector in radians, in `(-pi/2, pi/2]`;
-    /// `None` if there is no rotation.
-    pub axis_angle: Option<f64>,
     /// The errors of closure of the angles.
     pub compatibility: Compatibility,
 }
@@ -75,13 +71,11 @@ impl Shape {
         let (Some(motions), Some(drawn)) = (placement.lattice, &embedding.lattice) else {
             return Err(KinematicsError::NoLattice);
         };
-        let (screw, frame) = (Screw::new(&motions), LatticeFrame::new(drawn));
+        let screw = Screw::new(&motions);
         let curvature = signed_curvature(embedding, &screw);
-        let [theta1, theta2] = screw.theta;
-        let axis_angle = screw.axis.map(|_| frame.line_angle([-theta2, theta1]));
-        let strain = frame.strain(&screw.chords);
+        let strain = LatticeFrame::new(drawn).strain(&screw.chords);
         let Placement { positions, compatibility, .. } = placement;
-        Ok(Self { positions, motions, screw, theta: screw.theta, curvature, strain, axis_angle, compatibility })
+        Ok(Self { positions, motions, screw, theta: screw.theta, curvature, strain, compatibility })
     }
 
     /// Whether the rotations of the lattice are so large that curvature and axis are more than rounding errors.
@@ -268,8 +262,9 @@ mod tests {
             let [before, after] = [-1e-3, 1e-3].map(at);
             let rate = (after.curvature - before.curvature) / 2e-3;
             assert!((rate - (k[0] + k[1])).abs() <= 1e-5, "{rate} for {}", k[0] + k[1]);
-            let angle = after.axis_angle.unwrap();
-            let (x, y) = (angle.cos(), angle.sin());
+            let [theta1, theta2] = after.theta;
+            let along = LatticeFrame::new(&sheet.lattice.unwrap()).vectors * nalgebra::Vector2::new(-theta2, theta1);
+            let [x, y]: [f64; 2] = along.normalize().into();
             let bent = (k[0] * x + k[2] * y).hypot(k[2] * x + k[1] * y);
             assert!(bent <= 1e-2 * rate.abs(), "{bent}");
         }

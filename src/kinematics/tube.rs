@@ -20,8 +20,6 @@
 //! vectors `w`, which has the direction of the axis: `W . w / |w| = 0` up to multiples of `2 pi`, and
 //! `w . l / (2 pi L) = 0`.
 
-mod cut;
-
 use super::folding_modes::with_zero_rates;
 use super::motion::Moving;
 use super::{AngleConditions, Closing, Closure, Displacement, Embedding, KinematicsError, folding_modes};

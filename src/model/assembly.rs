@@ -154,14 +154,6 @@ impl Assembly {
         self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
     }
 
-    /// Returns the same assembly with all bars of one stiffness `EA` (a force); [`RIGID`] keeps their lengths. Their
-    /// rest lengths stay what they are.
-    pub fn with_bars(&self, stiffness: f64) -> Self {
-        let rest = self.terms().bars.as_ref().map(|bars| bars.rest.clone()).unwrap_or_default();
-        let bars = Bars { stiffness: stiffness.into(), rest };
-        self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
-    }
-
     /// Returns the same assembly with a term of one's own beside the others.
     pub fn with_own_term(&self, term: OwnTerm) -> Self {
         let mut terms = self.terms().clone();
@@ -179,14 +171,8 @@ impl Assembly {
     }
 
     /// Returns the same assembly in another drawn state, with its domain.
-    pub(super) fn with_drawn(&self, drawn: Drawn) -> Self {
+    pub fn with_drawn(&self, drawn: Drawn) -> Self {
         Self { drawn: Arc::new(drawn), ..self.clone() }
-    }
-
-    /// Returns the same assembly without the coordinates that screw boundary conditions hold against drift, so that
-    /// its models have all rigid motions.
-    pub fn with_free_coordinates(&self) -> Self {
-        self.with_drawn(Drawn { held: vec![], ..Drawn::clone(&self.drawn) })
     }
 
     /// Returns the cell of the sheet.

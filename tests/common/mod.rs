@@ -10,7 +10,7 @@ pub use run::{Ran, Scene, case_folder};
 use foldwell::analysis::modes::{Modes, ModesError, modes};
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Model, Terms};
+use foldwell::model::{Assembly, Bars, Boundary, Drawn, Gauge, Hinges, Model, Terms};
 use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::sheet::generate::FourParallelogram;
 use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
@@ -106,6 +106,11 @@ pub trait Testing {
     fn facets(&self, stiffness: f64) -> Option<Hinges>;
     fn model_of(&self, terms: &Terms, gauge: Gauge) -> Model;
     fn modes_of(&self, terms: &Terms, eigenvalues: usize) -> Result<Modes, ModesError>;
+    /// Returns the same assembly with all bars of one stiffness, at the rest lengths that they have.
+    fn with_bars(&self, stiffness: f64) -> Assembly;
+    /// Returns the same assembly without the coordinates that screw boundary conditions hold against drift, so that
+    /// its models have all rigid motions.
+    fn with_free_coordinates(&self) -> Assembly;
     /// Relaxes the sheet from the drawn state.
     fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>>;
 }
@@ -135,6 +140,16 @@ impl Testing for Assembly {
 
     fn modes_of(&self, terms: &Terms, eigenvalues: usize) -> Result<Modes, ModesError> {
         modes(&self.with_terms(terms.clone()), eigenvalues, &mut || true)
+    }
+
+    fn with_bars(&self, stiffness: f64) -> Assembly {
+        let rest = self.terms().bars.as_ref().map(|bars| bars.rest.clone()).unwrap_or_default();
+        let bars = Bars { stiffness: stiffness.into(), rest };
+        self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
+    }
+
+    fn with_free_coordinates(&self) -> Assembly {
+        self.with_drawn(Drawn { held: vec![], ..self.drawn().clone() })
     }
 
     fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>> {

@@ -1,6 +1,6 @@
 //! The points of the grid: the scenes, how far their rest values go, and the stiffnesses of their bars.
 
-use crate::common::mesh_folder;
+use crate::common::{Testing, mesh_folder};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Gauge, Hinges, Terms};

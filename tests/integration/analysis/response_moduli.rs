@@ -1,6 +1,6 @@
 //! Effective moduli compared with energies of tori and cylinders, and their rigid limit.
 
-use crate::common::{self, energy_hessian, jacobian, linearized};
+use crate::common::{self, Testing, energy_hessian, jacobian, linearized};
 use foldwell::analysis::relax::relax;
 use foldwell::analysis::response::{Moduli, ModuliMatrices, ModuliOf, moduli, response};
 use foldwell::math::Vec3;

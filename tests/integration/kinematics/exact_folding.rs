@@ -62,7 +62,13 @@ impl Folding {
     /// Returns the shape, after checking that it is compatible and has the drawn lengths of bars.
     fn shape(&self, angles: &[f64]) -> Shape {
         let placement = self.embedding.place(angles);
-        let (ways, bars) = (placement.compatibility.largest(), self.embedding.bar_error(&placement));
+        let bars = self.sheet.edges.iter().map(|edge| {
+            let ends = edge.key.ends();
+            let [drawn, placed] = [ends.map(|end| self.sheet.position(end)), ends.map(|end| placement.corner(end))]
+                .map(|[i, j]| (j - i).norm());
+            (placed / drawn - 1.0).abs()
+        });
+        let (ways, bars) = (placement.compatibility.largest(), bars.fold(0.0, f64::max));
         assert!(ways <= COMPATIBLE && bars <= COMPATIBLE, "{}: {ways:e}, {bars:e}", self.sheet.title);
         Shape::of(&self.embedding, placement).unwrap()
     }

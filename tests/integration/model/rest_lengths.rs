@@ -1,6 +1,6 @@
 //! Bars whose rest lengths are not the drawn ones: prestress and swelling.
 
-use crate::common::{Folder, Scene};
+use crate::common::{Folder, Scene, Testing};
 use foldwell::model::{AssemblyError, RestLengths};
 use foldwell::run::{Wanted, info};
 use foldwell::sheet::generate::{Pattern, Truss};

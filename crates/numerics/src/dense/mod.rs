@@ -1,6 +1,6 @@
 //! Dense decompositions: singular values, null spaces with a certified rank, symmetric eigenpairs, least squares.
 //!
-//! Matrices come and go as [`DenseMatrix`], some also as [complex](super::complex) ones; everything runs on the calling thread.
+//! Matrices come and go as [`DenseMatrix`], or with complex entries; everything runs on the calling thread.
 
 pub mod small;
 mod unit;
