@@ -19,7 +19,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output::json::to_json;
-use foldwell::run::{self, FilmOptions, Listed, RunOptions, Shard, Wanted};
+use foldwell::run::{self, FilmOptions, RunOptions, Shard, Wanted};
 use foldwell::scene::Setting;
 use foldwell::sheet::pattern::Cleanup;
 use foldwell::sheet::similar::most_similar;
@@ -223,8 +223,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Info { mesh_or_scene, set, frame, json, edges, vertices } => {
             let wanted = Wanted { settings: set, frame };
             say(&match (edges, vertices) {
-                (true, _) => run::list(&mesh_or_scene, &wanted, Listed::Edges)?,
-                (_, true) => run::list(&mesh_or_scene, &wanted, Listed::Vertices)?,
+                (true, _) => run::list(&mesh_or_scene, &wanted, run::edges)?,
+                (_, true) => run::list(&mesh_or_scene, &wanted, run::vertices)?,
                 _ if json => to_json(&run::info(&mesh_or_scene, &wanted)?),
                 _ => format!("{}\n", run::info(&mesh_or_scene, &wanted)?),
             })

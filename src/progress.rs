@@ -7,7 +7,7 @@
 //! the program ends without waiting for it. Work that has stopped, or has taken all its steps, is waited for, however long
 //! it takes to draw and write what was computed: a second Ctrl-C ends the program at once.
 
-use std::io;
+use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -50,7 +50,7 @@ impl Watch {
                 std::process::exit(130); // the second Ctrl-C does not wait for the step to end
             }
         });
-        let shown = (!quiet && console_is_terminal()).then(|| Mutex::new(Shown::new()));
+        let shown = (!quiet && std::io::stderr().is_terminal()).then(|| Mutex::new(Shown::new()));
         Self { interrupted, ending: AtomicBool::new(false), shown }
     }
 
@@ -119,10 +119,6 @@ impl Watch {
             shown.lock().unwrap_or_else(PoisonError::into_inner).bar.finish_and_clear();
         }
     }
-}
-
-fn console_is_terminal() -> bool {
-    std::io::IsTerminal::is_terminal(&std::io::stderr())
 }
 
 impl Shown {

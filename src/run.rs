@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::output::{OutputError, Picture};
+use crate::output::OutputError;
+use crate::output::table::Table;
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::pattern::Cleanup;
 use crate::sheet::{Info, Pattern, Sheet, flatten, generate, welded};
@@ -34,9 +35,10 @@ pub use crate::study::Progress;
 pub use error::RunError;
 pub use film::film;
 pub use in_memory::{Computed, compute};
-pub use info::{Counts, ElementCounts, EnergyCounts};
+pub use info::{Counts, ElementCounts, EnergyCounts, edges, vertices};
 pub use ledger::Ledger;
 use meshes::{MeshKind, ending, read_mesh};
+pub use meshes::{write_sheet, write_state};
 pub use report::{RunOptions, RunReport};
 pub use single::{run, run_and_keep};
 pub use summary::{SheetSummary, Summary};
@@ -82,7 +84,7 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
 /// # Errors
 /// [`RunError`] if a parameter is wrong, the ending is unknown or the file cannot be written.
 pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<Vec<String>, RunError> {
-    meshes::write(&new_sheet(table)?, out, None)
+    write_sheet(&new_sheet(table)?, out, None)
 }
 
 /// Generates the sheet of a pattern from the table `{ pattern = "miura", .. }`.
@@ -114,25 +116,12 @@ pub fn info(mesh_or_scene: &Path, wanted: &Wanted) -> Result<Counts, RunError> {
     Ok(Counts { sheet: Info::new(&wanted.sheet(mesh_or_scene)?), energy: None })
 }
 
-/// Elements of a sheet that have numbers or names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Listed {
-    /// The vertices of a cell.
-    Vertices,
-    /// The edges of a cell.
-    Edges,
-}
-
-/// Returns the vertices or the edges of the sheet of a mesh or a scene as a table in CSV.
+/// Returns the [`vertices`] or the [`edges`] of the sheet of a mesh or a scene as a table in CSV.
 ///
 /// # Errors
 /// [`RunError`], as [`info`].
-pub fn list(mesh_or_scene: &Path, wanted: &Wanted, listed: Listed) -> Result<String, RunError> {
-    let sheet = wanted.sheet(mesh_or_scene)?;
-    let table = match listed {
-        Listed::Vertices => info::vertices(&sheet),
-        Listed::Edges => info::edges(&sheet),
-    };
+pub fn list(mesh_or_scene: &Path, wanted: &Wanted, listed: fn(&Sheet) -> Table) -> Result<String, RunError> {
+    let table = listed(&wanted.sheet(mesh_or_scene)?);
     Ok(table.to_csv().map_err(|fault| OutputError::Shape { path: mesh_or_scene.into(), fault })?)
 }
 
@@ -165,26 +154,6 @@ pub fn read_sheet(path: &Path, frame: Option<usize>, merge: Option<f64>) -> Resu
     }
 }
 
-/// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.ply`, `.obj`, `.fold` or `.glb`.
-/// Where a thickness is given, writes the solid of the sheet instead ([`thickened`](crate::sheet::thickened)).
-///
-/// # Errors
-/// [`RunError`] if the ending is another one, if the file cannot be written, if the state is no sheet for STL, PLY, OBJ
-/// and FOLD: a face has no area, for instance; and if the thickness is not above 0.
-pub fn write_state(picture: &Picture, path: &Path, thickness: Option<f64>) -> Result<(), RunError> {
-    meshes::write_state(picture, path, thickness)
-}
-
-/// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a
-/// sentence for each part of the sheet that the file does not keep.
-///
-/// # Errors
-/// [`RunError`] if the ending is unknown, if the file cannot be written, if it is for flat sheets and the sheet is not
-/// flat, and if the thickness is not above 0.
-pub fn write_sheet(sheet: &Sheet, path: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
-    meshes::write(sheet, path, thickness)
-}
-
 /// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given
 /// frame, or the first with a mesh. Where a thickness is given, the new file has the solid of the sheet
 /// ([`thickened`](crate::sheet::thickened)). Returns a sentence for each part of the mesh that it does not keep.
@@ -193,7 +162,7 @@ pub fn write_sheet(sheet: &Sheet, path: &Path, thickness: Option<f64>) -> Result
 /// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, if there is no such
 /// frame, if the new file is for flat sheets and the sheet is not flat, and if the thickness is not above 0.
 pub fn convert(from: &Path, to: &Path, frame: Option<usize>, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
-    meshes::write(&read_mesh(from, frame, meshes::READ)?, to, thickness)
+    write_sheet(&read_mesh(from, frame, meshes::READ)?, to, thickness)
 }
 
 /// Does the same as [`convert`] with a flat crease pattern whose vertices are merged, and whose edges are split where
@@ -208,7 +177,7 @@ pub fn convert_cleaned(
     frame: Option<usize>,
     cleanup: &Cleanup,
 ) -> Result<Vec<String>, RunError> {
-    meshes::write(&meshes::read_cleaned(from, frame, cleanup)?, to, None)
+    write_sheet(&meshes::read_cleaned(from, frame, cleanup)?, to, None)
 }
 
 /// Does the same as [`convert`] with the crease pattern of a folded sheet: the sheet unfolded into the plane, with its
@@ -219,7 +188,7 @@ pub fn convert_cleaned(
 pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
     let folded = read_mesh(from, frame, meshes::READ)?;
     let pattern = flatten(&folded).map_err(|reason| RunError::NotDevelopable { path: from.into(), reason })?;
-    meshes::write(&pattern, to, None)
+    write_sheet(&pattern, to, None)
 }
 
 /// Does the same as [`convert`] with the pieces of a sheet joined where they touch ([`welded`]).
@@ -230,7 +199,7 @@ pub fn convert_welded(from: &Path, to: &Path, frame: Option<usize>) -> Result<Ve
     let apart = read_mesh(from, frame, meshes::READ)?;
     let (sheet, [vertices, faces]) =
         welded(&apart).map_err(|defect| RunError::NoSheet { path: from.into(), defect })?;
-    let mut notes = meshes::write(&sheet, to, None)?;
+    let mut notes = write_sheet(&sheet, to, None)?;
     notes.push(format!("vertices joined to others at their places: {vertices}; faces on others left out: {faces}"));
     Ok(notes)
 }

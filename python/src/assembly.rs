@@ -192,7 +192,7 @@ impl Assembly {
     /// The kinds of the edges of the model.
     #[getter]
     fn kinds(&self) -> Vec<&'static str> {
-        self.assembly.tiling().edges.iter().map(|edge| crate::sheet::kind_word(edge.kind)).collect()
+        self.assembly.tiling().edges.iter().map(|edge| edge.kind.word()).collect()
     }
 
     /// The names of units that the scene gives.

@@ -2,7 +2,6 @@
 
 use foldwell::run::RunError;
 use foldwell::scene::SceneError;
-use foldwell::sheet::SheetError;
 use miette::Diagnostic;
 use pyo3::prelude::*;
 use std::path::Path;
@@ -73,11 +72,6 @@ fn in_python(text: &str) -> String {
 /// Returns the `SceneError` about something that was given, with a hint.
 pub(crate) fn refused(py: Python<'_>, message: String, help: &str) -> PyErr {
     exception(py, "SceneError", (message, Some(help.to_owned()), None, None))
-}
-
-/// Returns the exception for a wrong mesh.
-pub(crate) fn raise_sheet(py: Python<'_>, error: SheetError) -> PyErr {
-    raise(py, &error.into())
 }
 
 /// Returns the exception for a failure of the program itself.

@@ -32,19 +32,15 @@ impl Given<'_> {
         let found = match self {
             Self::Dict(dict) => {
                 let (table, in_scene) = scene_of(dict, ToOwned::to_owned)?;
+                let place = if base == Path::new(".") { DICT.into() } else { base.join(DICT) };
                 let set = Arc::make_mut(&mut arrays);
                 in_scene.iter().for_each(|(name, array)| _ = set.entry(name.clone()).or_insert_with(|| array.clone()));
-                parse_set(&text(&table)?, scene_in(base), &settings).map_err(RunError::from)
+                parse_set(&text(&table)?, place, &settings).map_err(RunError::from)
             }
             Self::File(path) => run::read_scene(path, &settings),
         };
         found.map(|file| file.with_arrays(arrays)).map_err(|error| raise(py, &error))
     }
-}
-
-/// Returns the path that stands for a scene in a folder.
-fn scene_in(base: &Path) -> PathBuf {
-    if base == Path::new(".") { DICT.into() } else { base.join(DICT) }
 }
 
 /// Computes the studies of a scene, and with `out` writes their files into a folder. Returns the summary as JSON, the

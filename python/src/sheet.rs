@@ -1,14 +1,14 @@
 //! Sheets: read, generated, written and looked at.
 
 use crate::arrays::{Array1, Array2, points, rows, vector};
-use crate::errors::{raise, raise_sheet, refused};
+use crate::errors::{raise, refused};
 use crate::values::table;
 use crate::watch::watched;
 use foldwell::kinematics::drawn_fold_angles;
 use foldwell::math::Vec3;
 use foldwell::run::{self, RunError};
 use foldwell::sheet::build::Drawing;
-use foldwell::sheet::{Assignment, EdgeKey, EdgeKind, Info, fold, listed, obj};
+use foldwell::sheet::{Assignment, EdgeKey, Info, fold, listed, obj};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -48,7 +48,7 @@ impl Sheet {
             (true, _) => obj::parse(&text, &name),
             (false, frame) => fold::parse_frame(&text, &name, frame, None),
         })?;
-        parsed.map(|sheet| Self { sheet }).map_err(|error| raise_sheet(py, error))
+        parsed.map(|sheet| Self { sheet }).map_err(|error| raise(py, &error.into()))
     }
 
     /// Makes a sheet from arrays: vertices in two or three columns, faces, lattice vectors, and edges with letters and
@@ -139,12 +139,12 @@ impl Sheet {
 
     #[getter]
     fn kinds(&self) -> Vec<&'static str> {
-        self.sheet.edges.iter().map(|edge| kind_word(edge.kind)).collect()
+        self.sheet.edges.iter().map(|edge| edge.kind.word()).collect()
     }
 
     #[getter]
     fn letters(&self) -> Vec<&'static str> {
-        self.sheet.edges.iter().map(|edge| letter_word(self.sheet.assignment(edge))).collect()
+        self.sheet.edges.iter().map(|edge| self.sheet.assignment(edge).letter()).collect()
     }
 
     #[getter]
@@ -163,18 +163,4 @@ impl Sheet {
 /// Returns the name of an edge as numbers.
 pub(crate) fn name(key: EdgeKey) -> [i64; 4] {
     [key.i as i64, key.j as i64, i64::from(key.shift[0]), i64::from(key.shift[1])]
-}
-
-/// Returns the word for a kind of edge.
-pub(crate) fn kind_word(kind: EdgeKind) -> &'static str {
-    match kind {
-        EdgeKind::Crease => "crease",
-        EdgeKind::Facet => "facet",
-        EdgeKind::Boundary => "boundary",
-    }
-}
-
-/// Returns the letter of an assignment in FOLD.
-pub(crate) fn letter_word(assignment: Assignment) -> &'static str {
-    assignment.letter()
 }

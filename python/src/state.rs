@@ -2,7 +2,6 @@
 
 use crate::arrays::{Array1, Array2, indices, rows, view, view_of_points};
 use crate::errors::{bug, raise};
-use crate::sheet::{kind_word, letter_word};
 use foldwell::Picture;
 use foldwell::output::figure::{Annotations, Caption, sheet};
 use foldwell::output::vtk;
@@ -53,12 +52,12 @@ impl State {
 
     #[getter]
     fn kinds(&self) -> Vec<&'static str> {
-        self.picture.line_kinds.iter().map(|kind| kind_word(*kind)).collect()
+        self.picture.line_kinds.iter().map(|kind| kind.word()).collect()
     }
 
     #[getter]
     fn letters(&self) -> Vec<&'static str> {
-        self.picture.letters.iter().map(|letter| letter_word(*letter)).collect()
+        self.picture.letters.iter().map(|letter| letter.letter()).collect()
     }
 
     #[getter]

@@ -32,17 +32,11 @@ pub enum AssemblyError {
     },
     #[error("{given} {what} were given for {edges} edges of the tiling")]
     Count { what: &'static str, given: usize, edges: usize },
-    #[error("the sheet has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])]
+    #[error("the sheet has no crease {key}")]
     NoCrease { key: EdgeKey },
-    #[error(
-        "the crease [{}, {}, {}, {}] has {hinges} hinges: a lock without an angle keeps all of them",
-        key.i, key.j, key.shift[0], key.shift[1]
-    )]
+    #[error("the crease {key} has {hinges} hinges: a lock without an angle keeps all of them")]
     SeveralHinges { key: EdgeKey, hinges: usize },
-    #[error(
-        "no copy of the crease [{}, {}, {}, {}] folds in a patch of {} x {} cells",
-        key.i, key.j, key.shift[0], key.shift[1], cells[0], cells[1]
-    )]
+    #[error("no copy of the crease {key} folds in a patch of {} x {} cells", cells[0], cells[1])]
     NoCopy { key: EdgeKey, cells: [usize; 2] },
     #[error("there is no vertex {vertex} of cell {cell:?}")]
     NoVertex {

@@ -6,8 +6,8 @@
 //! drafts left by a stopped program can be distinguished from those that another program is writing.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::OutputError;
@@ -60,25 +60,32 @@ pub(super) fn draft(path: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
+/// Removes a file, if it is there.
+pub(crate) fn remove(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(path) {
+        Err(source) if !matches!(source.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            Err(OutputError::Write { path: path.into(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Returns the drafts in a folder, each with the number of the process that made it; none if there is no folder.
+fn drafts(folder: &Path) -> impl Iterator<Item = (PathBuf, String)> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.filter_map(|entry| Some((entry.path(), process_of(&entry.file_name().to_string_lossy())?.to_owned())))
+}
+
 /// Removes the drafts that stopped programs have left in a folder, and no other file. It does nothing if the folder
 /// does not exist. On systems without file locks the drafts stay.
 pub(crate) fn remove_drafts(folder: &Path) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        if process_of(&entry.file_name().to_string_lossy()).is_some() {
-            let _ = remove_unlocked(&entry.path());
-        }
-    }
+    drafts(folder).for_each(|(path, _)| _ = remove_unlocked(&path));
 }
 
 /// Removes the drafts of this program in a folder, before it exits without waiting for its other threads.
 pub(crate) fn remove_own_drafts(folder: &Path) {
     let own = std::process::id().to_string();
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if process_of(&name) == Some(&own) {
-            let _ = fs::remove_file(entry.path());
-        }
-    }
+    drafts(folder).filter(|(_, process)| *process == own).for_each(|(path, _)| _ = fs::remove_file(path));
 }
 
 /// Removes a file unless a program holds a lock on it.

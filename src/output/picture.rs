@@ -79,11 +79,6 @@ impl Picture {
         }
     }
 
-    /// Returns the picture with the triangles marked that pass through others; `faces` has one entry for each triangle.
-    pub(crate) fn with_crossing(self, faces: &[bool]) -> Self {
-        Self { self_intersecting: faces.iter().map(|&face| u8::from(face)).collect(), ..self }
-    }
-
     /// Makes the picture of the drawn state of a sheet: one cell, or the whole of a finite sheet, with the copies of
     /// vertices that its faces need.
     pub(crate) fn drawn(sheet: &Sheet) -> Self {

@@ -118,14 +118,9 @@ impl Table {
         self.with(edges.into_iter().map(|edge| Self::edge_column(word, edge)))
     }
 
-    /// Returns the name of the column with the fold angle of an edge.
-    pub(crate) fn fold_column(edge: &EdgeKey) -> String {
-        Self::edge_column("fold", edge)
-    }
-
     /// Returns the name of a column with a quantity of an edge; that of a further hinge round it has the hinge's number
     /// behind.
-    fn edge_column(word: &str, edge: &EdgeKey) -> String {
+    pub(crate) fn edge_column(word: &str, edge: &EdgeKey) -> String {
         let round = if edge.has_bar() { String::new() } else { format!("_{}", edge.round) };
         format!("{word}_{}_{}_{}_{}{round}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }

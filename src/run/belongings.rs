@@ -3,10 +3,9 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::output::OutputError;
+use crate::output::{OutputError, files};
 use crate::scene::outputs::{is_one_of, outputs, owned};
 use crate::scene::{Fingerprint, SceneFile};
 use crate::study::Files;
@@ -50,7 +49,7 @@ impl Belongings {
     pub(crate) fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let old = self.present(name).into_iter().map(|file| self.out.join(file));
         let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
-        old.iter().try_for_each(|path| remove(path))?;
+        old.iter().try_for_each(|path| files::remove(path))?;
         if !old.is_empty() {
             // fails, as intended, if the folder is not empty
             let _ = fs::remove_dir(self.out.join(name));
@@ -71,13 +70,5 @@ impl Belongings {
         }
         files.digest = digest.to_string();
         Ok(files)
-    }
-}
-
-/// Removes a file, if it is there.
-fn remove(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_file(path) {
-        Err(source) if source.kind() != ErrorKind::NotFound => Err(OutputError::Write { path: path.into(), source }),
-        _ => Ok(()),
     }
 }

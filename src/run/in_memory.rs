@@ -1,12 +1,11 @@
 //! Runs that write no file: the answers of the studies of a scene stay in memory.
 
-use super::RunError;
 use super::runner::summary_of;
+use super::{RunError, Summary};
 use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::OutputError;
-use crate::run::Summary;
 use crate::scene::SceneFile;
 use crate::scene::spec::StudySpec;
 use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};

@@ -7,6 +7,7 @@
 
 use super::{RunError, RunReport};
 use crate::output::files;
+use crate::output::json::to_json;
 use crate::run::Summary;
 use crate::scene::spec::StudySpec;
 use crate::study::StudySummary;
@@ -124,7 +125,7 @@ impl Entries {
     fn write(&mut self) -> Result<(), RunError> {
         let Some(report) = self.report.as_ref().filter(|_| !self.closed) else { return Ok(()) };
         let start = Instant::now();
-        report.summary.write(&report.out.join("summary.json"))?;
+        files::write(&report.out.join("summary.json"), to_json(&report.summary))?;
         self.written = Some((Instant::now(), start.elapsed()));
         Ok(())
     }

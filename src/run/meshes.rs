@@ -49,27 +49,18 @@ impl MeshKind {
 
 /// Reads a mesh; `expected` are the endings that messages name.
 pub(super) fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
-    match MeshKind::of(path) {
-        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame, None)?),
-        Some(kind) => match frame {
-            Some(frame) => Err(RunError::NoFrames { path: path.into(), frame }),
-            None => read_kind(path, kind),
-        },
-        None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
-    }
-}
-
-fn read_kind(path: &Path, kind: MeshKind) -> Result<Sheet, RunError> {
-    match kind {
-        MeshKind::Fold => Ok(fold::read(path)?),
-        MeshKind::Obj => Ok(obj::read(path)?),
-        MeshKind::Stl => Ok(stl::read(path)?),
-        MeshKind::Lines(format) => Ok(pattern::read(path, format, &Cleanup::default())?),
-        MeshKind::Vtu => {
+    match (MeshKind::of(path), frame) {
+        (Some(MeshKind::Fold), _) => Ok(fold::read_frame(path, frame, None)?),
+        (Some(_), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
+        (Some(MeshKind::Obj), None) => Ok(obj::read(path)?),
+        (Some(MeshKind::Stl), None) => Ok(stl::read(path)?),
+        (Some(MeshKind::Lines(format)), None) => Ok(pattern::read(path, format, &Cleanup::default())?),
+        (Some(MeshKind::Vtu), None) => {
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let drawn = convert::drawing(vtk::read_vtu(path)?, title);
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
+        (None, _) => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
     }
 }
 
@@ -84,8 +75,12 @@ pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup)
 }
 
 /// Writes a sheet, or the solid that it is with a thickness, into a file of the format of its ending. Returns a
-/// sentence for each part that the file does not keep.
-pub(super) fn write(sheet: &Sheet, to: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
+/// sentence for each part of the sheet that the file does not keep.
+///
+/// # Errors
+/// [`RunError`] if the ending is unknown, if the file cannot be written, if it is for flat sheets and the sheet is not
+/// flat, and if the thickness is not above 0.
+pub fn write_sheet(sheet: &Sheet, to: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
     let Some(thickness) = thickness else { return write_thin(sheet, to) };
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(RunError::Thickness { path: to.into(), thickness });
@@ -120,9 +115,13 @@ fn write_thin(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
     Ok(notes)
 }
 
-/// Writes a state into a file of the format of its ending; STL, PLY, OBJ and FOLD files have the sheet as it is drawn
-/// in this state, and with a thickness all files the solid.
-pub(super) fn write_state(picture: &Picture, to: &Path, thickness: Option<f64>) -> Result<(), RunError> {
+/// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.ply`, `.obj`, `.fold` or `.glb`.
+/// Where a thickness is given, writes the solid of the sheet instead ([`thickened`]).
+///
+/// # Errors
+/// [`RunError`] if the ending is another one, if the file cannot be written, if the state is no sheet for STL, PLY, OBJ
+/// and FOLD: a face has no area, for instance; and if the thickness is not above 0.
+pub fn write_state(picture: &Picture, to: &Path, thickness: Option<f64>) -> Result<(), RunError> {
     match (ending(to).as_str(), thickness) {
         ("vtu", None) => Ok(vtk::write_vtu(to, picture)?),
         ("glb", None) => Ok(files::write(to, glb::bytes(picture))?),
@@ -130,7 +129,7 @@ pub(super) fn write_state(picture: &Picture, to: &Path, thickness: Option<f64>) 
             let title = to.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let sheet = build::build(&convert::drawing(convert::mesh(picture.clone()), title));
             let sheet = sheet.map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;
-            write(&sheet, to, thickness).map(|_| ())
+            write_sheet(&sheet, to, thickness).map(|_| ())
         }
         (ending, _) => Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: STATES }),
     }

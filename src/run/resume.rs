@@ -24,7 +24,8 @@ use std::path::{Path, PathBuf};
 /// The parts of an earlier `summary.json` that are needed to resume.
 #[derive(Default, Deserialize)]
 pub(crate) struct PreviousRun {
-    digest: String,
+    /// Empty if there is no earlier run of the scene.
+    pub(crate) digest: String,
     /// The studies, each parsed separately: one that cannot be read, such as one with an invalid number, does not
     /// affect the others.
     studies: Vec<Box<RawValue>>,
@@ -36,11 +37,6 @@ impl PreviousRun {
         let text = std::fs::read_to_string(out.join("summary.json")).unwrap_or_default();
         let found: Option<Self> = serde_json::from_str(&text).ok();
         found.filter(|earlier| earlier.digest == digest).unwrap_or_default()
-    }
-
-    /// Whether there was an earlier run of this scene.
-    pub(crate) fn is_of_this_scene(&self) -> bool {
-        !self.digest.is_empty()
     }
 
     /// Returns the summary of a study in the earlier run, and its final state if later studies start from it; `None` if

@@ -46,7 +46,7 @@ pub(crate) struct Runner<'a> {
     interrupted: AtomicBool,
     ledger: Ledger,
     /// The answers of the studies that were computed, where they are wanted.
-    answers: Option<Vec<Answer>>,
+    pub(super) answers: Option<Vec<Answer>>,
 }
 
 impl<'a> Runner<'a> {
@@ -87,11 +87,6 @@ impl<'a> Runner<'a> {
         Ok(runner)
     }
 
-    /// Keeps the answers of the studies that are computed, for [`finish`](Self::finish).
-    pub(crate) fn keeping_answers(self) -> Self {
-        Self { answers: Some(Vec::new()), ..self }
-    }
-
     /// Claims the folder, unless it is claimed already, and prepares it; with `resume`, keeps the studies that an
     /// earlier run of the same scene finished.
     ///
@@ -102,7 +97,7 @@ impl<'a> Runner<'a> {
         let claimed = || claim::of_run(&self.out, false, self.observer);
         self.claim = Some(claim.map_or_else(claimed, Ok)?);
         let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
-        self.resumed = previous.is_of_this_scene();
+        self.resumed = !previous.digest.is_empty();
         self.digest.clone_from(&digest);
         self.take_over(summary_of(self.file, self.assembly, digest), &previous)
     }

@@ -1,9 +1,7 @@
 //! The run of one scene without a sweep: its studies are computed one after the other, and their files are written.
 
-use super::error::RunError;
-use super::ledger::Ledger;
-use super::report::{RunOptions, RunReport};
 use super::runner::Runner;
+use super::{Ledger, RunError, RunOptions, RunReport};
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::claim::Claim;
@@ -54,8 +52,9 @@ pub fn run_and_keep(
 ) -> Result<(RunReport, Vec<Answer>), RunError> {
     has_something_to_compute(file)?;
     Threads::new(options.threads).install(|| {
-        let runner = Runner::new(file, assembly, options, observer, ledger)?;
-        over_studies(runner.keeping_answers(), file, options, None)
+        let mut runner = Runner::new(file, assembly, options, observer, ledger)?;
+        runner.answers = Some(Vec::new());
+        over_studies(runner, file, options, None)
     })
 }
 

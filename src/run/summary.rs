@@ -3,13 +3,10 @@
 //! Numbers that were not computed, NaN and infinity are written as `null`. The doc comments of the keys are the
 //! descriptions in the JSON schema ([`super::schema`]); for a key that can be `null`, they say when.
 
-use crate::output::json::to_json;
-use crate::output::{OutputError, files};
 use crate::scene::spec::UnitsSpec;
 use crate::study::StudySummary;
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::path::Path;
 
 /// What a run of `foldwell` found: `summary.json`. Angles are radians; lengths and energies have the units of the
 /// scene.
@@ -66,21 +63,12 @@ impl Summary {
     pub fn converged(&self) -> bool {
         self.studies.iter().all(|study| study.converged)
     }
-
-    /// Returns the text of `summary.json`.
-    pub fn to_json(&self) -> String {
-        to_json(self)
-    }
-
-    /// Writes `summary.json`.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
-        files::write(path, self.to_json())
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::json::to_json;
     use crate::study::StudyResult;
     use crate::study::branches::BranchesSummary;
     use crate::study::modes::ModesSummary;
@@ -136,7 +124,7 @@ mod tests {
     /// The keys that readers of summaries rely on are present.
     #[test]
     fn the_summary_has_its_keys() {
-        let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
+        let json: Value = serde_json::from_str(&to_json(&sample())).unwrap();
         assert_eq!(
             keys(&json),
             ["digest", "left_out", "notes", "scene", "sheet", "studies", "terms", "title", "version"]
@@ -164,7 +152,7 @@ mod tests {
     /// NaN and infinity are written as null; finite numbers are read back exactly.
     #[test]
     fn numbers_that_json_lacks_are_null() {
-        let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
+        let json: Value = serde_json::from_str(&to_json(&sample())).unwrap();
         assert!(json["studies"][0]["residual_force"].is_null());
         assert!(json["studies"][1]["gap"].is_null());
         assert_eq!(json["studies"][1]["eigenvalues"], json!([0.1, 1e-300]));

@@ -1,7 +1,7 @@
 //! The assembly of a scene: reads the mesh, and checks every value of the scene that refers to the sheet.
 
 pub(crate) use super::drives::rest as rest_drive;
-use super::elements::{ElementKind, ElementValues, name};
+use super::elements::{ElementKind, ElementValues};
 use super::forms::{Mode, RatesFile};
 use super::laws::GivenLaw;
 use super::mass::mass;
@@ -236,8 +236,9 @@ impl<'a> Reader<'a> {
             return Ok(Some(stiffness.into()));
         }
         let Some(material) = material(self.file) else { return Ok(None) };
+        let energy = &self.file.scene.energy;
         Ok(match of {
-            ElementKind::Bars if self.file.scene.energy.has_membrane_alone() => None,
+            ElementKind::Bars if energy.has_membrane() && energy.bars.is_none() => None,
             ElementKind::Bars => Some(super::material::bars(self.file, self.assembly, &material)?),
             ElementKind::Creases => material.creases(),
             ElementKind::Facets => Some(material.facets(self.assembly)),
@@ -349,8 +350,7 @@ impl<'a> Reader<'a> {
             }
             if locks.len() == before {
                 let [n1, n2] = self.tiling.cells;
-                let message =
-                    format!("no copy of the crease {} folds in a patch of {n1} x {n2} cells", name(lock.crease.0));
+                let message = format!("no copy of the crease {} folds in a patch of {n1} x {n2} cells", lock.crease.0);
                 let help = "all of them are on its rim or beyond: lock a crease inside, or give more `cells`";
                 return Err(self.file.error_at(lock.crease.span(), message, help));
             }
@@ -365,9 +365,9 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         let creases = self.sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease && edge.key.has_bar());
-        let known: Vec<String> = creases.take(4).map(|edge| name(edge.key)).collect();
+        let known: Vec<String> = creases.take(4).map(|edge| edge.key.to_string()).collect();
         let help = format!("the creases are {}, ...", known.join(", "));
-        Err(self.file.error_at(crease.span(), format!("the sheet has no crease {}", name(key)), help))
+        Err(self.file.error_at(crease.span(), format!("the sheet has no crease {key}"), help))
     }
 
     /// Adds what holds and joins vertices to the terms.

@@ -283,10 +283,9 @@ fn lock(
     let edges = &assembly.tiling().edges;
     let is_copy = |edge: usize| assembly.sheet().edges[edges[edge].edge].key.whole() == crease.0;
     let locks: Vec<_> = assembly.terms().locks.iter().filter(|(edge, _)| is_copy(*edge)).collect();
-    let [i, j, n1, n2] = [crease.0.i as i64, crease.0.j as i64, crease.0.shift[0].into(), crease.0.shift[1].into()];
     if locks.is_empty() {
-        let message = format!("crease [{i}, {j}, {n1}, {n2}] is not locked");
-        let help = format!("add [[lock]] with crease = [{i}, {j}, {n1}, {n2}]; the drive changes its angle");
+        let message = format!("crease {} is not locked", crease.0);
+        let help = format!("add [[lock]] with crease = {}; the drive changes its angle", crease.0);
         return Err(file.error_at(crease.span(), message, help));
     }
     one_hinge(file, assembly.sheet(), crease)?;

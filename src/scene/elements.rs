@@ -42,11 +42,6 @@ impl ElementKind {
         }
     }
 
-    /// Returns the key of the mesh file with the stiffness of these elements.
-    fn mesh_key(self) -> &'static str {
-        if self == Self::Bars { "foldwell:bar_stiffness" } else { "foldwell:stiffness" }
-    }
-
     /// Returns the letters of which another one counts as well if a table does not give them: a diagonal is flat, and a
     /// cut is a boundary.
     fn substitute(letter: Assignment) -> Assignment {
@@ -172,7 +167,7 @@ impl<'a> ElementValues<'a> {
         let of_cell = |k: usize| if array.len() == cell { k } else { self.tiling.edges[k].edge };
         let folded = |&k: &usize| is_rigid[of_cell(k)] && !array[k].is_nan() && array[k] != 0.0;
         let Some(k) = (0..array.len()).find(folded) else { return Ok(()) };
-        let edge = self::name(self.sheet.edges[of_cell(k)].key);
+        let edge = self.sheet.edges[of_cell(k)].key;
         let message = format!("{}[{k}] is {:?}, but edge {edge} is a facet, which is rigid", name.display(), array[k]);
         Err(self.file.error_at(name.span(), message, "give 0 or nan there, or `facets` a stiffness"))
     }
@@ -195,7 +190,7 @@ impl<'a> ElementValues<'a> {
         for row in rows {
             let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
             if !self.has(row.key, |kind| needed.is_at(kind) || also.is_at(kind)) {
-                let message = format!("the sheet has no {word} {}", name(row.key));
+                let message = format!("the sheet has no {word} {}", row.key);
                 return Err(fault(TableFault::Edge(message)));
             }
             match (copies.get(&(row.key, row.cell)), row.cell) {
@@ -203,7 +198,7 @@ impl<'a> ElementValues<'a> {
                 // a patch need not have a copy of every edge of its cell
                 (None, None) => {}
                 (None, Some([c1, c2])) => {
-                    let message = format!("there is no {word} {} in cell [{c1}, {c2}]", name(row.key));
+                    let message = format!("there is no {word} {} in cell [{c1}, {c2}]", row.key);
                     return Err(fault(TableFault::Edge(message)));
                 }
             }
@@ -212,7 +207,7 @@ impl<'a> ElementValues<'a> {
         match (0..values.len()).find(missing) {
             None => Ok(values),
             Some(k) => {
-                let key = name(self.key(k));
+                let key = self.key(k);
                 let message =
                     format!("{} has no row for {word} {key} of cell {:?}", path.display(), self.tiling.edges[k].cell);
                 Err(self.file.error_at(span, message, format!("give one row for each {word}")))
@@ -282,8 +277,11 @@ impl<'a> ElementValues<'a> {
 
     /// Returns the stiffness that the mesh file gives each element.
     fn given_by_mesh(&self, of: ElementKind, span: Range<usize>) -> Result<Stiffness, SceneError> {
-        let given = if of == ElementKind::Bars { &self.sheet.stiffness.bars } else { &self.sheet.stiffness.hinges };
-        let (key, word) = (of.mesh_key(), of.word());
+        let (given, key) = match of {
+            ElementKind::Bars => (&self.sheet.stiffness.bars, "foldwell:bar_stiffness"),
+            _ => (&self.sheet.stiffness.hinges, "foldwell:stiffness"),
+        };
+        let word = of.word();
         if given.is_empty() {
             let help = format!("`{key}` in the FOLD file has one number, \"inf\" or null for each of `edges_vertices`");
             return Err(self.file.error_at(span, format!("the mesh has no `{key}`"), help));
@@ -292,7 +290,7 @@ impl<'a> ElementValues<'a> {
         for k in self.edges(of) {
             let edge = self.key(k);
             each[k] = *given.get(&edge).ok_or_else(|| {
-                let message = format!("`{key}` of the mesh has no value for {word} {}", name(edge));
+                let message = format!("`{key}` of the mesh has no value for {word} {edge}");
                 let help =
                     format!("give each {word} a number or \"inf\"; diagonals of polygons have to be listed with J");
                 self.file.error_at(span.clone(), message, help)
@@ -300,9 +298,4 @@ impl<'a> ElementValues<'a> {
         }
         Ok(each.into())
     }
-}
-
-/// Returns the name of an edge as a scene writes it.
-pub(super) fn name(key: EdgeKey) -> String {
-    format!("[{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])
 }

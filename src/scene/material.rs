@@ -1,6 +1,5 @@
 //! The material of a scene, and the stiffnesses that follow from it.
 
-use super::elements::name;
 use super::spec::{FacetModel, MaterialSpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{Assembly, Material, OwnTerm, Stiffness};
@@ -53,13 +52,13 @@ pub(super) fn bars(file: &SceneFile, assembly: &Assembly, material: &Material) -
     let span = file.scene.material.as_ref().map(Located::span).unwrap_or_default();
     let sheet = assembly.sheet();
     if let Some(bar) = sheet.bars_alone().next() {
-        let message = format!("the material says nothing of the bar {}, which has no face", name(bar.key));
+        let message = format!("the material says nothing of the bar {}, which has no face", bar.key);
         let help = "give the bars `stiffness`: a number, or \"mesh\" with `foldwell:bar_stiffness` in the mesh file";
         return Err(file.error_at(span, message, help));
     }
     let bars = material.bars(assembly);
     if let Some(bar) = (0..assembly.edges()).find(|&bar| !(bars.of(bar) > 0.0)) {
-        let bar = name(sheet.edges[assembly.tiling().edges[bar].edge].key);
+        let bar = sheet.edges[assembly.tiling().edges[bar].edge].key;
         let message = format!("with N5B8 the material leaves no stiffness for the bar {bar}");
         let help = "give a Poisson's ratio nu above 0, panels that are not just 1/sqrt(nu) times as long as wide, or \
                     `stiffness` to the bars";

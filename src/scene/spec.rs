@@ -211,11 +211,6 @@ impl EnergySpec {
         self.membrane.as_deref() == Some(&true)
     }
 
-    /// Whether a membrane is in the place of bars.
-    pub(crate) fn has_membrane_alone(&self) -> bool {
-        self.has_membrane() && self.bars.is_none()
-    }
-
     /// The measured curves of all terms.
     pub(crate) fn curves(&self) -> Vec<&CurveSpec> {
         let (bars, hinges) = self.laws();

@@ -1,6 +1,7 @@
 //! The types of a sheet: vertices, lattice vectors, polygons, their triangles, and the edges between them.
 
 use std::collections::{BTreeMap, HashSet};
+use std::fmt;
 
 use super::assignment::Assignment;
 use super::record::FileRecord;
@@ -190,6 +191,24 @@ impl Corner {
     /// Returns the copy of this corner that is translated by `shift` cells.
     pub(crate) fn translated(self, shift: [i32; 2]) -> Self {
         Self { vertex: self.vertex, shift: [self.shift[0] + shift[0], self.shift[1] + shift[1]] }
+    }
+}
+
+impl EdgeKind {
+    /// Returns the word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Crease => "crease",
+            Self::Facet => "facet",
+            Self::Boundary => "boundary",
+        }
+    }
+}
+
+impl fmt::Display for EdgeKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { i, j, shift: [n1, n2], .. } = self;
+        write!(f, "[{i}, {j}, {n1}, {n2}]")
     }
 }
 

@@ -6,11 +6,7 @@ mod summary;
 
 use self::bands::{FoundBands, facet_stiffness};
 use self::strip::FoundStrip;
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::summary::StudyResult;
-use super::{start, states};
+use super::{Answer, Context, StudyError, StudyResult, start, states};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::zero_lines::ZeroLine;
@@ -19,7 +15,7 @@ use crate::analysis::bloch::{
 };
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
-use crate::model::{Assembly, Configuration, Domain, Drawn, Stiffness};
+use crate::model::{Assembly, Configuration, Domain, Drawn};
 use crate::numerics::worst;
 use crate::output::Picture;
 use crate::output::artifact::Artifact;
@@ -47,7 +43,13 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     if let Some(start) = &spec.start {
         check_start(context, start)?;
     }
-    if context.assembly.terms().facets.as_ref().is_some_and(|facets| is_mixed(&facets.stiffness)) {
+    if context
+        .assembly
+        .terms()
+        .facets
+        .as_ref()
+        .is_some_and(|facets| facets.stiffness.has_rigid() && !facets.stiffness.is_rigid())
+    {
         let message = "spatially varying modes are those of polygons that are all rigid or all soft";
         return Err(context.refuse(message, "give all facets a finite stiffness, or leave them out").into());
     }
@@ -108,11 +110,6 @@ fn facets_are_rigid(file: &SceneFile, assembly: &Assembly) -> bool {
     facet_stiffness(file, assembly).is_some_and(f64::is_infinite)
 }
 
-/// Whether some elements are rigid and others are not.
-fn is_mixed(stiffness: &Stiffness) -> bool {
-    stiffness.has_rigid() && !stiffness.is_rigid()
-}
-
 /// Returns the bars of the drawn state, and the locks of rigid polygons.
 fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochError> {
     Rigidity::of_sheet(assembly.sheet(), facets_are_rigid(file, assembly))
@@ -149,7 +146,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
         answer.add(format!("{name}-modes.csv"), strip::count_table(&found.counts));
     }
     if let Some(found) = &found.strip {
-        strip::add(&mut answer, name, found);
+        answer.add(format!("{name}-strip.csv"), strip::table(found));
     }
     if let Some(survey) = survey {
         add_maps(&mut answer, context, (&found, survey));

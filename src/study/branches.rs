@@ -2,11 +2,7 @@
 
 mod summary;
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::summary::StudyResult;
-use super::supported;
+use super::{Answer, Context, StudyError, StudyResult, supported};
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
 use crate::model::{Assembly, Domain};

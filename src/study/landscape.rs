@@ -3,12 +3,7 @@
 mod map;
 mod summary;
 
-use super::answer::Answer;
-use super::context::Context;
-use super::energies;
-use super::error::StudyError;
-use super::relax;
-use super::summary::StudyResult;
+use super::{Answer, Context, StudyError, StudyResult, energies, relax};
 use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::{Assembly, Domain};

@@ -4,11 +4,7 @@ mod buckling;
 mod summary;
 mod vibrations;
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::summary::StudyResult;
-use super::{start, states, supported};
+use super::{Answer, Context, StudyError, StudyResult, start, states, supported};
 use crate::analysis::modes::{
     Modes, ModesError, SPARSE_EIGENVALUES, Vibrations, check_masses, decomposed_dense, modes_at,
 };

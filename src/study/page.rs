@@ -1,7 +1,6 @@
 //! The page of a study, made of its other files: those are written too only where the study asks for them.
 
-use super::answer::Answer;
-use super::context::Context;
+use super::{Answer, Context};
 use crate::output::artifact::Artifact;
 use crate::output::html::{Content, StudyFiles, page};
 use crate::scene::spec::Draw;

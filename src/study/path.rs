@@ -9,14 +9,10 @@ mod table;
 use self::drive::{drive, drive_name, folds, follows, has_effect, lists, moves, snaps, stays_on_one_branch, then};
 use self::end::{INSIDE_OUT, end_word, inside_out, reason};
 use self::plot::{Words, event_word, figure};
-use super::answer::Answer;
-use super::context::{Context, Progress};
-use super::error::StudyError;
 use super::sides::RestSides;
 use super::states::{self, Shown};
-use super::summary::StudyResult;
 use super::supported::small_tolerance;
-use super::{ratios, start};
+use super::{Answer, Context, Progress, StudyError, StudyResult, ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
@@ -138,9 +134,7 @@ fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> 
         Some(wanted) => {
             let found = crease_in_middle(context.assembly, wanted.crease.0);
             let edge = found.ok_or_else(|| {
-                let key = wanted.crease.0;
-                let message =
-                    format!("the sheet has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1]);
+                let message = format!("the sheet has no crease {}", wanted.crease.0);
                 let help = "name a crease between two faces as [i, j, n1, n2]";
                 context.file.error_at(wanted.crease.span(), message, help)
             })?;

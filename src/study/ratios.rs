@@ -1,7 +1,6 @@
 //! Poisson's ratios of the states of a table, where a study asks for them.
 
-use super::context::Context;
-use super::error::StudyError;
+use super::{Context, StudyError};
 use crate::analysis::response::ratios_at;
 use crate::model::{Assembly, Domain};
 use crate::scene::Located;

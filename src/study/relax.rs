@@ -4,13 +4,9 @@ mod reason;
 mod summary;
 
 use self::reason::reason;
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
 use super::states::{self, Shown};
-use super::summary::StudyResult;
 use super::supported::small_tolerance;
-use super::{branches, energies, start};
+use super::{Answer, Context, StudyError, StudyResult, branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::recorder::KeptState;

@@ -2,11 +2,7 @@
 
 mod summary;
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::summary::StudyResult;
-use super::{start, states};
+use super::{Answer, Context, StudyError, StudyResult, start, states};
 use crate::analysis::response::{
     Field, LinearMode, Moduli, NoRatio, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
 };
@@ -204,8 +200,7 @@ fn summary(response: &Response) -> ResponseSummary {
         symmetries: response.symmetries.iter().map(symmetry).collect(),
         lattice: response.lattice,
         poisson,
-        moduli: None,
-        no_moduli: None,
+        ..ResponseSummary::default()
     }
 }
 

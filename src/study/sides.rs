@@ -1,6 +1,6 @@
 //! The sides to which hinges are folded, beside those of their rest angles.
 
-use super::context::Context;
+use super::Context;
 use crate::model::{Configuration, Gauge};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -5,9 +5,7 @@
 //! state of an earlier study or of a file comes with its tensions where they were kept, so that an equilibrium is one
 //! again.
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
+use super::{Answer, Context, StudyError};
 use crate::analysis::restored::{self, Forces};
 use crate::model::{Configuration, Model};
 use crate::numerics::random::numbers;

@@ -1,8 +1,6 @@
 //! Tables, VTK series and pictures of states.
 
-use super::answer::Answer;
-use super::context::Context;
-use super::energies;
+use super::{Answer, Context, energies};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::output::artifact::Artifact;
@@ -74,8 +72,11 @@ pub(crate) fn cell_angles(context: &Context<'_>, state: &State) -> Vec<f64> {
 
 /// Returns the picture of a state, with its self-intersections marked.
 pub fn picture(context: &Context<'_>, shown: &Shown) -> Picture {
-    let picture = Picture::of_state(context.view, context.assembly.drawn(), &shown.state);
-    shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
+    let mut picture = Picture::of_state(context.view, context.assembly.drawn(), &shown.state);
+    if let Some(marks) = &shown.marks {
+        picture.self_intersecting = marks.faces.iter().map(|&face| u8::from(face)).collect();
+    }
+    picture
 }
 
 /// Returns the picture of the state with these coordinates, onto which modes are drawn as velocities.

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 /// What came out of a study.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StudySummary {
     /// Its name.
     pub name: String,
@@ -84,16 +84,7 @@ kinds! {
 impl StudySummary {
     /// Makes the summary of a study that has no result yet.
     pub(crate) fn unanswered(name: &str, kind: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            kind: kind.to_owned(),
-            converged: false,
-            seconds: 0.0,
-            error: None,
-            reason: None,
-            files: None,
-            result: None,
-        }
+        Self { name: name.to_owned(), kind: kind.to_owned(), ..Self::default() }
     }
 
     /// Describes the study for the console: what it found, how long it took, and why it did not converge.

@@ -1,7 +1,6 @@
 //! Checks that several kinds of study share: which stiffnesses and rest values they support, and which a tube has.
 
-use super::context::Context;
-use super::error::StudyError;
+use super::{Context, StudyError};
 use crate::model::Domain;
 use crate::scene::Located;
 use crate::scene::spec::StudyKind;
@@ -51,13 +50,9 @@ pub(super) fn small_tolerance(context: &Context<'_>, given: Option<&Located<Posi
 
 /// Checks that each term has one stiffness.
 pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
-    match context.assembly.terms().uneven_term() {
-        None => Ok(()),
-        Some(term) => {
-            let message = format!("{what} need one stiffness for all {term}, and here they differ");
-            Err(context.refuse(message, format!("give the {term} one number; {SUPPORTED}")).into())
-        }
-    }
+    let Some(term) = context.assembly.terms().uneven_term() else { return Ok(()) };
+    let message = format!("{what} need one stiffness for all {term}, and here they differ");
+    Err(context.refuse(message, format!("give the {term} one number; {SUPPORTED}")).into())
 }
 
 /// Checks that all elements are linear springs along edges.
@@ -78,13 +73,12 @@ pub(super) fn no_memory(context: &Context<'_>) -> Result<(), StudyError> {
 
 /// Checks that the bars are at rest as drawn.
 pub(super) fn drawn_lengths(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
-    match context.assembly.bars_off_rest() {
-        0 => Ok(()),
-        bars => {
-            let message = format!("{what} need bars at rest as drawn, and {bars} have other rest lengths");
-            Err(context.refuse(message, format!("leave out `rest` of the bars; {SUPPORTED}")).into())
-        }
+    let bars = context.assembly.bars_off_rest();
+    if bars == 0 {
+        return Ok(());
     }
+    let message = format!("{what} need bars at rest as drawn, and {bars} have other rest lengths");
+    Err(context.refuse(message, format!("leave out `rest` of the bars; {SUPPORTED}")).into())
 }
 
 /// Checks that rigid creases and facets keep their drawn angles: exact folding moves no others.
@@ -93,10 +87,7 @@ pub(super) fn drawn_rigid_hinges(context: &Context<'_>, what: &str) -> Result<()
     let Some(edge) = assembly.rigid_hinge_off_rest() else { return Ok(()) };
     let tiled = &assembly.tiling().edges[edge];
     let key = assembly.sheet().edges[tiled.edge].key;
-    let message = format!(
-        "{what} leave the drawn state, and the rigid hinge [{}, {}, {}, {}] has another rest angle",
-        key.i, key.j, key.shift[0], key.shift[1]
-    );
+    let message = format!("{what} leave the drawn state, and the rigid hinge {key} has another rest angle");
     Err(context.refuse(message, format!("give rigid hinges the drawn rest angles; {SUPPORTED}")).into())
 }
 
@@ -133,8 +124,5 @@ pub(super) fn of_a_tube(context: &Context<'_>) -> Result<(), StudyError> {
             Some(("paths of equilibria of tubes are not known", help))
         }
     };
-    match refused {
-        None => Ok(()),
-        Some((message, help)) => Err(context.refuse(message, help).into()),
-    }
+    refused.map_or(Ok(()), |(message, help)| Err(context.refuse(message, help).into()))
 }

@@ -2,13 +2,8 @@
 
 mod summary;
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::summary::StudyResult;
-use super::supported;
 use super::trace::enter_folded;
-use super::{energies, states};
+use super::{Answer, Context, StudyError, StudyResult, energies, states, supported};
 use crate::analysis::chart::screw_coordinates;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::state::State;
@@ -175,16 +170,13 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
         branch: Some(point.branch.0 as i64),
         sign: Some(i64::from(point.branch.1)),
         step: Some(k as i64),
-        arc_length: None,
         curvature: Some(shape.curvature),
         theta: shape.theta.map(Some),
         strain: shape.strain.map(Some),
         solution: Solution { energy: energies::columns_if_any(terms, state), ..Solution::default() },
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
-        error_to_kinematic: None,
-        ratios: None,
-        seam: None,
         fold: point.angles.clone(),
+        ..StateRow::default()
     }
 }
 
@@ -192,7 +184,7 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
 fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurface {
     let shapes = || surface.points.iter().map(|point| &point.shape);
     let fold = |(number, edge): (usize, &Edge)| {
-        (Table::fold_column(&edge.key), surface.points.iter().map(|point| point.angles[number]).collect())
+        (Table::edge_column("fold", &edge.key), surface.points.iter().map(|point| point.angles[number]).collect())
     };
     StrainSurface {
         points: shapes().map(|shape| Vec3::from(shape.strain)).collect(),

@@ -4,13 +4,9 @@ mod summary;
 mod trajectory;
 
 use self::trajectory::{Path, is_tube, summary};
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
 use super::states::{self, Shown};
-use super::summary::StudyResult;
 use super::supported::small_tolerance;
-use super::{branches, energies, ratios, relax};
+use super::{Answer, Context, StudyError, StudyResult, branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
@@ -24,7 +20,6 @@ use crate::output::strain_space::StrainSurface;
 use crate::output::table::{Solution, StateRow};
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Draw, Engine, TraceSpec};
-use crate::sheet::EdgeKey;
 use crate::solver::continuation;
 use crate::solver::{Options, Problem};
 pub use summary::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
@@ -65,8 +60,7 @@ fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
             let key = wanted.crease.0;
             let found = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
             let edge = found.ok_or_else(|| {
-                let EdgeKey { i, j, shift: [n1, n2], .. } = key;
-                let message = format!("the sheet has no crease [{i}, {j}, {n1}, {n2}]");
+                let message = format!("the sheet has no crease {key}");
                 context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
             })?;
             Some((edge, wanted.angle.radians))
@@ -173,7 +167,8 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
                 finder = None;
             }
             let state = folded_state(assembly, &mut model, folded);
-            let state = along.map_or(state, relaxed_state);
+            let state =
+                along.map_or(state, |along| State { fold_angle: along.angles.clone(), ..along.relaxed.state.clone() });
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| spec.engine == Engine::Both);
@@ -252,11 +247,6 @@ fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option
     Some(Configuration::new(coordinates, model.angles_among(angles), None))
 }
 
-/// Returns a relaxed state with the fold angles of all edges.
-fn relaxed_state(along: &StateAlong) -> State {
-    State { fold_angle: along.angles.clone(), ..along.relaxed.state.clone() }
-}
-
 fn row(
     assembly: &Assembly,
     (path, step): (&Path<'_>, usize),
@@ -284,9 +274,8 @@ fn row(
             residual_force: along.map(|along| along.relaxed.residual_force),
         },
         self_intersecting,
-        error_to_kinematic: None,
-        ratios: None,
         seam: is_tube(assembly).then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
         fold: state.fold_angle.clone(),
+        ..StateRow::default()
     }
 }

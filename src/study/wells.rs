@@ -3,14 +3,9 @@
 
 mod summary;
 
-use super::answer::Answer;
-use super::context::Context;
-use super::error::StudyError;
-use super::start;
 use super::states::{self, Shown};
-use super::summary::StudyResult;
-use super::supported;
 use super::surface::{check_resolution, curvature_of_cell};
+use super::{Answer, Context, StudyError, StudyResult, start, supported};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier};

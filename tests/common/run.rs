@@ -3,6 +3,7 @@
 use super::folder::{Folder, Said};
 use super::mesh_folder;
 use foldwell::Assembly;
+use foldwell::output::json::to_json;
 use foldwell::run::{Progress, RunError, RunOptions, RunReport, run_scene};
 use foldwell::scene::{SceneError, SceneFile, build, parse};
 use foldwell::study::bloch::BlochSummary;
@@ -215,7 +216,7 @@ impl Ran {
 
     /// Returns the studies as `summary.json` has them.
     pub fn json(&self) -> Value {
-        serde_json::from_str::<Value>(&self.report.summary.to_json()).unwrap()["studies"].take()
+        serde_json::from_str::<Value>(&to_json(&self.report.summary)).unwrap()["studies"].take()
     }
 }
 

@@ -3,6 +3,7 @@
 use super::claim::Experiment;
 use super::findings::{ExperimentError, Findings};
 use super::{library, measure};
+use foldwell::output::json::to_json;
 use foldwell::run::{RunOptions, run_scene};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -59,7 +60,7 @@ impl Experiments {
             let reason = study.reason.clone().unwrap_or_default();
             return Err(ExperimentError::Study { study: study.name.clone(), reason });
         }
-        let values = serde_json::from_str(&report.summary.to_json());
+        let values = serde_json::from_str(&to_json(&report.summary));
         let values = values.map_err(|_| ExperimentError::Other("the summary is no JSON".into()))?;
         Ok(Findings { values, ..Findings::default() })
     }

@@ -56,16 +56,17 @@ pub fn svg(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption)
 
 fn drawn(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -> Canvas {
     let scene = Scene::new(surface, paths);
-    let sides: &[Side] = if scene.covers_itself() { &[Side::Positive, Side::Negative] } else { &[Side::Both] };
+    let apart = [(1.0, "curvature > 0"), (-1.0, "curvature < 0")];
+    let sides: &[(f64, &str)] = if scene.covers_itself() { &apart } else { &[(0.0, "")] };
     let layout = if sides.len() > 1 { &TWO } else { &ONE };
     let mut canvas = Canvas::new(layout.height, caption);
-    for (side, &middle) in sides.iter().zip(layout.middles) {
+    for (&(side, title), &middle) in sides.iter().zip(layout.middles) {
         let space = DrawnBox { axes: &scene.axes, view: scene.view, near: scene.near, middle, scale: layout.scale };
         panes(&mut canvas, &space);
-        scene.paint(&mut canvas, &space, *side);
+        scene.paint(&mut canvas, &space, side);
         axes(&mut canvas, &space);
-        if let Some(name) = side.name() {
-            canvas.text([middle[0], HEAD + 22.0], name, Font::LABEL.bold().middle());
+        if !title.is_empty() {
+            canvas.text([middle[0], HEAD + 22.0], title, Font::LABEL.bold().middle());
         }
     }
     scene.bar(&mut canvas, layout.bar);
@@ -95,30 +96,9 @@ const TWO: Layout = Layout {
     bar: Area { low: [1100.0, 230.0], high: [1118.0, 530.0] },
 };
 
-/// The states that a panel shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    Both,
-    Positive,
-    Negative,
-}
-
-impl Side {
-    fn has(self, curvature: f64) -> bool {
-        match self {
-            Self::Both => true,
-            Self::Positive => curvature >= 0.0,
-            Self::Negative => !(curvature >= 0.0),
-        }
-    }
-
-    fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Both => None,
-            Self::Positive => Some("curvature > 0"),
-            Self::Negative => Some("curvature < 0"),
-        }
-    }
+/// Whether a panel shows the states of this curvature: those of the sign of `side`, all for 0.
+fn is_on(side: f64, curvature: f64) -> bool {
+    side == 0.0 || (curvature >= 0.0) == (side > 0.0)
 }
 
 /// A segment of a trajectory in the box: its ends and its mean curvature.
@@ -184,13 +164,13 @@ impl<'a> Scene<'a> {
     }
 
     /// Draws the triangles and segments of one sign of curvature from back to front, and the drawn state.
-    fn paint(&self, canvas: &mut Canvas, panel: &DrawnBox<'_>, side: Side) {
+    fn paint(&self, canvas: &mut Canvas, panel: &DrawnBox<'_>, side: f64) {
         let alone = self.surface.triangles.is_empty();
         let lift = self.view.toward * if alone { 0.0 } else { LIFT };
         let place = |boxed: Vec3| Vec3::from(self.view.place(&boxed));
-        let triangles = self.surface.triangles.iter().filter(|triangle| side.has(self.curvature(triangle)));
+        let triangles = self.surface.triangles.iter().filter(|triangle| is_on(side, self.curvature(triangle)));
         let triangles: Vec<&[usize; 3]> = triangles.collect();
-        let stretches: Vec<&Stretch> = self.stretches.iter().filter(|(_, k)| side.has(*k)).collect();
+        let stretches: Vec<&Stretch> = self.stretches.iter().filter(|(_, k)| is_on(side, *k)).collect();
         let faces = triangles.iter().map(|triangle| triangle.map(|point| place(self.places[point])).to_vec());
         let lines = stretches.iter().map(|(ends, _)| ends.map(|end| place(end + lift)).to_vec());
         let pieces = faces.chain(lines).enumerate().map(|(item, corners)| Piece::new(corners, item)).collect();

@@ -8,7 +8,6 @@ use crate::math::Vec3;
 use crate::output::figure::projection::Projection;
 use crate::output::picture::Picture;
 use crate::output::sequence::{Place, sequences};
-use crate::sheet::EdgeKind;
 
 /// A state of a study: the row of its table that describes it, if one does, and its picture.
 #[derive(Clone, Copy, Debug)]
@@ -177,16 +176,11 @@ fn vectors(arrays: &mut Arrays, points: impl Iterator<Item = Vec3>) -> usize {
 
 impl Mesh {
     fn new(arrays: &mut Arrays, picture: &Picture) -> Self {
-        let kind = |kind: &EdgeKind| match kind {
-            EdgeKind::Crease => 0,
-            EdgeKind::Facet => 1,
-            EdgeKind::Boundary => 2,
-        };
         Self {
             triangles: arrays.indices(picture.triangles.iter().flatten().copied()),
             lines: arrays.indices(picture.lines.iter().flatten().copied()),
             edges: arrays.indices(picture.line_edges.iter().map(|&edge| edge.max(0) as usize)),
-            kinds: arrays.indices(picture.line_kinds.iter().map(kind)),
+            kinds: arrays.indices(picture.line_kinds.iter().map(|kind| *kind as usize)),
             letters: arrays.indices(picture.letters.iter().map(|letter| letter.number())),
         }
     }

@@ -11,6 +11,7 @@ use super::record::Record;
 use super::scalars;
 use super::summary::{PointStatus, SweepSummary, UnansweredPoint};
 use crate::output::files;
+use crate::output::json::to_json;
 use crate::output::table::csv_line;
 use crate::run::{RunError, RunOptions, claim};
 use crate::scene::{SceneFile, Sweep, digest};
@@ -87,7 +88,7 @@ impl<'a> Board<'a> {
                 return Ok(summary);
             }
             files::write(&self.out.join(TABLE), table(self.sweep, &self.rows()))?;
-            files::write(&self.out.join(SUMMARY), summary.to_json())?;
+            files::write(&self.out.join(SUMMARY), to_json(&summary))?;
             written = Some(summary);
         }
     }

@@ -274,5 +274,5 @@ fn clear(scene: &SceneFile, folder: &Path) -> Result<(), RunError> {
     for study in &scene.scene.studies {
         belongings.remove_others(&study.name.0, &BTreeSet::new())?;
     }
-    Ok(record::remove(&folder.join(record::SUMMARY))?)
+    Ok(files::remove(&folder.join(record::SUMMARY))?)
 }

@@ -5,7 +5,6 @@
 //! a run was computing when it ended has no result.
 
 use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -14,10 +13,9 @@ use serde_json::{Map, Value};
 use super::summary::PointStatus;
 use crate::output::json::to_json;
 use crate::output::{OutputError, files};
-use crate::run::RunError;
-use crate::run::Summary;
 use crate::run::belongings::Belongings;
 use crate::run::ledger::INTERRUPTED;
+use crate::run::{RunError, Summary};
 use crate::scene::{Fingerprint, SceneFile, digest};
 use crate::study::Files;
 
@@ -125,17 +123,7 @@ pub(super) fn write_failure(scene: &SceneFile, folder: &Path, error: &RunError) 
 
 /// Removes the record that an earlier run could not compute a point.
 pub(super) fn forget_failure(folder: &Path) -> Result<(), OutputError> {
-    remove(&folder.join(FAILURE))
-}
-
-/// Removes a file, if it is there.
-pub(super) fn remove(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_file(path) {
-        Err(source) if !matches!(source.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
-            Err(OutputError::Write { path: path.into(), source })
-        }
-        _ => Ok(()),
-    }
+    files::remove(&folder.join(FAILURE))
 }
 
 /// Returns the digest of a scene; of its settings and name alone if a file that it names cannot be read.

@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::output::json::to_json;
 use crate::scene::spec::UnitsSpec;
 
 /// What a sweep of `foldwell` found: `sweep.json`. The results of its points are in `sweep.csv`, a row for each.
@@ -76,12 +75,5 @@ impl PointStatus {
             Self::Failed => "failed",
             Self::Missing => "missing",
         }
-    }
-}
-
-impl SweepSummary {
-    /// Returns the text of `sweep.json`.
-    pub fn to_json(&self) -> String {
-        to_json(self)
     }
 }

@@ -12,10 +12,7 @@ use crate::scene::spec::{BlochSpec, DensitySpec, Draw};
 use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKind;
-use crate::study::answer::Answer;
-use crate::study::context::Context;
-use crate::study::error::StudyError;
-use crate::study::supported;
+use crate::study::{Answer, Context, StudyError, supported};
 
 /// Number of wavenumbers from each corner of a path to the next.
 const STEPS: usize = 50;

@@ -9,9 +9,7 @@ use crate::output::table::{Table, Value};
 use crate::scene::build;
 use crate::scene::spec::{BlochSpec, StripSpec};
 use crate::sheet::Sheet;
-use crate::study::answer::Answer;
-use crate::study::context::Context;
-use crate::study::error::StudyError;
+use crate::study::{Context, StudyError};
 use nalgebra::Complex;
 
 /// Fewest cells across a strip; with an interface, of each half.
@@ -72,30 +70,11 @@ pub(super) struct StripRow {
     found: [usize; 2],
     q1: f64,
     gap: f64,
-    place: Place,
+    /// Where the mode is bound.
+    place: &'static str,
     measured: Option<f64>,
     predicted: f64,
     condition: f64,
-}
-
-/// Where a mode is bound.
-#[derive(Clone, Copy, PartialEq)]
-enum Place {
-    Lower,
-    Upper,
-    BelowInterface,
-    AboveInterface,
-}
-
-impl Place {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Lower => "lower",
-            Self::Upper => "upper",
-            Self::BelowInterface => "below-interface",
-            Self::AboveInterface => "above-interface",
-        }
-    }
 }
 
 /// The determinants of the cells below and above, and their strip.
@@ -119,29 +98,22 @@ pub(super) fn compute(
 ) -> Result<Option<FoundStrip>, BlochError> {
     let cells = spec.cells.0 as usize;
     let Ok(above) = other(context, spec) else { return Ok(None) };
-    let halves = match &above {
-        None => {
-            let determinant = determinant_of(rigidity)?;
-            let strip = Strip::new(rigidity, cells)?;
-            let pair = [rigidity.clone(), rigidity.clone()];
-            Halves {
-                strip,
-                cells,
-                interface: false,
-                clamped: false,
-                rigidity: pair,
-                determinant: [determinant.clone(), determinant],
-            }
-        }
-        Some(above) => {
-            let upper = Rigidity::of_sheet(above, rigid)?;
-            let determinant = [determinant_of(rigidity)?, determinant_of(&upper)?];
-            let strip = Strip::with_interface([context.assembly.sheet(), above], rigid, cells)?;
-            Halves { strip, cells, interface: true, clamped: false, rigidity: [rigidity.clone(), upper], determinant }
-        }
+    let upper = above.as_ref().map(|above| Rigidity::of_sheet(above, rigid)).transpose()?;
+    let below = determinant_of(rigidity)?;
+    let of_upper = upper.as_ref().map(determinant_of).transpose()?;
+    let strip = match &above {
+        Some(above) => Strip::with_interface([context.assembly.sheet(), above], rigid, cells)?,
+        None => Strip::new(rigidity, cells)?,
     };
-    let halves = if spec.clamped { Halves { strip: halves.strip.clamped(), clamped: true, ..halves } } else { halves };
-    let upper = halves.determinant[1].clone().filter(|_| halves.interface);
+    let halves = Halves {
+        strip: if spec.clamped { strip.clamped() } else { strip },
+        cells,
+        interface: above.is_some(),
+        clamped: spec.clamped,
+        rigidity: [rigidity.clone(), upper.unwrap_or_else(|| rigidity.clone())],
+        determinant: [below.clone(), of_upper.clone().unwrap_or(below)],
+    };
+    let upper = of_upper.flatten();
     let mut found = FoundStrip { rows: Vec::new(), upper, summary: StripSummary { cells, ..StripSummary::default() } };
     for (k, q1) in wavenumbers.iter().enumerate() {
         if !context.step(k, Some(wavenumbers.len())) {
@@ -177,10 +149,9 @@ impl Halves {
         if !self.clamped {
             let lower = modes.factors(0, true, 1)?;
             let upper = modes.factors(last, false, 1)?;
-            let both = [(Place::Lower, &below, lower), (Place::Upper, &above, upper)];
-            for (place, decay, factors) in both {
+            for (place, upwards, decay, factors) in [("lower", true, &below, lower), ("upper", false, &above, upper)] {
                 let Some(decay) = decay else { continue };
-                let roots = bound_roots(decay, place == Place::Lower);
+                let roots = bound_roots(decay, upwards);
                 found.rows.extend(matched(&modes, place, &roots, factors));
             }
         }
@@ -220,7 +191,7 @@ impl Halves {
         let factors = bound.factors(first, upwards, SHIFTS)?;
         let away = |w: &Complex<f64>| (w / z).ln().norm();
         let nearest = factors.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-        let place = if upwards { Place::AboveInterface } else { Place::BelowInterface };
+        let place = if upwards { "above-interface" } else { "below-interface" };
         let measured = nearest.filter(|w| away(w) <= NEAR).map(|w| w.norm().ln());
         Ok(Some(StripRow { measured, ..row(modes, place, kappa, condition) }))
     }
@@ -229,7 +200,7 @@ impl Halves {
 /// Factors farther from a root than this in `log z` do not belong to it.
 const NEAR: f64 = 0.01;
 
-fn row(modes: &StripModes, place: Place, predicted: f64, condition: f64) -> StripRow {
+fn row(modes: &StripModes, place: &'static str, predicted: f64, condition: f64) -> StripRow {
     let found = [modes.zero_modes, modes.self_stresses];
     StripRow { found, q1: modes.q1, gap: modes.gap, place, measured: None, predicted, condition }
 }
@@ -243,7 +214,7 @@ fn bound_roots(decay: &Decay, upwards: bool) -> Vec<(Complex<f64>, f64, f64)> {
 /// A row for every root, with the nearest factor that no other root has.
 fn matched(
     modes: &StripModes,
-    place: Place,
+    place: &'static str,
     roots: &[(Complex<f64>, f64, f64)],
     mut factors: Vec<Complex<f64>>,
 ) -> Vec<StripRow> {
@@ -259,22 +230,17 @@ fn matched(
 }
 
 /// Returns a row for every root at every wavenumber and edge.
-fn table(found: &FoundStrip) -> Table {
+pub(super) fn table(found: &FoundStrip) -> Table {
     let mut table =
         Table::new("q1,zero_modes,self_stresses,gap,edge,kappa2_measured,kappa2_predicted,difference,condition");
     for row in &found.rows {
         let [modes, stresses] = row.found.map(Value::from);
         let difference = row.measured.map(|measured| measured - row.predicted);
-        let first = [row.q1.into(), modes, stresses, row.gap.into(), Value::Word(row.place.word())];
+        let first = [row.q1.into(), modes, stresses, row.gap.into(), Value::Word(row.place)];
         let rates = [row.measured.into(), row.predicted.into(), difference.into(), row.condition.into()];
         table.push(first.into_iter().chain(rates));
     }
     table
-}
-
-/// Adds the table of a strip to an answer.
-pub(super) fn add(answer: &mut Answer, name: &str, found: &FoundStrip) {
-    answer.add(format!("{name}-strip.csv"), table(found));
 }
 
 /// Returns a row for every wavenumber at which zero modes and self stresses were counted.

@@ -14,9 +14,7 @@ use crate::output::artifact::{Artifact, Net};
 use crate::output::figure::sphere::{self as figure, Sphere};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::{Draw, MapSpec};
-use crate::study::answer::Answer;
-use crate::study::context::Context;
-use crate::study::error::StudyError;
+use crate::study::{Answer, Context, StudyError};
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -5,10 +5,7 @@ use crate::model::Configuration;
 use crate::output::figure::rounded;
 use crate::output::table::Table;
 use crate::scene::spec::ModesSpec;
-use crate::study::answer::Answer;
-use crate::study::context::Context;
-use crate::study::error::StudyError;
-use crate::study::{start, states};
+use crate::study::{Answer, Context, StudyError, start, states};
 
 /// Checks that there are loads that could grow.
 pub(super) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {

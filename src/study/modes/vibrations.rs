@@ -3,9 +3,7 @@
 use crate::analysis::modes::Vibrations;
 use crate::output::figure::rounded;
 use crate::output::table::Table;
-use crate::study::answer::Answer;
-use crate::study::context::Context;
-use crate::study::states;
+use crate::study::{Answer, Context, states};
 
 /// Adds a table of the frequencies and the state with each motion as displacement, and a picture of the slowest motion
 /// after the rigid ones.

@@ -6,8 +6,7 @@ use crate::output::figure::rounded;
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{DriveSpec, PathSpec, StudyKind};
-use crate::study::context::Context;
-use crate::study::error::StudyError;
+use crate::study::{Context, StudyError};
 use std::ops::Range;
 
 /// Returns the drive that the study names, or the only one of the scene; that of the rest angles for a study of kind

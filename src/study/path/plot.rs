@@ -3,7 +3,7 @@
 use crate::analysis::path::{PathBranch, PathEvent};
 use crate::model::{Drive, Driven};
 use crate::output::figure::reaction::{self, PlottedState, ReactionPlot};
-use crate::study::context::Context;
+use crate::study::Context;
 
 /// The words for a driven quantity and its conjugate.
 pub(crate) struct Words {

@@ -6,8 +6,7 @@ use crate::analysis::path::{PathBranch, PathPoint, Probe};
 use crate::analysis::state::{Cylinder, cylinder};
 use crate::output::table::{CYLINDER, RATIOS, Solution, Table, Value};
 use crate::scene::spec::PathSpec;
-use crate::study::context::Context;
-use crate::study::{energies, ratios, states};
+use crate::study::{Context, energies, ratios, states};
 
 /// Returns the table of all states. That of a periodic sheet has the columns of a cylinder; where the study asks for
 /// them, there are the columns of self-intersections and of Poisson's ratios.

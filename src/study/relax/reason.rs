@@ -33,8 +33,7 @@ fn unmet_lock(assembly: &Assembly, state: &State) -> Option<String> {
     let farther = |a: &(usize, f64, f64), b: &(usize, f64, f64)| (a.1 - a.2).abs().total_cmp(&(b.1 - b.2).abs());
     let (edge, angle, here) = assembly.terms().locks.iter().filter_map(off).max_by(farther)?;
     let key = assembly.sheet().edges[assembly.tiling().edges[edge].edge].key;
-    let [n1, n2] = key.shift;
-    Some(format!("the lock of crease [{}, {}, {n1}, {n2}] at {angle} rad stays at {here:.6} rad", key.i, key.j))
+    Some(format!("the lock of crease {key} at {angle} rad stays at {here:.6} rad"))
 }
 
 fn thin_triangle(assembly: &Assembly) -> Option<String> {

@@ -11,8 +11,7 @@ use crate::output::figure::rounded;
 use crate::scene::spec::Engine;
 use crate::solver::Failure;
 use crate::solver::continuation::{self, End};
-use crate::study::branches;
-use crate::study::context::Context;
+use crate::study::{Context, branches};
 
 /// A trajectory, with the relaxations at its states if they were computed.
 pub(super) struct Path<'a> {
