@@ -10,6 +10,7 @@
 
 mod ending;
 mod runs;
+mod scenes;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -25,7 +26,6 @@ use foldwell::sheet::pattern::Cleanup;
 use foldwell::sheet::similar::most_similar;
 
 use crate::parameters;
-use crate::scenes;
 use ending::{Failure, closed, report, say};
 use runs::{Told, run_scenes};
 
@@ -231,9 +231,9 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         }
         Command::New { pattern, parameters } => {
             if parameters::ask_for_help(&pattern, &parameters) {
-                return say(&parameters::help(&pattern).map_err(Failure::Parameters)?);
+                return say(&parameters::help(&pattern)?);
             }
-            let (table, out) = parameters::parse(&pattern, &parameters).map_err(Failure::Parameters)?;
+            let (table, out) = parameters::parse(&pattern, &parameters)?;
             remark(&out, &run::new_mesh(&table, &out)?);
             Ok(0)
         }

@@ -4,7 +4,6 @@ mod cli;
 mod describe;
 mod parameters;
 mod progress;
-mod scenes;
 
 use std::process::ExitCode;
 

@@ -88,12 +88,7 @@ class State:
     kinds: list[str]
     letters: list[str]
     cell_edges: NDArray[np.int32]
-    fold_angles: Floats
-    rest_angles: Floats
-    strains: Floats
-    energies: Floats
-    tensions: Floats
-    torques: Floats
+    on_edges: dict[str, Floats]
     memory: dict[str, Floats]
     def addresses(self) -> list[int]: ...
     def save(self, path: Path, thickness: float | None) -> None: ...

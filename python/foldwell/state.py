@@ -85,32 +85,32 @@ class State:
     @property
     def fold_angles(self) -> NDArray[np.float64]:
         """Fold angle of each edge in radians, positive for valleys, shape (m,); NaN at the rim."""
-        return self._inner.fold_angles
+        return self._inner.on_edges["fold_angle"]
 
     @property
     def rest_angles(self) -> NDArray[np.float64]:
         """Fold angle in radians at which each hinge has no torque, shape (m,)."""
-        return self._inner.rest_angles
+        return self._inner.on_edges["rest_angle"]
 
     @property
     def strains(self) -> NDArray[np.float64]:
         """Strain `L / L0 - 1` of each bar, shape (m,)."""
-        return self._inner.strains
+        return self._inner.on_edges["strain"]
 
     @property
     def energies(self) -> NDArray[np.float64]:
         """Energy of the bar and the hinge of each edge together, shape (m,)."""
-        return self._inner.energies
+        return self._inner.on_edges["energy"]
 
     @property
     def tensions(self) -> NDArray[np.float64]:
         """Force along each bar, positive in tension, shape (m,)."""
-        return self._inner.tensions
+        return self._inner.on_edges["tension"]
 
     @property
     def torques(self) -> NDArray[np.float64]:
         """Torque of the hinge of each edge, the derivative of its energy by the fold angle, shape (m,)."""
-        return self._inner.torques
+        return self._inner.on_edges["torque"]
 
     @property
     def memory(self) -> dict[str, NDArray[np.float64]]:
@@ -169,9 +169,7 @@ class State:
         for name, numbers in zip(("vertex", "cell1", "cell2"), self.places.T.astype(np.int32), strict=True):
             grid.point_data[name] = numbers
         faces, inner = len(self.faces), self._inner
-        floats = {"fold_angle": inner.fold_angles, "rest_angle": inner.rest_angles, "strain": inner.strains}
-        floats |= {"energy": inner.energies, "tension": inner.tensions, "torque": inner.torques, **inner.memory}
-        for name, values in floats.items():
+        for name, values in (inner.on_edges | inner.memory).items():
             grid.cell_data[name] = np.concatenate([np.full(faces, np.nan), values])
         grid.cell_data["self_intersecting"] = np.concatenate([self.self_intersecting, np.zeros(len(self.edges), np.uint8)])
         letters = np.array(["BMVFUCJ".index(letter) for letter in inner.letters], np.int32)

@@ -7,7 +7,7 @@ use foldwell::output::figure::{Annotations, Caption, sheet};
 use foldwell::output::vtk;
 use foldwell::run;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -66,33 +66,9 @@ impl State {
     }
 
     #[getter]
-    fn fold_angles<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
-        view(slf, &slf.get().picture.fold_angle)
-    }
-
-    #[getter]
-    fn rest_angles<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
-        view(slf, &slf.get().picture.rest_angle)
-    }
-
-    #[getter]
-    fn strains<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
-        view(slf, &slf.get().picture.strain)
-    }
-
-    #[getter]
-    fn energies<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
-        view(slf, &slf.get().picture.energy)
-    }
-
-    #[getter]
-    fn tensions<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
-        view(slf, &slf.get().picture.tension)
-    }
-
-    #[getter]
-    fn torques<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
-        view(slf, &slf.get().picture.torque)
+    fn on_edges<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
+        let picture = &slf.get().picture;
+        Picture::FIELDS.iter().map(|(name, get)| (*name, view(slf, get(picture)))).into_py_dict(slf.py())
     }
 
     #[getter]

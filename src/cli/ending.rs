@@ -1,12 +1,13 @@
 //! The ends of a command: exit statuses, failures and what is printed about them.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
 use foldwell::run::RunError;
 use miette::{Diagnostic, GraphicalReportHandler};
+use thiserror::Error;
 
 use crate::parameters::ParameterError;
-use crate::scenes::ScenesError;
 
 /// A study did not converge.
 pub(super) const FAILED: u8 = 1;
@@ -21,27 +22,23 @@ pub(super) const INTERRUPTED: u8 = 130;
 const LONGEST_LINE: usize = 1000;
 
 /// The reasons for which a command failed.
+#[derive(Debug, Error)]
 pub(super) enum Failure {
-    Run(RunError),
-    Parameters(ParameterError),
-    Scenes(ScenesError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    #[error("standard input: {0}")]
+    StandardInput(io::Error),
+    #[error(
+        "{} and {} would write into the same folder, {}; run them apart, each with its --out", first.display(),
+        second.display(), out.display()
+    )]
+    SameFolder { first: PathBuf, second: PathBuf, out: PathBuf },
+    #[error("standard output: {0}")]
     StandardOutput(io::Error),
+    #[error("no thread can be had for the work: {0}")]
     Thread(io::Error),
-}
-
-impl From<ScenesError> for Failure {
-    fn from(error: ScenesError) -> Self {
-        match error {
-            ScenesError::Run(error) => Self::Run(error),
-            error => Self::Scenes(error),
-        }
-    }
-}
-
-impl From<RunError> for Failure {
-    fn from(error: RunError) -> Self {
-        Self::Run(error)
-    }
 }
 
 impl Failure {
@@ -49,7 +46,7 @@ impl Failure {
     pub(super) fn exit_status(&self) -> u8 {
         match self {
             Self::Run(error) => error.exit_status(),
-            Self::Parameters(_) | Self::Scenes(_) => WRONG_INPUT,
+            Self::Parameters(_) | Self::StandardInput(_) | Self::SameFolder { .. } => WRONG_INPUT,
             Self::StandardOutput(_) | Self::Thread(_) => BROKEN_PLACE,
         }
     }
@@ -70,10 +67,7 @@ pub(super) fn closed(error: io::Error) -> Result<u8, Failure> {
 pub(super) fn report(failure: &Failure) {
     let text = match failure {
         Failure::Run(error) => fancy(error),
-        Failure::Parameters(error) => format!("Error: {error}\n"),
-        Failure::Scenes(error) => format!("Error: {error}\n"),
-        Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
-        Failure::Thread(error) => format!("Error: no thread can be had for the work: {error}\n"),
+        other => format!("Error: {other}\n"),
     };
     let cut = |line: &str| line.char_indices().nth(LONGEST_LINE).map_or(line.len(), |(end, _)| end);
     let text: Vec<&str> = text.lines().map(|line| &line[..cut(line)]).collect();

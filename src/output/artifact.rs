@@ -1,6 +1,7 @@
 //! The files of a study before they are written: tables, states, surfaces, maps and drawings.
 
 use super::error::ShapeError;
+use super::figure::canvas::Canvas;
 use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::table::Table;
@@ -17,15 +18,8 @@ pub enum Artifact {
     State(Picture),
     /// A surface of states in the space of lattice strains (`.vtp`).
     Surface(StrainSurface),
-    /// Triangles and curves between points, with arrays of numbers at the points (`.vtp`).
+    /// Triangles and curves between points, with arrays of numbers at the points and for the curves (`.vtp`).
     Net(Net),
-    /// Curves in the plane, with arrays of one number for each curve (`.vtp`).
-    Curves {
-        /// The points of each curve.
-        curves: Vec<Vec<[f64; 2]>>,
-        /// Name of each array, and its number for each curve.
-        arrays: Vec<(&'static str, Vec<i32>)>,
-    },
     /// Values at the points of a grid in the plane (`.vti`).
     Grid {
         /// Numbers of points along the two axes.
@@ -58,6 +52,8 @@ pub struct Net {
     pub curves: Vec<Vec<usize>>,
     /// Name of each array, and its numbers at the points.
     pub arrays: Vec<(&'static str, Vec<f64>)>,
+    /// Name of each array of curves, and its number for each of them.
+    pub of_curves: Vec<(&'static str, Vec<i32>)>,
 }
 
 impl Artifact {
@@ -80,8 +76,9 @@ impl Artifact {
             Self::Table(table) => table.to_csv().map(String::into_bytes).map_err(inconsistent),
             Self::State(picture) => vtk::vtu(path, picture),
             Self::Surface(surface) => vtk::vtp(path, surface),
-            Self::Net(net) => vtk::vtp_of_surface(path, &net.points, (&net.triangles, &net.curves), &net.arrays),
-            Self::Curves { curves, arrays } => vtk::vtp_of_curves(path, curves, arrays),
+            Self::Net(Net { points, triangles, curves, arrays, of_curves }) => {
+                vtk::vtp_of_net(path, points, (triangles, curves), arrays, of_curves)
+            }
             Self::Grid { size, origin, spacing, arrays } => vtk::vti(path, *size, [*origin, *spacing], arrays),
             Self::Series(states) => Ok(vtk::pvd(states).into_bytes()),
             Self::Script(text) | Self::Page(text) => Ok(text.clone().into_bytes()),
@@ -96,9 +93,9 @@ impl From<Table> for Artifact {
     }
 }
 
-impl From<String> for Artifact {
-    fn from(svg: String) -> Self {
-        Self::Svg(Ok(svg))
+impl From<Canvas> for Artifact {
+    fn from(canvas: Canvas) -> Self {
+        Self::Svg(Ok(canvas.finish()))
     }
 }
 

@@ -47,6 +47,22 @@ pub enum ShapeError {
     },
 }
 
+impl ShapeError {
+    /// Checks the lengths of arrays, each with its name and the expected length, and the numbers of points that are
+    /// used among `count`.
+    pub(super) fn check<'a>(
+        arrays: impl IntoIterator<Item = (&'static str, usize, usize)>,
+        used: impl IntoIterator<Item = &'a usize>,
+        count: usize,
+    ) -> Result<(), Self> {
+        if let Some((array, found, expected)) = arrays.into_iter().find(|(_, found, expected)| found != expected) {
+            return Err(Self::Length { array, found, expected });
+        }
+        let wrong = used.into_iter().find(|&&point| point >= count);
+        wrong.map_or(Ok(()), |&point| Err(Self::NoSuchPoint { point, count }))
+    }
+}
+
 /// A fault of the content of a VTU file.
 #[derive(Debug, Error, PartialEq, Eq)]
 #[allow(missing_docs)] // each variant is documented by its message

@@ -48,7 +48,20 @@ pub struct Picture {
     pub memory: BTreeMap<&'static str, Vec<f64>>,
 }
 
+/// The values of a picture on its lines.
+pub type OnLines = fn(&Picture) -> &[f64];
+
 impl Picture {
+    /// Names of the quantities on lines that every picture has, and their values.
+    pub const FIELDS: [(&'static str, OnLines); 6] = [
+        ("fold_angle", |picture| &picture.fold_angle),
+        ("rest_angle", |picture| &picture.rest_angle),
+        ("strain", |picture| &picture.strain),
+        ("energy", |picture| &picture.energy),
+        ("tension", |picture| &picture.tension),
+        ("torque", |picture| &picture.torque),
+    ];
+
     /// Makes the picture of a state of an assembly, on the cells that pictures of this assembly show.
     pub fn new(assembly: &Assembly, state: &State) -> Self {
         Self::of_state(&ShownCells::new(assembly), assembly.drawn(), state)
@@ -139,22 +152,11 @@ impl Picture {
             ("line_kinds", self.line_kinds.len(), lines),
             ("letters", self.letters.len(), lines),
             ("line_edges", self.line_edges.len(), lines),
-            ("fold_angle", self.fold_angle.len(), lines),
-            ("rest_angle", self.rest_angle.len(), lines),
-            ("strain", self.strain.len(), lines),
-            ("energy", self.energy.len(), lines),
-            ("tension", self.tension.len(), lines),
-            ("torque", self.torque.len(), lines),
         ];
-        let arrays = arrays.into_iter().chain(self.memory.iter().map(|(name, values)| (*name, values.len(), lines)));
-        if let Some((array, found, expected)) = { arrays }.find(|(_, found, expected)| found != expected) {
-            return Err(ShapeError::Length { array, found, expected });
-        }
-        let mut used = self.triangles.iter().flatten().chain(self.lines.iter().flatten());
-        match used.find(|&&point| point >= points) {
-            Some(&point) => Err(ShapeError::NoSuchPoint { point, count: points }),
-            None => Ok(()),
-        }
+        let fields = Self::FIELDS.iter().map(|(name, get)| (*name, get(self).len(), lines));
+        let memory = self.memory.iter().map(|(name, values)| (*name, values.len(), lines));
+        let used = self.triangles.iter().flatten().chain(self.lines.iter().flatten());
+        ShapeError::check(arrays.into_iter().chain(fields).chain(memory), used, points)
     }
 }
 

@@ -4,6 +4,7 @@
 //! back to the drawn state and on to the end of the positive one, so that no state jumps to a distant one. A direction
 //! that comes back to its first state is a sequence of its own, since the other one may lead round the same loop.
 
+use super::table::columns_of;
 use crate::math::Vec3;
 
 /// Largest distance between the first and the last state of a closed trajectory, relative to the extent of the sheet.
@@ -25,6 +26,17 @@ pub(crate) struct Place {
     pub branch: Option<i64>,
     /// Direction along the branch, 1 or -1; `None` if branches have one direction only.
     pub sign: Option<i64>,
+}
+
+/// Returns the places of states on their branches, by their rows in the table of the study; no branches if there is no
+/// table.
+pub(crate) fn places(table: Option<&str>, rows: impl Iterator<Item = Option<usize>>) -> Vec<Place> {
+    let table = columns_of(table.unwrap_or_default(), &["branch", "sign"]);
+    let number = |row: Option<usize>, column: usize| {
+        let value = table.get(row?)?[column];
+        value.is_finite().then_some(value as i64)
+    };
+    rows.map(|row| Place { branch: number(row, 0), sign: number(row, 1) }).collect()
 }
 
 /// Returns the sequences of states, given with their places in the order of the table of the study, and with their

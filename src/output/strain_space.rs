@@ -32,15 +32,8 @@ impl StrainSurface {
         let lengths = [("curvature", self.curvature.len()), ("theta", self.theta.len())].into_iter().chain(folds);
         let energy = self.energy.iter().map(|energy| ("energy", energy.len()));
         let marks = self.self_intersecting.iter().map(|marks| ("self_intersecting", marks.len()));
-        let wrong = lengths.chain(energy).chain(marks).find(|(_, found)| *found != expected);
-        if let Some((array, found)) = wrong {
-            return Err(ShapeError::Length { array, found, expected });
-        }
-        let mut used = self.triangles.iter().flatten().chain(self.segments.iter().flatten());
-        match used.find(|&&point| point >= expected) {
-            Some(&point) => Err(ShapeError::NoSuchPoint { point, count: expected }),
-            None => Ok(()),
-        }
+        let arrays = lengths.chain(energy).chain(marks).map(|(array, found)| (array, found, expected));
+        ShapeError::check(arrays, self.triangles.iter().flatten().chain(self.segments.iter().flatten()), expected)
     }
 }
 

@@ -4,17 +4,14 @@
 //! fields.
 
 use std::fmt::Write;
-use std::path::Path;
 
-use super::OutputError;
 use super::error::ShapeError;
 use crate::sheet::EdgeKey;
 
-/// Reads the named columns of a table that was written by this module. Returns one vector for each row, with NaN for
-/// empty fields and for columns that do not exist.
-pub(crate) fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
-    let text = std::fs::read_to_string(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
-    let mut lines = text.lines();
+/// Returns the numbers of the named columns of a table that was written by this module: one vector for each row, with
+/// NaN for empty fields and for columns that do not exist.
+pub(crate) fn columns_of(text: &str, names: &[&str]) -> Vec<Vec<f64>> {
+    let mut lines = text.trim_start_matches('\u{feff}').lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
     let places: Vec<_> = names.iter().map(|name| header.iter().position(|column| column == name)).collect();
     let row = |line: &str| {
@@ -22,7 +19,7 @@ pub(crate) fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>,
         let number = |place: &Option<usize>| place.and_then(|k| fields.get(k)?.parse().ok()).unwrap_or(f64::NAN);
         places.iter().map(number).collect()
     };
-    Ok(lines.map(row).collect())
+    lines.filter(|line| !line.is_empty()).map(row).collect()
 }
 
 /// Returns a line of a table with texts: one with a comma, a quote or a line break stands in quotes.

@@ -88,43 +88,24 @@ pub(crate) fn vtp(path: &Path, surface: &StrainSurface) -> Result<Vec<u8>, Outpu
     bytes(path, DataSet::inline(piece))
 }
 
-/// Returns a VTP file of triangles and curves between common points, with arrays of numbers at the points.
-pub(crate) fn vtp_of_surface(
+/// Returns a VTP file of triangles and curves between common points, with arrays of numbers at the points, and of one
+/// number for each curve.
+pub(crate) fn vtp_of_net(
     path: &Path,
     points: &[Vec3],
     (triangles, curves): (&[[usize; 3]], &[Vec<usize>]),
     arrays: &[(&'static str, Vec<f64>)],
+    of_curves: &[(&'static str, Vec<i32>)],
 ) -> Result<Vec<u8>, OutputError> {
     check_lengths(path, arrays, points.len())?;
+    check_lengths(path, of_curves, curves.len())?;
     let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
+    let cell = of_curves.iter().map(|(name, values)| scalars(name, IOBuffer::I32(values.clone()))).collect();
     let piece = PolyDataPiece {
         points: coordinates(points),
         lines: Some(numbers(curves.iter().map(Vec::as_slice))),
-        polys: Some(numbers(triangles.iter().map(|triangle| triangle.as_slice()))),
-        data: Attributes { point, cell: vec![] },
-        ..PolyDataPiece::default()
-    };
-    bytes(path, DataSet::inline(piece))
-}
-
-/// Returns a VTP file of curves in the plane z = 0, with arrays of one number for each curve.
-pub(crate) fn vtp_of_curves(
-    path: &Path,
-    curves: &[Vec<[f64; 2]>],
-    arrays: &[(&'static str, Vec<i32>)],
-) -> Result<Vec<u8>, OutputError> {
-    check_lengths(path, arrays, curves.len())?;
-    let ends = curves.iter().scan(0, |end, curve| {
-        *end += curve.len() as u64;
-        Some(*end)
-    });
-    let count: usize = curves.iter().map(Vec::len).sum();
-    let lines = VertexNumbers::XML { connectivity: (0..count as u64).collect(), offsets: ends.collect() };
-    let cell = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::I32(values.clone()))).collect();
-    let piece = PolyDataPiece {
-        points: IOBuffer::F64(curves.iter().flatten().flat_map(|q| [q[0], q[1], 0.0]).collect()),
-        lines: Some(lines),
-        data: Attributes { point: vec![], cell },
+        polys: (!triangles.is_empty()).then(|| numbers(triangles.iter().map(|triangle| triangle.as_slice()))),
+        data: Attributes { point, cell },
         ..PolyDataPiece::default()
     };
     bytes(path, DataSet::inline(piece))
@@ -219,6 +200,12 @@ fn attributes(picture: &Picture) -> Attributes {
     let cell = |axis: usize| IOBuffer::I32(picture.places.iter().map(|(_, cell)| cell[axis]).collect());
     let letters = picture.letters.iter().map(|letter| letter.number() as i32);
     let letters = vec![-1; faces].into_iter().chain(letters).collect();
+    let fields = Picture::FIELDS.iter().map(|(name, get)| scalars(name, on_lines(get(picture))));
+    let others = [
+        scalars("self_intersecting", IOBuffer::U8(crossing)),
+        scalars("edge", IOBuffer::I32(edges)),
+        scalars("assignment", IOBuffer::I32(letters)),
+    ];
     let remembered = picture.memory.iter().map(|(name, values)| scalars(name, on_lines(values)));
     Attributes {
         point: vec![
@@ -227,20 +214,7 @@ fn attributes(picture: &Picture) -> Attributes {
             scalars("cell1", cell(0)),
             scalars("cell2", cell(1)),
         ],
-        cell: vec![
-            scalars("fold_angle", on_lines(&picture.fold_angle)),
-            scalars("rest_angle", on_lines(&picture.rest_angle)),
-            scalars("strain", on_lines(&picture.strain)),
-            scalars("energy", on_lines(&picture.energy)),
-            scalars("tension", on_lines(&picture.tension)),
-            scalars("torque", on_lines(&picture.torque)),
-            scalars("self_intersecting", IOBuffer::U8(crossing)),
-            scalars("edge", IOBuffer::I32(edges)),
-            scalars("assignment", IOBuffer::I32(letters)),
-        ]
-        .into_iter()
-        .chain(remembered)
-        .collect(),
+        cell: fields.chain(others).chain(remembered).collect(),
     }
 }
 
@@ -379,10 +353,10 @@ mod tests {
             .unwrap();
         files::write(
             &path("c.vtp"),
-            vtp_of_surface(&path("c.vtp"), &points, (&[[0, 1, 2]], &[vec![0, 1, 2, 0]]), &[]).unwrap(),
+            vtp_of_net(&path("c.vtp"), &points, (&[[0, 1, 2]], &[vec![0, 1, 2, 0]]), &[], &[]).unwrap(),
         )
         .unwrap();
-        files::write(&path("d.vtp"), vtp_of_curves(&path("d.vtp"), &[vec![[0.0, 1.0], [2.0, 3.0]]], &[]).unwrap())
+        files::write(&path("d.vtp"), vtp_of_net(&path("d.vtp"), &points, (&[], &[vec![0, 1]]), &[], &[]).unwrap())
             .unwrap();
         for (name, arrays) in [("a.vtu", 2), ("b.vtp", 2), ("c.vtp", 4), ("d.vtp", 2)] {
             let types = index_types(&path(name));
@@ -479,13 +453,15 @@ mod tests {
     fn curves_and_maps_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.vtp");
-        let curves = [vec![[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]], vec![[6.0, 7.0], [8.0, 9.0]]];
-        files::write(&path, vtp_of_curves(&path, &curves, &[("winding1", vec![2, -1])]).unwrap()).unwrap();
+        let points: Vec<Vec3> = (0..5).map(|k| Vec3::new(f64::from(2 * k), f64::from(2 * k + 1), 0.0)).collect();
+        let vtp =
+            |winding| vtp_of_net(&path, &points, (&[], &[vec![0, 1, 2], vec![3, 4]]), &[], &[("winding1", winding)]);
+        files::write(&path, vtp(vec![2, -1]).unwrap()).unwrap();
         let read = |path: &Path| Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data;
         let piece = PolyDataPiece::try_from(read(&path)).unwrap();
         assert_eq!((piece.num_points(), piece.num_lines()), (5, 2));
         assert_eq!(piece.lines.unwrap().into_xml(), (vec![0, 1, 2, 3, 4], vec![3, 5]));
-        assert!(vtp_of_curves(&path, &curves, &[("winding1", vec![2])]).is_err());
+        assert!(vtp(vec![2]).is_err());
         let path = folder.path().join("a.vti");
         let values = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
         files::write(

@@ -10,14 +10,11 @@ use super::folder::{contents, study_name, summary};
 use super::meshes::ending;
 use crate::output::OutputError;
 use crate::output::film::{FilmOptions, Reel, write_gif, write_mp4};
-use crate::output::html::Content;
+use crate::output::html::{Content, MODES, own_table, put_in_order, row_of};
 use crate::output::picture::Picture;
-use crate::output::sequence::{Place, Sequence, sequences};
-use crate::output::table::read_columns;
+use crate::output::sequence::{Place, Sequence, places, sequences};
 use crate::sheet::text::read_bytes;
 
-/// Kinds of study whose states are modes: their displacements are velocities.
-const MODES: [&str; 3] = ["modes", "bloch", "response"];
 /// Number of frames in which a mode swings to and fro, and its amplitude relative to the size of the sheet.
 const SWING_FRAMES: usize = 16;
 const SWING: f64 = 0.1;
@@ -90,34 +87,34 @@ fn studies(from: &Path) -> Result<(PathBuf, Vec<(String, String)>), RunError> {
 struct Filmed {
     name: String,
     is_modes: bool,
-    /// The states, each with the row of its table.
-    states: Vec<(Option<usize>, Picture)>,
+    states: Vec<Picture>,
+    /// Where they are on the branches of the study.
+    places: Vec<Place>,
 }
 
 impl Filmed {
     fn read(folder: &Path, name: String, kind: &str) -> Result<Self, RunError> {
-        let prefix = format!("{name}/{name}_");
-        let row = |file: &str| file.strip_prefix(&prefix)?.strip_suffix(".vtu")?.parse().ok();
         let mut files = contents(folder, &name)?;
-        // numbers of five digits come after those of four
-        files.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
-        let state = |(file, content): (String, Content<'_>)| Some((row(&file), content.into_picture()?));
-        let states = files.into_iter().filter_map(state).collect();
-        Ok(Self { is_modes: MODES.contains(&kind), name, states })
+        put_in_order(&mut files);
+        let table = own_table(&name, &files).map(str::to_owned);
+        let state = |(file, content): (String, Content<'_>)| Some((row_of(&name, &file), content.into_picture()?));
+        let (rows, states): (Vec<_>, _) = files.into_iter().filter_map(state).unzip();
+        let places = places(table.as_deref(), rows.into_iter());
+        Ok(Self { is_modes: MODES.contains(&kind), name, states, places })
     }
 
     /// Returns the pictures in the order of the film, seen as the first of them in the table.
     fn reel(self, folder: &Path, branch: Option<i64>) -> Result<Reel, RunError> {
         if self.is_modes {
             let phase = |frame: usize| (TAU * frame as f64 / SWING_FRAMES as f64).sin();
-            let swing = |(_, picture): &(Option<usize>, Picture)| {
+            let swing = |picture: &Picture| {
                 (0..SWING_FRAMES).map(|frame| picture.displaced(SWING * phase(frame))).collect::<Vec<_>>()
             };
             return Ok(Reel { pictures: self.states.iter().flat_map(swing).collect(), front: 0 });
         }
-        let places = self.places(folder)?;
-        let placed: Vec<_> =
-            places.iter().zip(&self.states).map(|(place, (_, picture))| (*place, picture.points.as_slice())).collect();
+        let places = self.places;
+        let points = self.states.iter().map(|picture| picture.points.as_slice());
+        let placed: Vec<_> = places.iter().copied().zip(points).collect();
         let of_branch = |sequence: &Sequence| sequence.states.iter().any(|&state| places[state].branch == branch);
         let found = sequences(&placed).into_iter().find(|sequence| branch.is_none() || of_branch(sequence));
         let Some(sequence) = found else {
@@ -126,20 +123,9 @@ impl Filmed {
             let path = folder.join(format!("{}.pvd", self.name));
             return Err(RunError::NoBranch { path, branch: branch.unwrap_or_default(), known });
         };
-        let mut states: Vec<Option<Picture>> = self.states.into_iter().map(|(_, picture)| Some(picture)).collect();
+        let mut states: Vec<Option<Picture>> = self.states.into_iter().map(Some).collect();
         let front = (0..sequence.states.len()).min_by_key(|&k| sequence.states[k]).unwrap_or(0);
         Ok(Reel { pictures: sequence.states.iter().filter_map(|&state| states[state].take()).collect(), front })
-    }
-
-    /// Returns the places of the states on their branches, by the table of the study; no branches if there is none.
-    fn places(&self, folder: &Path) -> Result<Vec<Place>, OutputError> {
-        let table = folder.join(format!("{}.csv", self.name));
-        let rows = if table.is_file() { read_columns(&table, &["branch", "sign"])? } else { Vec::new() };
-        let number = |row: Option<usize>, column: usize| {
-            let value = row.and_then(|row| rows.get(row)).map_or(f64::NAN, |row| row[column]);
-            value.is_finite().then_some(value as i64)
-        };
-        Ok(self.states.iter().map(|(row, _)| Place { branch: number(*row, 0), sign: number(*row, 1) }).collect())
     }
 }
 

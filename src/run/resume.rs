@@ -11,7 +11,7 @@ use crate::math::Vec3;
 use crate::model::Configuration;
 use crate::numerics::larger;
 use crate::output::figure::surface::PathPoint;
-use crate::output::table::read_columns;
+use crate::output::table::columns_of;
 use crate::output::{OutputError, files};
 use crate::scene::SceneFile;
 use crate::scene::forms::StartSpec;
@@ -72,7 +72,9 @@ pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<Path
     if !matches!(*study.kind, StudyKind::Trace(_)) {
         return Ok(None);
     }
-    let rows = read_columns(&out.join(format!("{}.csv", study.name.0)), &COLUMNS)?;
+    let path = out.join(format!("{}.csv", study.name.0));
+    let text = std::fs::read_to_string(&path).map_err(|source| OutputError::Read { path, source })?;
+    let rows = columns_of(&text, &COLUMNS);
     let of_one_ray = |a: &Vec<f64>, b: &Vec<f64>| a[..2] == b[..2];
     let point = |row: &Vec<f64>| PathPoint {
         curvature: row[2],

@@ -93,7 +93,7 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
             Driven::Stiffness(kind)
         }
     };
-    Ok(Drive { quantity, to: spec.to.first.radians })
+    Ok(Drive { quantity, to: spec.to.0[0].radians })
 }
 
 /// Returns the rest angles as a driven quantity, for the drive or study at this place of the scene.
@@ -154,7 +154,7 @@ fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, 
 /// Checks the values at the ends of a drive, as far as the scene alone says where it begins.
 fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(), SceneError> {
     let mut from = None;
-    for angle in drive.to.all() {
+    for &angle in &drive.to.0 {
         if from == Some(angle.radians) {
             let message = format!("the drive stays at {}", angle.radians);
             return Err(file.error_at(drive.to.span(), message, "each way ends elsewhere than the one before"));
@@ -289,11 +289,11 @@ fn lock(
         return Err(file.error_at(crease.span(), message, help));
     }
     one_hinge(file, assembly.sheet(), crease)?;
-    if locks.iter().all(|(_, angle)| *angle == spec.to.first.radians) {
+    if locks.iter().all(|(_, angle)| *angle == spec.to.0[0].radians) {
         let help = "give another angle, in radians, to which the lock is driven";
         return Err(file.error_at(
             spec.to.span(),
-            format!("the crease is locked at {} already", spec.to.first.radians),
+            format!("the crease is locked at {} already", spec.to.0[0].radians),
             help,
         ));
     }

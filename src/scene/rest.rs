@@ -83,12 +83,8 @@ impl Written for RestSpec {
         }
     }
 
-    fn from_number<E: Error>(angle: f64) -> Result<Self, E> {
+    fn from_number<E: Error>(angle: f64, _: Unexpected<'_>) -> Result<Self, E> {
         Finite::try_from(angle).map(|angle| Self::Angle(angle.0.into())).map_err(E::custom)
-    }
-
-    fn from_whole<E: Error>(angle: i64) -> Result<Self, E> {
-        Ok(Self::Angle((angle as f64).into()))
     }
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {

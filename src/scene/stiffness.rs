@@ -90,12 +90,8 @@ impl Written for StiffnessSpec {
         mesh.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &Self::FORMS))
     }
 
-    fn from_number<E: Error>(stiffness: f64) -> Result<Self, E> {
+    fn from_number<E: Error>(stiffness: f64, _: Unexpected<'_>) -> Result<Self, E> {
         Stiffness::try_from(stiffness).map(|stiffness| Self::Number(stiffness.0)).map_err(E::custom)
-    }
-
-    fn from_whole<E: Error>(stiffness: i64) -> Result<Self, E> {
-        Self::from_number(stiffness as f64)
     }
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
@@ -129,12 +125,8 @@ impl Written for RestLengthSpec {
         drawn.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &Self::FORMS))
     }
 
-    fn from_number<E: Error>(factor: f64) -> Result<Self, E> {
+    fn from_number<E: Error>(factor: f64, _: Unexpected<'_>) -> Result<Self, E> {
         Positive::try_from(factor).map(|factor| Self::Factor(factor.0)).map_err(E::custom)
-    }
-
-    fn from_whole<E: Error>(factor: i64) -> Result<Self, E> {
-        Self::from_number(factor as f64)
     }
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {

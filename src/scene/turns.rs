@@ -52,7 +52,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         at(**angle, angle.span())?;
     }
     for drive in scene.drives.iter().filter(|drive| drive.lock.is_some()) {
-        drive.to.all().try_for_each(|angle| at(angle, drive.to.span()))?;
+        drive.to.0.iter().try_for_each(|&angle| at(angle, drive.to.span()))?;
     }
     scene.studies.iter().filter_map(stop_angle).try_for_each(|angle| at(**angle, angle.span()))
 }

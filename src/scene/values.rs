@@ -90,23 +90,37 @@ where
     }
 }
 
-/// Defines kinds of numbers: what each is, whether a number is one, and the fault of those that are none.
-macro_rules! numbers {
-    ($fault:ident: $($(#[$about:meta])* $name:ident, $is_one:expr, $wrong:ident;)+) => {$(
-        #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+/// Defines values that are checked when they are read: from what, and how.
+macro_rules! checked {
+    ($fault:ident: $($(#[$about:meta])* $name:ident($(#[$at:meta])* $seen:vis $of:ty) from $given:ty, $read:expr;)+) => {$(
         $(#[$about])*
-        #[serde(try_from = "f64")]
-        pub struct $name(pub f64);
+        pub struct $name($(#[$at])* $seen $of);
 
-        impl TryFrom<f64> for $name {
+        impl TryFrom<$given> for $name {
             type Error = $fault;
 
-            fn try_from(number: f64) -> Result<Self, $fault> {
-                let is_one: fn(&f64) -> bool = $is_one;
-                if is_one(&number) { Ok(Self(number)) } else { Err($fault::$wrong(number)) }
+            fn try_from(given: $given) -> Result<Self, $fault> {
+                let read: fn($given) -> Result<$of, $fault> = $read;
+                read(given).map(Self)
             }
         }
     )+};
+}
+pub(super) use checked;
+
+/// Defines kinds of numbers: what each is, whether a number is one, and the fault of those that are none.
+macro_rules! numbers {
+    ($fault:ident: $($(#[$about:meta])* $name:ident, $is_one:expr, $wrong:ident;)+) => {
+        checked! { $fault: $(
+            #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+            $(#[$about])*
+            #[serde(try_from = "f64")]
+            $name(pub f64) from f64, |number| {
+                let is_one: fn(&f64) -> bool = $is_one;
+                if is_one(&number) { Ok(number) } else { Err($fault::$wrong(number)) }
+            };
+        )+ }
+    };
 }
 pub(super) use numbers;
 
@@ -131,106 +145,109 @@ numbers! { ValueError:
     PoissonRatio, |number| *number > -1.0 && *number <= 0.5, NoPoissonRatio;
 }
 
-/// A whole number above zero.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "i64")]
-#[schemars(with = "u32", extend("minimum" = 1))]
-pub struct Count(pub u32);
+checked! { ValueError:
+    /// A whole number above zero.
+    #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+    #[serde(try_from = "i64")]
+    #[schemars(with = "u32", extend("minimum" = 1))]
+    Count(pub u32) from i64, |n| u32::try_from(n).ok().filter(|count| *count > 0).ok_or(ValueError::NoCount(n));
 
-impl TryFrom<i64> for Count {
-    type Error = ValueError;
+    /// Three finite numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<f64, 3>")]
+    Triple(pub [f64; 3]) from Exactly<f64, 3>, all_finite;
 
-    fn try_from(value: i64) -> Result<Self, ValueError> {
-        u32::try_from(value).ok().filter(|count| *count > 0).map(Self).ok_or(ValueError::NoCount(value))
-    }
-}
+    /// Two finite numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<f64, 2>")]
+    Pair(pub [f64; 2]) from Exactly<f64, 2>, all_finite;
 
-/// Three finite numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<f64, 3>")]
-pub struct Triple(pub [f64; 3]);
+    /// A cell of a patch, counted from [0, 0].
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<usize, 2>")]
+    CellIndex(pub [usize; 2]) from Exactly<usize, 2>, |Exactly(cell)| Ok(cell);
 
-impl TryFrom<Exactly<f64, 3>> for Triple {
-    type Error = ValueError;
+    /// Two different wells, numbered by energy from 0.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<usize, 2>")]
+    WellPair(pub [usize; 2]) from Exactly<usize, 2>,
+        |Exactly([a, b])| if a == b { Err(ValueError::OneWell(a)) } else { Ok([a, b]) };
 
-    fn try_from(Exactly(value): Exactly<f64, 3>) -> Result<Self, ValueError> {
-        match value.iter().find(|x| !x.is_finite()) {
-            Some(&bad) => Err(ValueError::NotFinite(bad)),
-            None => Ok(Self(value)),
+    /// Numbers of cells along the two lattice vectors.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<i64, 2>")]
+    #[schemars(extend("items" = { "type": "integer", "minimum": 1 }))]
+    Cells(pub [usize; 2]) from Exactly<i64, 2>, |Exactly([n1, n2])| match n1.checked_mul(n2) {
+        _ if n1 < 1 || n2 < 1 => Err(ValueError::NoCells(n1, n2)),
+        Some(count) if count <= Cells::MOST => Ok([n1 as usize, n2 as usize]),
+        _ => Err(ValueError::TooManyCells(n1, n2)),
+    };
+
+    /// The seam of a tube: the cell that coincides with cell (0, 0).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<i64, 2>")]
+    #[schemars(extend("items" = { "type": "integer", "minimum": -1000, "maximum": 1000 }))]
+    SeamCell(pub [i32; 2]) from Exactly<i64, 2>, |Exactly([n1, n2])| {
+        let none = (n1, n2) == (0, 0) || n1.abs() > SeamCell::MOST || n2.abs() > SeamCell::MOST;
+        if none { Err(ValueError::NoSeam(n1, n2)) } else { Ok([n1 as i32, n2 as i32]) }
+    };
+
+    /// Name of a study: it names files too, so it has letters, digits, `_` and `-` only.
+    #[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+    #[serde(try_from = "String")]
+    #[schemars(extend("pattern" = "^[A-Za-z0-9_-]+$"))]
+    Name(pub String) from String,
+        |name| if name == "drawn" { Err(ValueError::ReservedName(name)) } else { word(name, ValueError::Name) };
+
+    /// Name of a part or of a drive: letters, digits, `_` and `-`.
+    #[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+    #[serde(try_from = "String")]
+    #[schemars(extend("pattern" = "^[A-Za-z0-9_-]+$"))]
+    Label(pub String) from String, |name| word(name, ValueError::Label);
+
+    /// Motions of a rigid body: along x, y, z and about x, y, z, true where the list names them.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+    #[serde(try_from = "Vec<String>")]
+    Motions(
+        #[schemars(with = "Vec<String>", extend("items" = { "enum": Motions::NAMES }, "uniqueItems" = true))]
+        pub [bool; 6]
+    ) from Vec<String>, |words| {
+        let mut motions = [false; 6];
+        for word in words {
+            match Motions::NAMES.iter().position(|name| *name == word) {
+                Some(motion) if !motions[motion] => motions[motion] = true,
+                _ => return Err(ValueError::Motion(word)),
+            }
         }
-    }
-}
+        Ok(motions)
+    };
 
-/// Two finite numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<f64, 2>")]
-pub struct Pair(pub [f64; 2]);
-
-impl TryFrom<Exactly<f64, 2>> for Pair {
-    type Error = ValueError;
-
-    fn try_from(Exactly(value): Exactly<f64, 2>) -> Result<Self, ValueError> {
-        match value.iter().find(|x| !x.is_finite()) {
-            Some(&bad) => Err(ValueError::NotFinite(bad)),
-            None => Ok(Self(value)),
+    /// Coordinate axes: `[x, y, z]`, true where the letter is there.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+    #[serde(try_from = "String")]
+    #[schemars(extend("pattern" = "^[xyz]{1,3}$"))]
+    Axes(pub [bool; 3]) from String, |letters| {
+        let mut axes = [false; 3];
+        for letter in letters.chars() {
+            match "xyz".find(letter) {
+                Some(axis) if !axes[axis] => axes[axis] = true,
+                _ => return Err(ValueError::Axes(letters)),
+            }
         }
-    }
+        if letters.is_empty() { Err(ValueError::Axes(letters)) } else { Ok(axes) }
+    };
+
+    /// The name `[i, j, n1, n2]` of an edge of the cell; `[j, i, -n1, -n2]` gives the same value.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<i64, 4>")]
+    EdgeName(#[schemars(with = "[i64; 4]")] pub EdgeKey) from Exactly<i64, 4>,
+        |Exactly(name)| directed_edge(name).map(|(key, _)| key);
 }
-
-/// A cell of a patch, counted from [0, 0].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Deserialize, JsonSchema)]
-#[serde(from = "Exactly<usize, 2>")]
-pub struct CellIndex(pub [usize; 2]);
-
-impl From<Exactly<usize, 2>> for CellIndex {
-    fn from(Exactly(cell): Exactly<usize, 2>) -> Self {
-        Self(cell)
-    }
-}
-
-/// Two different wells, numbered by energy from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<usize, 2>")]
-pub struct WellPair(pub [usize; 2]);
-
-impl TryFrom<Exactly<usize, 2>> for WellPair {
-    type Error = ValueError;
-
-    fn try_from(Exactly([a, b]): Exactly<usize, 2>) -> Result<Self, ValueError> {
-        if a == b { Err(ValueError::OneWell(a)) } else { Ok(Self([a, b])) }
-    }
-}
-
-/// Numbers of cells along the two lattice vectors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<i64, 2>")]
-#[schemars(extend("items" = { "type": "integer", "minimum": 1 }))]
-pub struct Cells(pub [usize; 2]);
 
 impl Cells {
     /// Largest number of cells: their indices fit into 32 bits, signs included.
     pub(crate) const MOST: i64 = i32::MAX as i64;
 }
-
-impl TryFrom<Exactly<i64, 2>> for Cells {
-    type Error = ValueError;
-
-    fn try_from(Exactly([n1, n2]): Exactly<i64, 2>) -> Result<Self, ValueError> {
-        if n1 < 1 || n2 < 1 {
-            return Err(ValueError::NoCells(n1, n2));
-        }
-        match n1.checked_mul(n2) {
-            Some(count) if count <= Self::MOST => Ok(Self([n1 as usize, n2 as usize])),
-            _ => Err(ValueError::TooManyCells(n1, n2)),
-        }
-    }
-}
-
-/// The seam of a tube: the cell that coincides with cell (0, 0).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<i64, 2>")]
-#[schemars(extend("items" = { "type": "integer", "minimum": -1000, "maximum": 1000 }))]
-pub struct SeamCell(pub [i32; 2]);
 
 impl SeamCell {
     /// Largest number of cells along a seam, in each lattice direction.
@@ -244,113 +261,18 @@ impl SeamCell {
     }
 }
 
-impl TryFrom<Exactly<i64, 2>> for SeamCell {
-    type Error = ValueError;
-
-    fn try_from(Exactly([n1, n2]): Exactly<i64, 2>) -> Result<Self, ValueError> {
-        if (n1, n2) == (0, 0) || n1.abs() > Self::MOST || n2.abs() > Self::MOST {
-            return Err(ValueError::NoSeam(n1, n2));
-        }
-        Ok(Self([n1 as i32, n2 as i32]))
-    }
-}
-
-/// Name of a study: it names files too, so it has letters, digits, `_` and `-` only.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
-#[serde(try_from = "String")]
-#[schemars(extend("pattern" = "^[A-Za-z0-9_-]+$"))]
-pub struct Name(pub String);
-
-impl TryFrom<String> for Name {
-    type Error = ValueError;
-
-    fn try_from(value: String) -> Result<Self, ValueError> {
-        let legal = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if value == "drawn" {
-            Err(ValueError::ReservedName(value))
-        } else if value.is_empty() || !value.chars().all(legal) {
-            Err(ValueError::Name(value))
-        } else {
-            Ok(Self(value))
-        }
-    }
-}
-
-/// Name of a part or of a drive: letters, digits, `_` and `-`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
-#[serde(try_from = "String")]
-#[schemars(extend("pattern" = "^[A-Za-z0-9_-]+$"))]
-pub struct Label(pub String);
-
-impl TryFrom<String> for Label {
-    type Error = ValueError;
-
-    fn try_from(value: String) -> Result<Self, ValueError> {
-        let legal = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let right = !value.is_empty() && value.chars().all(legal);
-        if right { Ok(Self(value)) } else { Err(ValueError::Label(value)) }
-    }
-}
-
-/// Motions of a rigid body: along x, y, z and about x, y, z, true where the list names them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(try_from = "Vec<String>")]
-pub struct Motions(
-    #[schemars(with = "Vec<String>", extend("items" = { "enum": Motions::NAMES }, "uniqueItems" = true))] pub [bool; 6],
-);
-
 impl Motions {
     /// Names of the motions.
     pub(crate) const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 }
 
-impl TryFrom<Vec<String>> for Motions {
-    type Error = ValueError;
-
-    fn try_from(words: Vec<String>) -> Result<Self, ValueError> {
-        let mut motions = [false; 6];
-        for word in words {
-            match Self::NAMES.iter().position(|name| *name == word) {
-                Some(motion) if !motions[motion] => motions[motion] = true,
-                _ => return Err(ValueError::Motion(word)),
-            }
-        }
-        Ok(Self(motions))
-    }
+fn all_finite<const N: usize>(Exactly(numbers): Exactly<f64, N>) -> Result<[f64; N], ValueError> {
+    numbers.iter().find(|x| !x.is_finite()).map_or(Ok(numbers), |bad| Err(ValueError::NotFinite(*bad)))
 }
 
-/// Coordinate axes: `[x, y, z]`, true where the letter is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(try_from = "String")]
-#[schemars(extend("pattern" = "^[xyz]{1,3}$"))]
-pub struct Axes(pub [bool; 3]);
-
-impl TryFrom<String> for Axes {
-    type Error = ValueError;
-
-    fn try_from(value: String) -> Result<Self, ValueError> {
-        let mut axes = [false; 3];
-        for letter in value.chars() {
-            match "xyz".find(letter) {
-                Some(axis) if !axes[axis] => axes[axis] = true,
-                _ => return Err(ValueError::Axes(value)),
-            }
-        }
-        if value.is_empty() { Err(ValueError::Axes(value)) } else { Ok(Self(axes)) }
-    }
-}
-
-/// The name `[i, j, n1, n2]` of an edge of the cell; `[j, i, -n1, -n2]` gives the same value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<i64, 4>")]
-pub struct EdgeName(#[schemars(with = "[i64; 4]")] pub EdgeKey);
-
-impl TryFrom<Exactly<i64, 4>> for EdgeName {
-    type Error = ValueError;
-
-    fn try_from(Exactly(name): Exactly<i64, 4>) -> Result<Self, ValueError> {
-        directed_edge(name).map(|(key, _)| Self(key))
-    }
+fn word(text: String, fault: fn(String) -> ValueError) -> Result<String, ValueError> {
+    let legal = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !text.is_empty() && text.chars().all(legal) { Ok(text) } else { Err(fault(text)) }
 }
 
 /// Returns the name of the edge `[i, j, n1, n2]`, and whether its canonical form has the opposite direction.

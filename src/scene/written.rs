@@ -16,14 +16,14 @@ pub(super) trait Written: Sized {
         Err(E::invalid_type(Unexpected::Str(word), &Self::FORMS))
     }
 
-    /// Reads a number with a decimal point or an exponent.
-    fn from_number<E: Error>(number: f64) -> Result<Self, E> {
-        Err(E::invalid_type(Unexpected::Float(number), &Self::FORMS))
+    /// Reads a number; `written` is what messages name.
+    fn from_number<E: Error>(_: f64, written: Unexpected<'_>) -> Result<Self, E> {
+        Err(E::invalid_type(written, &Self::FORMS))
     }
 
-    /// Reads a whole number.
+    /// Reads a number without a decimal point and an exponent.
     fn from_whole<E: Error>(number: i64) -> Result<Self, E> {
-        Err(E::invalid_type(Unexpected::Signed(number), &Self::FORMS))
+        Self::from_number(number as f64, Unexpected::Signed(number))
     }
 
     /// Reads a list in brackets.
@@ -84,7 +84,7 @@ impl<'de, T: Written> Visitor<'de> for AnyForm<T> {
     }
 
     fn visit_f64<E: Error>(self, number: f64) -> Result<T, E> {
-        T::from_number(number)
+        T::from_number(number, Unexpected::Float(number))
     }
 
     fn visit_i64<E: Error>(self, number: i64) -> Result<T, E> {

@@ -18,7 +18,7 @@ use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Drawn};
 use crate::numerics::worst;
 use crate::output::Picture;
-use crate::output::artifact::Artifact;
+use crate::output::artifact::{Artifact, Net};
 use crate::output::figure::bloch::{self as figure, BlochPlot};
 use crate::output::figure::rounded;
 use crate::output::table::{Table, Value};
@@ -236,11 +236,16 @@ fn add_maps(answer: &mut Answer, context: &Context<'_>, (found, survey): (&Found
     if let Some(lines) = survey.lines() {
         let winding = |a: usize| lines.lines.iter().map(|line| line.winding[a]).collect();
         let passes = lines.lines.iter().map(|line| line.passes as i32).collect();
-        let lines = Artifact::Curves {
-            curves: lines.lines.iter().map(|line| line.points.clone()).collect(),
-            arrays: vec![("winding1", winding(0)), ("winding2", winding(1)), ("passes", passes)],
+        let mut net = Net {
+            of_curves: vec![("winding1", winding(0)), ("winding2", winding(1)), ("passes", passes)],
+            ..Net::default()
         };
-        add(format!("{name}/{name}_zero_lines.vtp"), lines);
+        for line in &lines.lines {
+            let first = net.points.len();
+            net.points.extend(line.points.iter().map(|[q1, q2]| Vec3::new(*q1, *q2, 0.0)));
+            net.curves.push((first..net.points.len()).collect());
+        }
+        add(format!("{name}/{name}_zero_lines.vtp"), Artifact::Net(net));
     }
     for (k, mode) in survey.modes.iter().enumerate() {
         let picture = moving_picture(context, found.ground.folded.as_ref(), mode);

@@ -98,7 +98,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Ans
     let mut answer = Answer::empty(context.study);
     answer.add(format!("{}.csv", context.name()), table(context.assembly, &found));
     if context.draws(Draw::Svg) {
-        answer.add(format!("{}.svg", context.name()), chart::svg(&energies(context, &found)));
+        answer.add(format!("{}.svg", context.name()), chart::alone(&energies(context, &found)));
     }
     let map = spec.map.as_ref().map(|map| map::compute(context, map, &mut answer)).transpose()?;
     let of_map = map.as_ref().and_then(|map| map.reason.clone());

@@ -25,7 +25,6 @@ fn draw(artifact: &Artifact) -> Option<Draw> {
         Artifact::State(_)
         | Artifact::Surface(_)
         | Artifact::Net(_)
-        | Artifact::Curves { .. }
         | Artifact::Grid { .. }
         | Artifact::Script(_)
         | Artifact::Series(_) => Some(Draw::Vtk),

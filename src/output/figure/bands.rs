@@ -32,11 +32,7 @@ pub struct BandPlot {
 }
 
 /// Returns the figure.
-pub fn svg(plot: &BandPlot, caption: &Caption) -> String {
-    drawn(plot, caption).finish()
-}
-
-fn drawn(plot: &BandPlot, caption: &Caption) -> Canvas {
+pub(crate) fn svg(plot: &BandPlot, caption: &Caption) -> Canvas {
     let mut canvas = Canvas::new(HEIGHT, caption);
     let frequencies = plot.bands.iter().flat_map(|(_, values)| values);
     let edges = plot.density.iter().flat_map(|(edges, _)| edges);
@@ -147,14 +143,14 @@ mod tests {
         let lone =
             [BandPlot { density: None, ..both.clone() }, BandPlot { bands: vec![], corners: vec![], ..both.clone() }];
         for (plot, curves, steps) in [(&both, 3, 1), (&lone[0], 3, 0), (&lone[1], 0, 1)] {
-            let canvas = drawn(plot, &caption);
+            let canvas = svg(plot, &caption);
             assert_eq!(canvas.crowded(), 0);
             let text = canvas.finish();
             let count = |k: usize| text.matches(&format!("stroke=\"{}\" stroke-width=\"2\"", SERIES[k])).count();
             assert_eq!([count(0), count(1)], [curves, steps]);
             assert!(!text.contains("NaN") && !text.contains("inf"));
         }
-        let text = svg(&both, &caption);
+        let text = svg(&both, &caption).finish();
         assert!(["(0, 0)", "(\u{3c0}, 0.5\u{3c0})", "(0.3, \u{2212}\u{3c0})"].iter().all(|words| text.contains(words)));
     }
 }

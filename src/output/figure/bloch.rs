@@ -50,11 +50,7 @@ pub struct BlochPlot<'a> {
 }
 
 /// Returns the figure of spatially varying modes.
-pub fn svg(plot: &BlochPlot<'_>, caption: &Caption) -> String {
-    drawn(plot, caption).finish()
-}
-
-fn drawn(plot: &BlochPlot<'_>, caption: &Caption) -> Canvas {
+pub(crate) fn svg(plot: &BlochPlot<'_>, caption: &Caption) -> Canvas {
     let mut canvas = Canvas::new(HEIGHT, caption);
     rates(&mut canvas, plot);
     map(&mut canvas, plot);
@@ -242,7 +238,7 @@ mod tests {
             other: vec![(0.6, 0.2)],
             measured: vec![(0.5, 0.3), (0.5, 9.0)],
         };
-        let text = svg(&plot, &caption());
+        let text = svg(&plot, &caption()).finish();
         assert!(text.contains("<title>a &lt; b</title>") && !text.contains("NaN"));
         assert_eq!([2, 9].map(|r| text.matches(&format!(" r=\"{r}\"")).count()), [3, 1]);
         assert_eq!(text.matches(" r=\"1.2\"").count(), 1);
@@ -250,8 +246,8 @@ mod tests {
         let ring = format!("cx=\"{:.1}\" cy=\"{:.1}\"", LEFT[1] + along(0.3), TOP + SIDE - along(-0.2));
         assert!(text.contains(&ring), "{ring}");
         assert_eq!(text.matches("stroke-width=\"2.2\"").count(), 2 + 1, "two parts, and the legend");
-        assert_eq!(drawn(&plot, &caption()).crowded(), 0);
-        let magnitude = svg(&BlochPlot { lines: vec![], ..plot }, &caption());
+        assert_eq!(svg(&plot, &caption()).crowded(), 0);
+        let magnitude = svg(&BlochPlot { lines: vec![], ..plot }, &caption()).finish();
         assert!(magnitude.contains("magnitude") && !magnitude.contains("determinant at real"));
     }
 
@@ -271,7 +267,8 @@ mod tests {
                 measured: vec![],
             },
             &caption(),
-        );
+        )
+        .finish();
         let middles = |colour: Colour| {
             let deep = text.lines().find(|line| line.contains(&format!("fill=\"{colour}\"/>"))).unwrap();
             let parts = deep.split('M').skip(1).filter(|part| part.contains('Z'));

@@ -65,12 +65,8 @@ pub fn svg(chart: &Chart) -> String {
     alone(chart).finish()
 }
 
-/// Returns the figure of charts with linear axes, side by side under a common caption.
-pub(crate) fn panels(charts: &[Chart], caption: &Caption) -> String {
-    side_by_side(charts, caption).finish()
-}
-
-fn alone(chart: &Chart) -> Canvas {
+/// Draws one chart with logarithmic axes.
+pub(crate) fn alone(chart: &Chart) -> Canvas {
     let caption = Caption { title: chart.title.clone(), state: String::new() };
     let mut canvas = Canvas::new(HEIGHT, &caption);
     let names = chart.series.iter().map(|series| Font::SMALL.width(&series.name) + 60.0);
@@ -91,7 +87,8 @@ fn alone(chart: &Chart) -> Canvas {
     canvas
 }
 
-fn side_by_side(charts: &[Chart], caption: &Caption) -> Canvas {
+/// Draws charts with linear axes, side by side under a common caption.
+pub(crate) fn panels(charts: &[Chart], caption: &Caption) -> Canvas {
     let columns = charts.len().clamp(1, COLUMNS);
     let rows = charts.len().div_ceil(columns).max(1);
     let mut canvas = Canvas::new(TOP + ROW * rows as f64, caption);
@@ -266,7 +263,7 @@ mod tests {
     }
 
     fn linear(values: &[(f64, f64)]) -> String {
-        panels(&[chart(values)], &Caption::default())
+        panels(&[chart(values)], &Caption::default()).finish()
     }
 
     /// Returns the centres of the discs that are points.
@@ -316,7 +313,7 @@ mod tests {
         let pass = Point { x: 0.5, y: 1.1, label: "pass 1.1".into() };
         let mut chart = Chart { levels: vec![pass], x: "x".into(), y: "y".into(), ..chart(&hill) };
         chart.series.push(series(&hill));
-        let canvas = side_by_side(&[chart.clone(), chart.clone(), chart.clone(), chart.clone()], &Caption::default());
+        let canvas = panels(&[chart.clone(), chart.clone(), chart.clone(), chart.clone()], &Caption::default());
         assert_eq!(canvas.crowded(), 0);
         let text = canvas.finish();
         assert_eq!([text.matches(">pass 1.1<").count(), text.matches(" r=\"9\"").count()], [4, 12]);

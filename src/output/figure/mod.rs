@@ -9,8 +9,8 @@
 
 mod annotations;
 mod axes;
-pub mod bands;
-pub mod bloch;
+pub(crate) mod bands;
+pub(crate) mod bloch;
 pub(crate) mod canvas;
 pub mod chart;
 mod contour;
@@ -18,11 +18,11 @@ pub(crate) mod film;
 mod hidden;
 pub(crate) mod palette;
 pub(crate) mod projection;
-pub mod ratios;
-pub mod reaction;
+pub(crate) mod ratios;
+pub(crate) mod reaction;
 mod script;
 pub mod sheet;
-pub mod sphere;
+pub(crate) mod sphere;
 pub(crate) mod style;
 pub mod surface;
 

@@ -24,11 +24,7 @@ const DIRECTIONS: usize = 720;
 pub type RatioOf<'a> = &'a dyn Fn(f64) -> Option<f64>;
 
 /// Returns the figure of named ratios, side by side.
-pub fn svg(plots: &[(&str, RatioOf<'_>)], caption: &Caption) -> String {
-    drawn(plots, caption).finish()
-}
-
-fn drawn(plots: &[(&str, RatioOf<'_>)], caption: &Caption) -> Canvas {
+pub(crate) fn svg(plots: &[(&str, RatioOf<'_>)], caption: &Caption) -> Canvas {
     let mut canvas = Canvas::new(HEIGHT, caption);
     let signs = [(VALLEY, "positive"), (MOUNTAIN, "negative")];
     canvas.legend([MARGIN, LEGEND], &signs.map(|(colour, words)| (Mark::Line(Style::line(colour, CURVE)), words)));
@@ -99,13 +95,13 @@ mod tests {
         let sheared = |angle: f64| Some((2.0 * angle).tan());
         let caption = Caption { title: "t".into(), state: "s".into() };
         let plots: [(&str, RatioOf<'_>); 2] = [("a", &negative), ("b", &none)];
-        let canvas = drawn(&plots, &caption);
+        let canvas = svg(&plots, &caption);
         assert_eq!(canvas.crowded(), 0);
         let text = canvas.finish();
         let curves = |text: &str, colour| text.matches(&format!("stroke=\"{colour}\" stroke-width=\"3\"")).count();
         // the samples of the legend are curves too
         assert_eq!([curves(&text, VALLEY), curves(&text, MOUNTAIN)], [1, 1 + 1]);
-        let other = svg(&[("c", &sheared)], &caption);
+        let other = svg(&[("c", &sheared)], &caption).finish();
         assert_eq!([curves(&other, VALLEY), curves(&other, MOUNTAIN)], [1 + 4, 1 + 4]);
         assert!(text.contains("no ratio") && !text.contains("NaN") && !text.contains("inf"));
     }

@@ -43,11 +43,7 @@ pub struct PlottedState {
 }
 
 /// Returns the figure.
-pub fn svg(plot: &ReactionPlot, caption: &Caption) -> String {
-    drawn(plot, caption).finish()
-}
-
-fn drawn(plot: &ReactionPlot, caption: &Caption) -> Canvas {
+pub(crate) fn svg(plot: &ReactionPlot, caption: &Caption) -> Canvas {
     let mut canvas = Canvas::new(HEIGHT, caption);
     let [left, top, right, bottom] = FRAME;
     let frame = Area { low: [left, top], high: [right, bottom] };
@@ -214,7 +210,7 @@ mod tests {
     fn lines_and_marks() {
         let caption = Caption { title: "t".into(), state: "s".into() };
         let other = vec![state(0.3, 0.0, true, Some("branch-point")), state(0.5, 0.5, true, None)];
-        let canvas = drawn(&plot(vec![snap(), other]), &caption);
+        let canvas = svg(&plot(vec![snap(), other]), &caption);
         assert_eq!(canvas.crowded(), 0);
         let text = canvas.finish();
         assert_eq!(text.matches("<g><title>limit-load").count(), 2);
@@ -230,13 +226,14 @@ mod tests {
     #[test]
     fn stiffness_is_logarithmic() {
         let rising = [1.0, 1e3, 1e6, f64::INFINITY].map(|k| state(k, 1.0 / k, true, Some("stop")));
-        let text = svg(&ReactionPlot { logarithmic: true, ..plot(vec![rising.to_vec()]) }, &Caption::default());
+        let text =
+            svg(&ReactionPlot { logarithmic: true, ..plot(vec![rising.to_vec()]) }, &Caption::default()).finish();
         let marks = text.split("<g><title>stop").skip(1);
         let x: Vec<f64> =
             marks.map(|mark| mark.split("cx=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()).collect();
         assert!(x.len() == 3 && (x[1] - x[0] - (x[2] - x[1])).abs() <= 0.21, "{x:?}");
         for empty in [vec![], vec![vec![]]] {
-            let text = svg(&plot(empty), &Caption::default());
+            let text = svg(&plot(empty), &Caption::default()).finish();
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
         }
     }

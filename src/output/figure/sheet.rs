@@ -43,9 +43,7 @@ pub(crate) const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Col
 /// The first inconsistent array or index of the picture.
 pub fn svg(picture: &Picture, added: &Annotations, caption: &Caption) -> Result<String, ShapeError> {
     picture.check()?;
-    if let Some(&(point, _)) = added.loads.iter().find(|(point, _)| *point >= picture.points.len()) {
-        return Err(ShapeError::NoSuchPoint { point, count: picture.points.len() });
-    }
+    ShapeError::check([], added.loads.iter().map(|(point, _)| point), picture.points.len())?;
     Ok(drawn(picture, added, caption).finish())
 }
 

@@ -41,11 +41,7 @@ pub struct Sphere<'a> {
 }
 
 /// Returns the figure of energies on a sphere.
-pub fn svg(sphere: &Sphere<'_>, caption: &Caption) -> String {
-    drawn(sphere, caption).finish()
-}
-
-fn drawn(sphere: &Sphere<'_>, caption: &Caption) -> Canvas {
+pub(crate) fn svg(sphere: &Sphere<'_>, caption: &Caption) -> Canvas {
     let mut canvas = Canvas::new(HEIGHT, caption);
     let largest = sphere.energies.iter().copied().filter(|e| e.is_finite()).fold(f64::MIN_POSITIVE, f64::max);
     for (disc, name) in ["positive mean curvature", "negative mean curvature"].into_iter().enumerate() {
@@ -148,14 +144,14 @@ mod tests {
         let triangles = [[0, 1, 2], [3, 2, 1]];
         let sphere = |energies| Sphere { points: &points, triangles: &triangles, energies, cone: &cone };
         let caption = Caption { title: "a < b".into(), state: "amplitude 0.02".into() };
-        let text = svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption);
+        let text = svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption).finish();
         assert!(text.contains("a &lt; b") && !text.contains("NaN") && !text.contains(&UNKNOWN.to_string()), "{text}");
         assert_eq!(text.matches("stroke-width=\"2.6\"").count(), 1 + 1, "the curve, and the legend");
         let lowest = format!("Z\" fill=\"{0}\" stroke=\"{0}\"", ENERGY.at(0.5 / SHADES as f64));
         assert_eq!(text.matches(&lowest).count(), 2);
-        assert_eq!(text, svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption));
-        assert_eq!(drawn(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption).crowded(), 0);
-        let missing = svg(&sphere(&[1.0, f64::NAN, 0.0, 0.5]), &caption);
+        assert_eq!(text, svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption).finish());
+        assert_eq!(svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption).crowded(), 0);
+        let missing = svg(&sphere(&[1.0, f64::NAN, 0.0, 0.5]), &caption).finish();
         assert!(
             missing.contains(&UNKNOWN.to_string()) && !missing.contains("NaN") && missing.matches(&lowest).count() == 0
         );

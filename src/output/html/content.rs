@@ -46,9 +46,7 @@ impl<'a> Content<'a> {
             Artifact::Table(table) => table.to_csv().ok().map(|text| Self::Table(text.into())),
             Artifact::State(picture) => picture.check().is_ok().then_some(Self::State(picture)),
             Artifact::Svg(Ok(text)) => Some(Self::Figure(text.into())),
-            Artifact::Surface(_) | Artifact::Net(_) | Artifact::Curves { .. } | Artifact::Grid { .. } => {
-                Some(Self::Other)
-            }
+            Artifact::Surface(_) | Artifact::Net(_) | Artifact::Grid { .. } => Some(Self::Other),
             Artifact::Series(_) | Artifact::Script(_) | Artifact::Svg(Err(_)) | Artifact::Page(_) => None,
         }
     }

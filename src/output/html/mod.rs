@@ -25,7 +25,7 @@ use super::figure::sheet::{BACK, CROSSING, FRONT};
 pub(crate) use content::Content;
 use numbers::Arrays;
 use study::StudyData;
-pub(crate) use study::StudyFiles;
+pub(crate) use study::{MODES, StudyFiles, own_table, put_in_order, row_of};
 
 /// The modules of the page: their names in its import map, and their texts.
 const MODULES: [(&str, &str); 5] = [

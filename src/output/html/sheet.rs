@@ -3,11 +3,10 @@
 use serde::Serialize;
 
 use super::numbers::{Arrays, scale};
-use super::table::TableData;
 use crate::math::Vec3;
 use crate::output::figure::projection::Projection;
-use crate::output::picture::Picture;
-use crate::output::sequence::{Place, sequences};
+use crate::output::picture::{OnLines, Picture};
+use crate::output::sequence::{places, sequences};
 
 /// A state of a study: the row of its table that describes it, if one does, and its picture.
 #[derive(Clone, Copy, Debug)]
@@ -86,19 +85,6 @@ struct Order {
     states: Vec<usize>,
 }
 
-/// The values of a picture on its lines.
-type OnLines = fn(&Picture) -> &[f64];
-
-/// Names of the fields, and their values in a picture.
-const FIELDS: [(&str, OnLines); 6] = [
-    ("fold_angle", |picture| &picture.fold_angle),
-    ("rest_angle", |picture| &picture.rest_angle),
-    ("strain", |picture| &picture.strain),
-    ("energy", |picture| &picture.energy),
-    ("tension", |picture| &picture.tension),
-    ("torque", |picture| &picture.torque),
-];
-
 impl SheetData {
     /// Collects states; `None` if there is none. `table` is the text of the table of the study, whose columns `branch`
     /// and `sign` tell trajectories apart.
@@ -108,7 +94,7 @@ impl SheetData {
         let size = scale(extents.iter().map(|(_, size)| *size));
         let view = Projection::of(&first.points, &first.triangles);
         let fields: Vec<_> =
-            FIELDS.iter().filter_map(|&(name, get)| Some((Field::new(name, get, states)?, get))).collect();
+            Picture::FIELDS.iter().filter_map(|&(name, get)| Some((Field::new(name, get, states)?, get))).collect();
         let mut meshes: Vec<Mesh> = Vec::new();
         let mut state = |(&Numbered { row, picture }, &(centre, _)): (&Numbered<'_>, &(Vec3, f64))| {
             let mesh = Mesh::new(arrays, picture);
@@ -146,13 +132,8 @@ impl SheetData {
 
 /// Returns the sequences in which the states are shown.
 fn orders(states: &[Numbered<'_>], table: Option<&str>) -> Vec<Order> {
-    let column = |name: &str| table.and_then(|table| TableData::numbers_in(table, name)).unwrap_or_default();
-    let (branch, sign) = (column("branch"), column("sign"));
-    let number = |column: &[f64], row: Option<usize>| {
-        row.and_then(|row| column.get(row)).filter(|value| value.is_finite()).map(|value| *value as i64)
-    };
-    let place = |state: &Numbered<'_>| Place { branch: number(&branch, state.row), sign: number(&sign, state.row) };
-    let placed: Vec<_> = states.iter().map(|state| (place(state), state.picture.points.as_slice())).collect();
+    let places = places(table, states.iter().map(|state| state.row));
+    let placed: Vec<_> = places.into_iter().zip(states.iter().map(|state| state.picture.points.as_slice())).collect();
     sequences(&placed).into_iter().map(|sequence| Order { name: sequence.name, states: sequence.states }).collect()
 }
 

@@ -8,6 +8,9 @@ use super::numbers::Arrays;
 use super::sheet::{Numbered, SheetData};
 use super::table::{Fact, TableData, results};
 
+/// Kinds of study whose states are modes: their displacements are velocities.
+pub(crate) const MODES: [&str; 3] = ["modes", "bloch", "response"];
+
 /// A study and its files.
 #[derive(Debug)]
 pub(crate) struct StudyFiles<'a> {
@@ -42,8 +45,7 @@ impl<'a> StudyFiles<'a> {
     /// Collects a study and its files, whose order has no meaning.
     pub(crate) fn new(summary: Map<String, Value>, files: impl IntoIterator<Item = (String, Content<'a>)>) -> Self {
         let mut files: Vec<_> = files.into_iter().collect();
-        // numbers of five digits come after those of four
-        files.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
+        put_in_order(&mut files);
         Self { summary, files }
     }
 }
@@ -63,27 +65,35 @@ impl StudyData {
         }
         let (facts, lists) = results(arrays, summary);
         tables.extend(lists);
-        let moving = matches!(kind.as_str(), "modes" | "bloch" | "response");
+        let moving = MODES.contains(&kind.as_str());
         let sheet = SheetData::new(arrays, &states(&name, files), own_table(&name, files), moving);
         let converged = summary.get("converged").and_then(Value::as_bool).unwrap_or_default();
         Self { converged, reason: word("reason"), name, kind, facts, tables, figures, others, sheet }
     }
 }
 
+/// Returns the states of a study, each with its row, which the file name `NAME/NAME_ROW.vtu` ends with. Modes of a
+/// `bloch` study have other names and no row.
+fn states<'a>(name: &str, files: &'a [(String, Content<'_>)]) -> Vec<Numbered<'a>> {
+    let numbered =
+        |file: &str, content: &'a Content<'_>| Some(Numbered { row: row_of(name, file), picture: content.picture()? });
+    files.iter().filter_map(|(file, content)| numbered(file, content)).collect()
+}
+
+/// Returns the row of a state of a study in its table, by the name of its file.
+pub(crate) fn row_of(study: &str, file: &str) -> Option<usize> {
+    file.strip_prefix(&format!("{study}/{study}_"))?.strip_suffix(".vtu")?.parse().ok()
+}
+
+/// Puts files into the order of their names; numbers of five digits come after those of four.
+pub(crate) fn put_in_order(files: &mut [(String, Content<'_>)]) {
+    files.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
+}
+
 /// Returns the text of the table of a study that has a row for each state.
-fn own_table<'a>(name: &str, files: &'a [(String, Content<'_>)]) -> Option<&'a str> {
+pub(crate) fn own_table<'a>(name: &str, files: &'a [(String, Content<'_>)]) -> Option<&'a str> {
     files.iter().find_map(|(file, content)| match content {
         Content::Table(text) if file.strip_suffix(".csv") == Some(name) => Some(text.as_ref()),
         _ => None,
     })
-}
-
-/// Returns the states of a study, each with its row, which the file name `NAME/NAME_ROW.vtu` ends with. Modes of a
-/// `bloch` study have other names and no row.
-fn states<'a>(name: &str, files: &'a [(String, Content<'_>)]) -> Vec<Numbered<'a>> {
-    let prefix = format!("{name}/{name}_");
-    let row = |file: &str| file.strip_prefix(&prefix)?.strip_suffix(".vtu")?.parse().ok();
-    let state =
-        |(file, content): &'a (String, Content<'_>)| Some(Numbered { row: row(file), picture: content.picture()? });
-    files.iter().filter_map(state).collect()
 }

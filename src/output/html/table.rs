@@ -89,16 +89,6 @@ impl TableData {
         let columns: Vec<Column> = columns.iter().map(&mut column).collect();
         (!columns.is_empty()).then(|| Self { name: name.to_owned(), rows: list.len(), columns, left_out: 0 })
     }
-
-    /// Returns the numbers of a column, empty fields as NaN; `None` if there is no such column.
-    pub(super) fn numbers_in(text: &str, name: &str) -> Option<Vec<f64>> {
-        let mut lines = text.trim_start_matches('\u{feff}').lines();
-        let at = lines.next()?.split(',').position(|column| column == name)?;
-        let rows = lines.filter(|line| !line.is_empty());
-        Some(
-            rows.map(|line| line.split(',').nth(at).and_then(|field| field.parse().ok()).unwrap_or(f64::NAN)).collect(),
-        )
-    }
 }
 
 /// Returns a value of a summary as a field of a table; truth values are 0 and 1.
@@ -132,6 +122,7 @@ pub(super) fn results(arrays: &mut Arrays, summary: &Map<String, Value>) -> (Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::table::columns_of;
     use serde_json::json;
 
     /// Claim: columns of numbers, with empty fields and with any magnitude, are arrays; a column with a word is one of
@@ -145,9 +136,9 @@ mod tests {
         assert_eq!(table.columns[0].numbers.map(|numbers| numbers.scale), Some(2.0));
         assert_eq!(table.columns[1].numbers.map(|numbers| numbers.scale), Some(1e300));
         assert_eq!(table.columns[2].words, Some(vec![String::new(), "limit-load".into(), String::new()]));
-        let steps = TableData::numbers_in(text, "step").unwrap();
-        assert_eq!(steps, [0.0, 1.0, 2.0]);
-        assert!(TableData::numbers_in(text, "sign").is_none() && TableData::numbers_in("", "step").is_none());
+        let steps = columns_of(text, &["step", "sign"]);
+        assert!(steps.iter().map(|row| row[0]).eq([0.0, 1.0, 2.0]) && steps.iter().all(|row| row[1].is_nan()));
+        assert!(columns_of("", &["step"]).is_empty());
         assert_eq!(TableData::of_text(&mut arrays, "e.csv", "").rows, 0);
     }
 

@@ -62,27 +62,20 @@ pub struct DriveSpec {
 
 /// The value at the end of a drive: a number, or, of an angle, a text with its unit; or the ends of several ways.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DriveEnd {
-    /// The first end.
-    pub first: Angle,
-    /// The ends of the ways from there.
-    pub then: Vec<Angle>,
-}
+pub struct DriveEnd(
+    /// The first end, and the ends of the ways from there; never empty.
+    pub Vec<Angle>,
+);
 
 impl DriveEnd {
     const RIGHT: &str = "a number, of an angle a text with its unit such as \"60 deg\", or a list of these";
-
-    /// Returns all ends.
-    pub(crate) fn all(&self) -> impl Iterator<Item = Angle> + '_ {
-        std::iter::once(self.first).chain(self.then.iter().copied())
-    }
 
     fn wrong<E: Error>() -> E {
         E::custom(format!("this is no end of a drive, expected {}", Self::RIGHT))
     }
 
     fn one<E: Error>(angle: Result<Angle, serde::de::value::Error>) -> Result<Self, E> {
-        angle.map(|first| Self { first, then: vec![] }).map_err(|_| Self::wrong())
+        angle.map(|angle| Self(vec![angle])).map_err(|_| Self::wrong())
     }
 }
 
@@ -95,18 +88,13 @@ impl Written for DriveEnd {
         Self::one(Angle::deserialize(word.into_deserializer()))
     }
 
-    fn from_number<E: Error>(number: f64) -> Result<Self, E> {
-        Self::one(Angle::deserialize(number.into_deserializer()))
-    }
-
-    fn from_whole<E: Error>(number: i64) -> Result<Self, E> {
+    fn from_number<E: Error>(number: f64, _: Unexpected<'_>) -> Result<Self, E> {
         Self::one(Angle::deserialize(number.into_deserializer()))
     }
 
     fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
         let all = Vec::<Angle>::deserialize(SeqAccessDeserializer::new(list)).map_err(|_| Self::wrong())?;
-        let (first, then) = all.split_first().ok_or_else(Self::wrong)?;
-        Ok(Self { first: *first, then: then.to_vec() })
+        if all.is_empty() { Err(Self::wrong()) } else { Ok(Self(all)) }
     }
 }
 

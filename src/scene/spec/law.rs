@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
-use serde::de::{Error as _, SeqAccess};
+use serde::de::{Error as _, SeqAccess, Unexpected};
 use thiserror::Error;
 
-use crate::scene::values::{Exactly, numbers};
+use crate::scene::values::{Exactly, checked, numbers};
 use crate::scene::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::angle::Angle;
 
@@ -189,12 +189,8 @@ read_as_written!(Yields);
 impl Written for Yields {
     const FORMS: &str = "a number above 0, or [low, high] with low <= 0 <= high";
 
-    fn from_number<E: serde::de::Error>(size: f64) -> Result<Self, E> {
+    fn from_number<E: serde::de::Error>(size: f64, _: Unexpected<'_>) -> Result<Self, E> {
         if size > 0.0 { Ok(Self([-size, size])) } else { Err(E::custom(LawFault::Yields(-size, size))) }
-    }
-
-    fn from_whole<E: serde::de::Error>(size: i64) -> Result<Self, E> {
-        Self::from_number(size as f64)
     }
 
     fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
@@ -209,33 +205,23 @@ schema_any_of!(Yields as "Yields", generator, [
     generator.subschema_for::<[f64; 2]>(),
 ]);
 
-/// Two exponents that differ.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<f64, 2>")]
-#[schemars(with = "[f64; 2]")]
-pub struct Exponents(pub(crate) [f64; 2]);
-
-impl TryFrom<Exactly<f64, 2>> for Exponents {
-    type Error = LawFault;
-
-    fn try_from(Exactly([a, b]): Exactly<f64, 2>) -> Result<Self, LawFault> {
+checked! { LawFault:
+    /// Two exponents that differ.
+    #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<f64, 2>")]
+    #[schemars(with = "[f64; 2]")]
+    Exponents(pub(crate) [f64; 2]) from Exactly<f64, 2>, |Exactly([a, b])| {
         let valid = a.is_finite() && b.is_finite() && a != b;
-        if valid { Ok(Self([a, b])) } else { Err(LawFault::Exponents(a, b)) }
-    }
-}
+        if valid { Ok([a, b]) } else { Err(LawFault::Exponents(a, b)) }
+    };
 
-/// Two fold angles, one on each side of flat.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(try_from = "Exactly<Angle, 2>")]
-#[schemars(with = "[Angle; 2]")]
-pub struct Limits(pub(crate) [f64; 2]);
-
-impl TryFrom<Exactly<Angle, 2>> for Limits {
-    type Error = LawFault;
-
-    fn try_from(Exactly(limits): Exactly<Angle, 2>) -> Result<Self, LawFault> {
+    /// Two fold angles, one on each side of flat.
+    #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+    #[serde(try_from = "Exactly<Angle, 2>")]
+    #[schemars(with = "[Angle; 2]")]
+    Limits(pub(crate) [f64; 2]) from Exactly<Angle, 2>, |Exactly(limits)| {
         let [low, high] = limits.map(|angle| angle.radians);
         let valid = -PI < low && low < 0.0 && 0.0 < high && high < PI;
-        if valid { Ok(Self([low, high])) } else { Err(LawFault::Limits(low, high)) }
-    }
+        if valid { Ok([low, high]) } else { Err(LawFault::Limits(low, high)) }
+    };
 }

@@ -129,13 +129,9 @@ impl Written for Coordinate {
         }
     }
 
-    fn from_number<E: Error>(value: f64) -> Result<Self, E> {
+    fn from_number<E: Error>(value: f64, written: Unexpected<'_>) -> Result<Self, E> {
         let finite = Some(value).filter(|value| value.is_finite());
-        finite.map(Self::At).ok_or_else(|| E::invalid_value(Unexpected::Float(value), &Self::FORMS))
-    }
-
-    fn from_whole<E: Error>(value: i64) -> Result<Self, E> {
-        Ok(Self::At(value as f64))
+        finite.map(Self::At).ok_or_else(|| E::invalid_value(written, &Self::FORMS))
     }
 }
 

@@ -201,5 +201,5 @@ fn net(sphere: &Sphere<'_>) -> Net {
         ("gaussian_curvature", tensors.iter().map(|[k11, k22, k12]| k11 * k22 - k12 * k12).collect()),
     ];
     let points = tensors.iter().map(|[k11, k22, k12]| Vec3::new(*k11, *k22, SQRT_2 * k12)).collect();
-    Net { points, triangles: sphere.triangles.to_vec(), curves, arrays }
+    Net { points, triangles: sphere.triangles.to_vec(), curves, arrays, of_curves: Vec::new() }
 }

@@ -94,7 +94,7 @@ pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
 
 /// Returns the values to which the drive goes after its first end.
 pub(super) fn then(context: &Context<'_>, spec: &PathSpec) -> Vec<f64> {
-    let ends = table(context, spec).map(|table| &table.to.then);
+    let ends = table(context, spec).map(|table| &table.to.0[1..]);
     ends.into_iter().flatten().map(|angle| angle.radians).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use crate::analysis::path::{PathBranch, PathEvent};
 use crate::model::{Drive, Driven};
+use crate::output::figure::canvas::Canvas;
 use crate::output::figure::reaction::{self, PlottedState, ReactionPlot};
 use crate::study::Context;
 
@@ -73,7 +74,7 @@ pub(crate) fn event_word(event: PathEvent) -> &'static str {
 }
 
 /// Returns the figure of the reaction as a function of the driven value.
-pub(crate) fn figure(context: &Context<'_>, drive: &Drive, branches: &[PathBranch]) -> String {
+pub(crate) fn figure(context: &Context<'_>, drive: &Drive, branches: &[PathBranch]) -> Canvas {
     let Words { quantity, reaction, .. } = Words::new(context, drive);
     let state = format!("{reaction} against {quantity}");
     let branch = |branch: &PathBranch| {

@@ -23,7 +23,6 @@ const FLOORS: &[(&str, u8)] = &[
     ("parameters", 7),
     ("describe", 7),
     ("progress", 7),
-    ("scenes", 7),
     ("cli", 8),
     ("main", 9),
 ];

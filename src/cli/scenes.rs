@@ -6,47 +6,27 @@ use std::path::{Path, PathBuf};
 
 use foldwell::run::{self, RunError, RunOptions};
 use foldwell::scene::{self, SceneFile, Setting};
-use thiserror::Error;
+
+use super::ending::Failure;
 
 /// The word that stands for standard input.
 const STANDARD_INPUT: &str = "-";
 /// The name of a scene from standard input, in messages and of its folder.
 const ITS_NAME: &str = "stdin";
 
-/// The reasons for which the scenes of a call cannot be computed.
-#[derive(Debug, Error)]
-#[allow(missing_docs)] // each variant is documented by its message
-pub(crate) enum ScenesError {
-    #[error(transparent)]
-    Run(RunError),
-    #[error("standard input: {0}")]
-    StandardInput(io::Error),
-    #[error(
-        "{} and {} would write into the same folder, {}; run them apart, each with its --out", first.display(),
-        second.display(), out.display()
-    )]
-    SameFolder { first: PathBuf, second: PathBuf, out: PathBuf },
-}
-
-impl From<RunError> for ScenesError {
-    fn from(error: RunError) -> Self {
-        Self::Run(error)
-    }
-}
-
 /// Reads some scenes, sets keys in each, and returns them with the options of their runs. Several scenes are checked
 /// before any of them is computed; a single one is checked when it is run.
-pub(crate) fn read(
+pub(super) fn read(
     paths: &[PathBuf],
     settings: &[Setting],
     options: &RunOptions,
-) -> Result<Vec<(SceneFile, RunOptions)>, ScenesError> {
+) -> Result<Vec<(SceneFile, RunOptions)>, Failure> {
     let mut folders: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     let mut scenes = Vec::new();
     for path in paths {
         let out = folder(path, options.out.as_deref(), paths.len() > 1);
         if let Some(first) = folders.insert(out.clone(), path) {
-            return Err(ScenesError::SameFolder { first: first.clone(), second: path.clone(), out });
+            return Err(Failure::SameFolder { first: first.clone(), second: path.clone(), out });
         }
         scenes.push((read_one(path, settings)?, RunOptions { out: Some(out), ..options.clone() }));
     }
@@ -68,11 +48,11 @@ fn folder(scene: &Path, out: Option<&Path>, several: bool) -> PathBuf {
     }
 }
 
-fn read_one(path: &Path, settings: &[Setting]) -> Result<SceneFile, ScenesError> {
+fn read_one(path: &Path, settings: &[Setting]) -> Result<SceneFile, Failure> {
     if path != Path::new(STANDARD_INPUT) {
         return Ok(run::read_scene(path, settings)?);
     }
     let mut text = String::new();
-    io::stdin().read_to_string(&mut text).map_err(ScenesError::StandardInput)?;
+    io::stdin().read_to_string(&mut text).map_err(Failure::StandardInput)?;
     Ok(scene::parse_set(&text, ITS_NAME, settings).map_err(RunError::from)?)
 }
