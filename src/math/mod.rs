@@ -41,3 +41,9 @@ pub(crate) fn point(coordinates: &[f64], k: usize) -> Vec3 {
 
 /// A point or vector in the plane.
 pub(crate) type Vec2 = nalgebra::Vector2<f64>;
+
+/// Returns the corners of the box around points; without any, the first is infinite and the second minus infinite.
+pub(crate) fn bounds<'a>(points: impl IntoIterator<Item = &'a Vec3>) -> [Vec3; 2] {
+    let none = [Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)];
+    points.into_iter().fold(none, |[low, high], point| [low.inf(point), high.sup(point)])
+}

@@ -5,7 +5,7 @@
 //! that comes back to its first state is a sequence of its own, since the other one may lead round the same loop.
 
 use super::table::columns_of;
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 
 /// Largest distance between the first and the last state of a closed trajectory, relative to the extent of the sheet.
 const CLOSED: f64 = 1e-6;
@@ -89,8 +89,7 @@ fn name(place: Place) -> String {
 fn is_closed(states: &[(Place, &[Vec3])], run: &[usize]) -> bool {
     let (Some(first), Some(last)) = (run.first(), run.last()) else { return false };
     let (first, last) = (states[*first].1, states[*last].1);
-    let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    let (low, high) = first.iter().fold(none, |(low, high), point| (low.inf(point), high.sup(point)));
+    let [low, high] = bounds(first);
     let apart = first.iter().zip(last).map(|(a, b)| (b - a).amax()).fold(0.0, f64::max);
     run.len() > 2 && first.len() == last.len() && apart <= CLOSED * (high - low).amax()
 }

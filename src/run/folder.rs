@@ -9,6 +9,7 @@ use super::RunError;
 use crate::output::html::Content;
 use crate::output::{OutputError, vtk};
 use crate::scene::outputs::{is_one_of, owned};
+use crate::scene::values::Label;
 
 /// Returns the summary of the run that wrote into a folder.
 pub(super) fn summary(folder: &Path) -> Result<Map<String, Value>, RunError> {
@@ -32,8 +33,7 @@ pub(super) fn summary(folder: &Path) -> Result<Map<String, Value>, RunError> {
 /// Returns the name of a study, if it is one that a scene can give: other names might lead out of the folder.
 pub(super) fn study_name(study: &Map<String, Value>) -> Option<&str> {
     let name = study.get("name")?.as_str()?;
-    let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    (!name.is_empty() && name.chars().all(allowed)).then_some(name)
+    Label::try_from(name.to_owned()).is_ok().then_some(name)
 }
 
 /// Returns the files of a study that can be shown.

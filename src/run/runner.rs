@@ -10,7 +10,7 @@ use crate::model::{Assembly, Configuration};
 use crate::output::claim::Claim;
 use crate::output::{OutputError, files};
 use crate::run::{SheetSummary, Summary};
-use crate::scene::build::notes;
+use crate::scene::notes::notes;
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;

@@ -9,7 +9,7 @@ use super::material::material;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::Column;
-use super::spec::{DomainSpec, EnergySpec, Lattice, VertexSet};
+use super::spec::{DomainSpec, EnergySpec, Lattice};
 use super::stiffness::StiffnessSpec;
 use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives, laws, loads, ties};
@@ -61,20 +61,6 @@ pub fn drive(file: &SceneFile, assembly: &Assembly, name: &str) -> Result<Drive,
     let found = file.scene.drives.iter().find(|drive| drive.name.0 == name);
     let spec = found.ok_or_else(|| file.error_at(0..0, format!("no drive is called `{name}`"), "add a [[drive]]"))?;
     drives::resolve(file, assembly, spec)
-}
-
-/// Returns the vertices of a set.
-pub(crate) fn vertices(
-    file: &SceneFile,
-    assembly: &Assembly,
-    set: &Located<VertexSet>,
-) -> Result<Vec<usize>, SceneError> {
-    Places::new(file, assembly).set(set)
-}
-
-/// Returns remarks about a scene for the user, made before its studies.
-pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
-    super::notes::notes(file, assembly)
 }
 
 /// Returns the rates of a mode from its table, for every edge of the tiling; NaN if the table has none.
@@ -182,37 +168,26 @@ impl<'a> Reader<'a> {
     }
 
     fn terms(&self) -> Result<Terms, SceneError> {
-        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec, membrane: _ } =
-            &self.file.scene.energy;
+        let energy = &self.file.scene.energy;
+        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec, membrane: _ } = energy;
         let [bar_law, crease_law, facet_law] = laws::given(self.file, &self.values)?;
         let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let bars = match self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)? {
-            Some(stiffness) => {
-                let rest = bar_spec.as_ref().and_then(|spec| spec.rest.as_ref());
-                Some(Bars { stiffness, rest: self.values.lengths(rest)? })
-            }
-            None => None,
-        };
+        let bars = self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)?;
+        let rest = bar_spec.as_ref().and_then(|spec| spec.rest.as_ref());
+        let bars = bars.map(|stiffness| self.values.lengths(rest).map(|rest| Bars { stiffness, rest })).transpose()?;
         // without facets on the tiling, those of the cell still say which folding modes there are
         let given = facet_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
         let facet_stiffness = self.stiffness(given, facet_law.as_ref(), ElementKind::Facets)?.unwrap_or(RIGID.into());
         let rigid = self.rigid_facets(&facet_stiffness);
         let given = crease_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let creases = match self.stiffness(given, crease_law.as_ref(), ElementKind::Creases)? {
-            Some(stiffness) => {
-                let spec = crease_spec.as_ref();
-                let rest = (spec.and_then(|spec| spec.rest.as_ref()), spec.and_then(|spec| spec.fraction.as_ref()));
-                Some(Hinges { stiffness, rest: self.rest(rest, ElementKind::Creases, &rigid)? })
-            }
-            None => None,
-        };
-        let facets = if self.tiling.facets().next().is_some() {
-            let spec = facet_spec.as_ref();
-            let rest = (spec.and_then(|spec| spec.rest.as_ref()), spec.and_then(|spec| spec.fraction.as_ref()));
-            Some(Hinges { stiffness: facet_stiffness, rest: self.rest(rest, ElementKind::Facets, &rigid)? })
-        } else {
-            None
-        };
+        let crease_stiffness = self.stiffness(given, crease_law.as_ref(), ElementKind::Creases)?;
+        let [crease_rest, facet_rest] = energy.rests();
+        let hinges = |stiffness, of, rest| self.rest(rest, of, &rigid).map(|rest| Hinges { stiffness, rest });
+        let rest = (crease_rest, crease_spec.as_ref().and_then(|spec| spec.fraction.as_ref()));
+        let creases = crease_stiffness.map(|stiffness| hinges(stiffness, ElementKind::Creases, rest)).transpose()?;
+        let rest = (facet_rest, facet_spec.as_ref().and_then(|spec| spec.fraction.as_ref()));
+        let has_facets = self.tiling.facets().next().is_some();
+        let facets = has_facets.then(|| hinges(facet_stiffness, ElementKind::Facets, rest)).transpose()?;
         let of_hinges = |hinges: &'_ Option<Hinges>| hinges.as_ref().map(|hinges| hinges.stiffness.clone());
         let stiffness = [bars.as_ref().map(|bars| bars.stiffness.clone()), of_hinges(&creases), of_hinges(&facets)];
         let laws = laws::of_terms(self.file, [bar_law, crease_law, facet_law], stiffness)?;

@@ -190,12 +190,9 @@ fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSou
         let here = offset..offset + line.len();
         let inside = here.contains(&span.start) || (span.start == here.end && here.end == text.inner().len());
         let place = if inside { span.start - here.start } else { 0 };
-        let from = if line.len() > LONGEST_PRINTED_LINE {
-            floor(line, place.saturating_sub(LONGEST_PRINTED_LINE / 4))
-        } else {
-            0
-        };
-        let to = if line.len() > LONGEST_PRINTED_LINE { floor(line, from + LONGEST_PRINTED_LINE) } else { line.len() };
+        let long = line.len() > LONGEST_PRINTED_LINE;
+        let from = if long { line.floor_char_boundary(place.saturating_sub(LONGEST_PRINTED_LINE / 4)) } else { 0 };
+        let to = if long { line.floor_char_boundary(from + LONGEST_PRINTED_LINE) } else { line.len() };
         if inside {
             let start = short.len() + place - from;
             let room = (short.len() + to - from).saturating_sub(start);
@@ -208,11 +205,6 @@ fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSou
         offset = here.end;
     }
     (Arc::new(NamedSource::new(text.name(), short).with_language("TOML")), moved)
-}
-
-/// Returns the last start of a character at or before a byte.
-fn floor(line: &str, at: usize) -> usize {
-    (0..=at.min(line.len())).rev().find(|&k| line.is_char_boundary(k)).unwrap_or(0)
 }
 
 /// Returns line and column of a byte offset, both counted from 1; the column counts characters.

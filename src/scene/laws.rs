@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
 use super::rows::numbered_lines;
-use super::spec::{BarLawSpec, BarYieldSpec, CurveSpec, EnergySpec, HingeLawSpec, HingeYieldSpec, LawForm};
+use super::spec::{BarLawSpec, CurveSpec, EnergySpec, HingeLawSpec, HingeYieldSpec, LawForm};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{
     Bilinear, CurveError, ElasticPlastic, Formula, FormulaError, GreenLagrange, Law, Laws, Measured, Memory, OfAngle,
@@ -72,9 +72,12 @@ pub(super) fn of_terms(
     [bar, crease, facet]: [Option<Stiffness>; 3],
 ) -> Result<Laws, SceneError> {
     let EnergySpec { bars, creases, facets, membrane: _ } = &file.scene.energy;
-    let in_bars = bars.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
-    let in_creases = creases.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
-    let in_facets = facets.as_ref().and_then(|spec| spec.yields.as_ref()).map(Yield::from);
+    let of_hinges =
+        |spec: &Located<HingeYieldSpec>| Yield::new(spec.span(), [spec.moment.0, spec.hardening.0, spec.isotropic.0]);
+    let in_bars = bars.as_ref().and_then(|spec| spec.yields.as_ref());
+    let in_bars = in_bars.map(|spec| Yield::new(spec.span(), [spec.force.0, spec.hardening.0, spec.isotropic.0]));
+    let in_creases = creases.as_ref().and_then(|spec| spec.yields.as_ref()).map(of_hinges);
+    let in_facets = facets.as_ref().and_then(|spec| spec.yields.as_ref()).map(of_hinges);
     Ok(Laws {
         bars: of_term(file, of_bars, (in_bars, bar), OfStrain)?,
         creases: of_term(file, of_creases, (in_creases, crease), OfAngle)?,
@@ -117,21 +120,11 @@ struct Yield {
     span: Range<usize>,
 }
 
-impl From<&Located<BarYieldSpec>> for Yield {
-    fn from(spec: &Located<BarYieldSpec>) -> Self {
-        let BarYieldSpec { force, hardening, isotropic } = **spec;
-        Self { bound: force.0, slope: hardening.0, isotropic: isotropic.0, span: spec.span() }
-    }
-}
-
-impl From<&Located<HingeYieldSpec>> for Yield {
-    fn from(spec: &Located<HingeYieldSpec>) -> Self {
-        let HingeYieldSpec { moment, hardening, isotropic } = **spec;
-        Self { bound: moment.0, slope: hardening.0, isotropic: isotropic.0, span: spec.span() }
-    }
-}
-
 impl Yield {
+    fn new(span: Range<usize>, [bound, slope, isotropic]: [f64; 3]) -> Self {
+        Self { bound, slope, isotropic, span }
+    }
+
     /// The law of an element of this stiffness; `None` if it is rigid, or none is there.
     fn of(&self, stiffness: f64) -> Option<ElasticPlastic> {
         let hardening = self.slope / (1.0 - self.slope);

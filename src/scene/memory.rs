@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::spec::{DensitySpec, MapSpec, StudyKind, StudySpec};
+use super::values::{Cells, Count};
 use super::{Located, SceneError, SceneFile};
 use crate::sheet::Sheet;
 use crate::sheet::memory::free_memory;
@@ -57,8 +58,7 @@ pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
     let each = TILED_VERTEX + if relaxed { RELAXED_VERTEX } else { 0.0 };
     let free = free_memory();
     fits(file, Need { what, bytes: vertices * each, key: "cells", span: span() }, free)?;
-    let densities = file.scene.studies.iter().flat_map(|study| of_density(study, sheet.vertices.len()));
-    let mut needs = file.scene.studies.iter().filter_map(of_study).chain(densities);
+    let mut needs = file.scene.studies.iter().flat_map(|study| of_study(study, sheet.vertices.len()));
     needs.try_for_each(|need| fits(file, need, free.min(MOST_OF_STUDY)))
 }
 
@@ -81,46 +81,39 @@ fn relaxes(kind: &StudyKind) -> bool {
     matches!(kind, StudyKind::Relax(_) | StudyKind::Wells(_) | StudyKind::Path(_))
 }
 
-/// Returns the memory that a study needs for the numbers among its own settings.
-fn of_study(study: &StudySpec) -> Option<Need> {
+/// Returns the memory that a study needs for the numbers among its own settings; a density of states has three
+/// frequencies for each vertex at its wavenumbers.
+fn of_study(study: &StudySpec, vertices: usize) -> impl Iterator<Item = Need> {
     let name = &study.name.0;
-    match &*study.kind {
-        StudyKind::Bloch(bloch) => bloch.grid.as_ref().map(|grid| {
-            let count: f64 = grid.0.iter().map(|&n| n as f64).product();
-            let what = format!("the grid of `{name}` has {} wavenumbers", shown(count));
-            Need { what, bytes: count * WAVENUMBER, key: "grid", span: grid.span() }
-        }),
-        StudyKind::Wells(wells) => wells.starts.as_ref().map(|starts| {
-            let what = format!("`{name}` has {} starts", starts.0);
-            Need { what, bytes: f64::from(starts.0) * START, key: "starts", span: starts.span() }
-        }),
-        StudyKind::Response(response) => response.directions.as_ref().map(|directions| {
-            let what = format!("the ratios of `{name}` have {} directions", directions.0);
-            let bytes = f64::from(directions.0) * DIRECTION;
-            Need { what, bytes, key: "directions", span: directions.span() }
-        }),
-        StudyKind::Landscape(landscape) => landscape.map.as_ref().and_then(|map| of_map(name, map)),
-        _ => None,
-    }
-}
-
-/// Returns the memory that a density of states needs for its wavenumbers, with three frequencies for each vertex, and
-/// its bins.
-fn of_density(study: &StudySpec, vertices: usize) -> Vec<Need> {
-    let StudyKind::Bloch(bloch) = &*study.kind else { return vec![] };
-    let Some(DensitySpec { grid, bins }) = bloch.density.as_deref() else { return vec![] };
-    let name = &study.name.0;
-    let of_grid = grid.as_ref().map(|grid| {
+    let grid = |given: &Option<Located<Cells>>, whose: &str, each: f64| {
+        let grid = given.as_ref()?;
         let count: f64 = grid.0.iter().map(|&n| n as f64).product();
-        let what = format!("the density of states of `{name}` has {} wavenumbers", shown(count));
-        let each = WAVENUMBER + 3.0 * FREQUENCY * vertices as f64;
-        Need { what, bytes: count * each, key: "grid", span: grid.span() }
-    });
-    let of_bins = bins.as_ref().map(|bins| {
-        let what = format!("the density of states of `{name}` has {} bins", bins.0);
-        Need { what, bytes: f64::from(bins.0) * BIN, key: "bins", span: bins.span() }
-    });
-    of_grid.into_iter().chain(of_bins).collect()
+        let what = format!("the {whose} of `{name}` has {} wavenumbers", shown(count));
+        Some(Need { what, bytes: count * each, key: "grid", span: grid.span() })
+    };
+    let number = |given: &Option<Located<Count>>, what: String, key: &'static str, each: f64| {
+        let number = given.as_ref()?;
+        let what = format!("{what} {} {key}", number.0);
+        Some(Need { what, bytes: f64::from(number.0) * each, key, span: number.span() })
+    };
+    let needs = match &*study.kind {
+        StudyKind::Bloch(bloch) => {
+            let density = bloch.density.as_deref();
+            let each = WAVENUMBER + 3.0 * FREQUENCY * vertices as f64;
+            let bins = |density: &DensitySpec| {
+                number(&density.bins, format!("the density of states of `{name}` has"), "bins", BIN)
+            };
+            let of_density = density.and_then(|density| grid(&density.grid, "density of states", each));
+            vec![grid(&bloch.grid, "grid", WAVENUMBER), of_density, density.and_then(bins)]
+        }
+        StudyKind::Wells(wells) => vec![number(&wells.starts, format!("`{name}` has"), "starts", START)],
+        StudyKind::Response(response) => {
+            vec![number(&response.directions, format!("the ratios of `{name}` have"), "directions", DIRECTION)]
+        }
+        StudyKind::Landscape(landscape) => vec![landscape.map.as_ref().and_then(|map| of_map(name, map))],
+        _ => vec![],
+    };
+    needs.into_iter().flatten()
 }
 
 fn of_map(name: &str, map: &MapSpec) -> Option<Need> {

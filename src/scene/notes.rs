@@ -7,7 +7,7 @@ use crate::sheet::info::{TURNED_OVER, frames_said, targets_said};
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Returns remarks about a scene, made before its studies.
-pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
+pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     let mut notes = super::turns::notes(file, assembly.terms());
     notes.extend(one_angle_for_both_sides(file, assembly));
     notes.extend(unused_targets(file, assembly));
@@ -46,8 +46,7 @@ fn assembled(sheet: &Sheet) -> Vec<String> {
 /// Says that a single rest angle folds mountains and valleys to the same side. Only letters that the drawing does not
 /// show count: a sheet that is drawn folded may well be meant to unfold or to fold back.
 fn one_angle_for_both_sides(file: &SceneFile, assembly: &Assembly) -> Option<String> {
-    let rest = file.scene.energy.creases.as_ref()?.rest.as_ref()?;
-    let RestSpec::Angle(angle) = **rest else { return None };
+    let RestSpec::Angle(angle) = **file.scene.energy.rests()[0]? else { return None };
     let sheet = assembly.sheet();
     let creases = assembly.tiling().edges.iter().filter(|edge| edge.kind == EdgeKind::Crease);
     let letters: Vec<_> = creases.map(|tiled| sheet.assignments.get(&sheet.edges[tiled.edge].key)).collect();
@@ -65,11 +64,7 @@ fn one_angle_for_both_sides(file: &SceneFile, assembly: &Assembly) -> Option<Str
 
 /// Says that the mesh has target angles that the energy does not use.
 fn unused_targets(file: &SceneFile, assembly: &Assembly) -> Option<String> {
-    let (energy, count) = (&file.scene.energy, assembly.sheet().targets_not_drawn());
-    let rests = [
-        energy.creases.as_ref().and_then(|creases| creases.rest.as_ref()),
-        energy.facets.as_ref().and_then(|facets| facets.rest.as_ref()),
-    ];
-    let used = rests.into_iter().flatten().any(|rest| matches!(**rest, RestSpec::Target));
+    let count = assembly.sheet().targets_not_drawn();
+    let used = file.scene.energy.rests().into_iter().flatten().any(|rest| matches!(**rest, RestSpec::Target));
     (count > 0 && !used).then(|| targets_said(count))
 }

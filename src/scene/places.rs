@@ -18,7 +18,7 @@ const SAME_COORDINATE: f64 = 1e-6;
 const DEPENDENT: f64 = 1e-9;
 
 /// The vertices of a patch, as a scene refers to them.
-pub(super) struct Places<'a> {
+pub(crate) struct Places<'a> {
     file: &'a SceneFile,
     sheet: &'a Sheet,
     tiling: &'a Tiling,
@@ -35,13 +35,13 @@ pub(super) struct Held {
 }
 
 impl<'a> Places<'a> {
-    pub(super) fn new(file: &'a SceneFile, assembly: &'a Assembly) -> Self {
+    pub(crate) fn new(file: &'a SceneFile, assembly: &'a Assembly) -> Self {
         let tolerance = SAME_COORDINATE * assembly.mean_edge();
         Self { file, sheet: assembly.sheet(), tiling: assembly.tiling(), tolerance }
     }
 
     /// Returns the numbers of the vertices of a set, in the order of a list, otherwise in increasing order.
-    pub(super) fn set(&self, set: &Located<VertexSet>) -> Result<Vec<usize>, SceneError> {
+    pub(crate) fn set(&self, set: &Located<VertexSet>) -> Result<Vec<usize>, SceneError> {
         let span = || set.span();
         let found = match &**set {
             VertexSet::List(names) => {

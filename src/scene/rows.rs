@@ -111,19 +111,15 @@ fn columns<'a>(header: &str, all: &'a [&'static str; 7]) -> Option<&'a [&'static
 
 fn row(text: &str, (columns, value): (&[&'static str], Column), line: usize) -> Result<TableRow, TableFault> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
-    let (Some((_, names)), [numbers @ .., number]) = (columns.split_last(), fields.as_slice()) else {
-        return Err(TableFault::Fields { found: fields.len(), expected: columns.len() });
-    };
-    if fields.len() != columns.len() {
-        return Err(TableFault::Fields { found: fields.len(), expected: columns.len() });
-    }
+    let wrong = || TableFault::Fields { found: fields.len(), expected: columns.len() };
+    let (number, numbers) = fields.split_last().filter(|_| fields.len() == columns.len()).ok_or_else(wrong)?;
     let whole: Vec<i64> =
-        names.iter().zip(numbers).map(|(column, field)| integer(field, column)).collect::<Result<_, _>>()?;
+        columns.iter().zip(numbers).map(|(column, field)| integer(field, column)).collect::<Result<_, _>>()?;
     let value = checked(number, value)?;
     let (cell, name) = match whole[..] {
         [c1, c2, i, j, n1, n2] => (Some([c1, c2]), [i, j, n1, n2]),
         [i, j, n1, n2] => (None, [i, j, n1, n2]),
-        _ => return Err(TableFault::Fields { found: fields.len(), expected: columns.len() }),
+        _ => return Err(wrong()),
     };
     let (key, reversed) = directed_edge(name).map_err(|fault| TableFault::Edge(fault.to_string()))?;
     let cell = cell.map(|cell| start_cell(cell, name, reversed)).transpose()?;

@@ -211,6 +211,12 @@ impl EnergySpec {
         self.membrane.as_deref() == Some(&true)
     }
 
+    /// The rest angles of creases and of facets.
+    pub(crate) fn rests(&self) -> [Option<&Located<RestSpec>>; 2] {
+        let creases = self.creases.as_ref().and_then(|creases| creases.rest.as_ref());
+        [creases, self.facets.as_ref().and_then(|facets| facets.rest.as_ref())]
+    }
+
     /// The measured curves of all terms.
     pub(crate) fn curves(&self) -> Vec<&CurveSpec> {
         let (bars, hinges) = self.laws();

@@ -1,15 +1,16 @@
 //! The points of a sweep: the settings of every point, and the scene that they make.
 
 mod axis;
-mod place;
 mod rows;
 
 use super::checks::check;
 use super::setting::{Setting, without};
 use super::spec::SweepSpec;
 use super::{Located, SceneError, SceneFile};
-use axis::Axis;
-use place::{MOST_POINTS, Place, TABLE};
+use axis::{Axis, Place, TABLE};
+
+/// Largest number of points.
+const MOST_POINTS: usize = 1_000_000;
 
 /// The points of a scene with a table `[sweep]`, in order: the first axis is the slowest.
 ///

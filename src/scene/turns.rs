@@ -4,7 +4,6 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::rest::RestSpec;
 use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::Terms;
@@ -45,7 +44,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         Some([message, help]) => Err(file.error_at(span, message, help)),
         None => Ok(()),
     };
-    for rest in rests(file) {
+    for rest in scene.energy.rests().into_iter().flatten() {
         rest.angles().into_iter().try_for_each(|angle| at(angle, rest.span()))?;
     }
     for angle in scene.locks.iter().filter_map(|lock| lock.angle.as_ref()) {
@@ -55,14 +54,6 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         drive.to.0.iter().try_for_each(|&angle| at(angle, drive.to.span()))?;
     }
     scene.studies.iter().filter_map(stop_angle).try_for_each(|angle| at(**angle, angle.span()))
-}
-
-/// Returns the rest angles that the scene gives creases and facets.
-fn rests(file: &SceneFile) -> impl Iterator<Item = &Located<RestSpec>> {
-    let energy = &file.scene.energy;
-    let creases = energy.creases.as_ref().and_then(|creases| creases.rest.as_ref());
-    let facets = energy.facets.as_ref().and_then(|facets| facets.rest.as_ref());
-    creases.into_iter().chain(facets)
 }
 
 fn stop_angle(study: &StudySpec) -> Option<&Located<Angle>> {
@@ -79,12 +70,8 @@ pub(super) fn notes(file: &SceneFile, terms: &Terms) -> Vec<String> {
     let beyond = |angle: &f64| angle.abs() > PI;
     let through = "beyond pi (angles are radians), where the faces of a crease have passed through each other";
     let mut notes = Vec::new();
-    let energy = &file.scene.energy;
-    let given = [
-        (&terms.creases, energy.creases.as_ref().is_some_and(|creases| creases.rest.is_some())),
-        (&terms.facets, energy.facets.as_ref().is_some_and(|facets| facets.rest.is_some())),
-    ];
-    let given = given.into_iter().filter(|(_, given)| *given).flat_map(|(hinges, _)| hinges);
+    let hinges = [&terms.creases, &terms.facets].into_iter().zip(file.scene.energy.rests());
+    let given = hinges.filter(|(_, given)| given.is_some()).flat_map(|(hinges, _)| hinges);
     let rest = given.flat_map(|hinges| &hinges.rest).filter(|angle| beyond(angle)).count();
     if rest > 0 {
         notes.push(format!("{rest} rest angles are {through}"));

@@ -2,7 +2,6 @@
 
 mod buckling;
 mod summary;
-mod vibrations;
 
 use super::{Answer, Context, StudyError, StudyResult, start, states, supported};
 use crate::analysis::modes::{
@@ -100,18 +99,39 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordina
     let mut table = Table::new("mode,eigenvalue");
     modes.eigenvalues.iter().enumerate().for_each(|(k, value)| table.push([k.into(), (*value).into()]));
     answer.add(format!("{}.csv", context.name()), table);
-    if !modes.vectors.is_empty() && !context.study.draw.is_empty() {
-        let pictures = states::moving(context, coordinates, &modes.vectors);
-        let softest = modes.rigid_motions.min(pictures.len() - 1);
-        let shown = pictures[softest].displaced(0.1);
-        states::add_motions(answer, context, [""; 2], pictures);
-        if modes.vibrations.is_none() {
-            let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
-            let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
-            states::add_figure(answer, context, &shown, &state);
-        }
-    }
+    let softest = modes.rigid_motions.min(modes.vectors.len().saturating_sub(1));
+    let shown = states::add_moving(answer, context, [""; 2], (coordinates, &modes.vectors), softest);
     if let Some(found) = &modes.vibrations {
-        vibrations::add(answer, context, (found, modes.rigid_motions), coordinates);
+        add_vibrations(answer, context, (found, modes.rigid_motions), coordinates);
+    } else if let Some(shown) = shown {
+        let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
+        let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
+        states::add_figure(answer, context, &shown, &state);
     }
+}
+
+/// Adds a table of the frequencies and the state with each motion as displacement, and a picture of the slowest motion
+/// after the rigid ones.
+fn add_vibrations(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    (vibrations, rigid_motions): (&Vibrations, usize),
+    coordinates: &[f64],
+) {
+    let frequencies = vibrations.frequencies();
+    let mut table = Table::new("mode,frequency,growth_rate");
+    for (k, (frequency, rate)) in frequencies.iter().zip(vibrations.growth_rates()).enumerate() {
+        table.push([k.into(), (*frequency).into(), rate.into()]);
+    }
+    answer.add(format!("{}-frequencies.csv", context.name()), table);
+    let slowest = rigid_motions.min(vibrations.vectors.len().saturating_sub(1));
+    let motions = (coordinates, &vibrations.vectors[..]);
+    let shown = states::add_moving(answer, context, ["_vibration", "-vibrations"], motions, slowest);
+    let Some(shown) = shown else { return };
+    let value = match frequencies[slowest] {
+        Some(frequency) => format!("frequency {}", rounded(frequency, 5)),
+        None => "which grows".to_owned(),
+    };
+    let state = format!("vibration {slowest}, {value}, drawn with an amplitude of a tenth of the sheet");
+    states::add_figure(answer, context, &shown, &state);
 }

@@ -13,7 +13,7 @@ use super::sides::RestSides;
 use super::states::{self, Shown};
 use super::supported::small_tolerance;
 use super::{Answer, Context, Progress, StudyError, StudyResult, ratios, start};
-use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
+use crate::analysis::intersections::Marks;
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
     PathRecord, PathStop, Probe, resume_path,
@@ -21,8 +21,8 @@ use crate::analysis::path::{
 use crate::model::{Assembly, Drive, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
-use crate::scene::build;
 use crate::scene::forms::StartSpec;
+use crate::scene::places::Places;
 use crate::scene::spec::{Draw, PathSpec};
 use crate::sheet::similar::there_are;
 use std::collections::BTreeSet;
@@ -119,7 +119,7 @@ fn probes<'a>(context: &Context<'_>, spec: &'a PathSpec) -> Result<Vec<(&'a str,
                 "probes are for patches",
             );
         }
-        let vertices = build::vertices(context.file, context.assembly, &probe.vertices)?;
+        let vertices = Places::new(context.file, context.assembly).set(&probe.vertices)?;
         found.push((probe.name.0.as_str(), Probe { vertices, axis: probe.axis as usize }));
     }
     Ok(found)
@@ -216,7 +216,7 @@ fn marks(context: &Context<'_>, branches: &[PathBranch]) -> Option<Vec<Vec<Marks
                 break;
             }
             let state = states::with_all_angles(context, &point.state);
-            found.push(finder.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
+            found.push(finder.marks(context.assembly.drawn(), &state));
         }
         all.push(found);
     }

@@ -8,7 +8,6 @@ use super::states::{self, Shown};
 use super::supported::small_tolerance;
 use super::{Answer, Context, StudyError, StudyResult, branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
-use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::recorder::KeptState;
 use crate::analysis::relax::{RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
 use crate::analysis::restored;
@@ -137,7 +136,7 @@ fn add_states(answer: &mut Answer, context: &Context<'_>, states: &[Reached<'_>]
     let mut check = context.self_intersection();
     let mut all = |&(iteration, residuals, state): &Reached<'_>| {
         let state = states::with_all_angles(context, state);
-        let marks = check.as_mut().map(|check| check.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
+        let marks = check.as_mut().map(|check| check.marks(context.assembly.drawn(), &state));
         (iteration, Shown { state, residuals, marks })
     };
     let all: Vec<(usize, Shown)> = states.iter().map(&mut all).collect();

@@ -1,7 +1,7 @@
 //! Tables, VTK series and pictures of states.
 
 use super::{Answer, Context, energies};
-use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
+use crate::analysis::intersections::Marks;
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::output::artifact::Artifact;
 use crate::output::figure::{Annotations, sheet};
@@ -84,8 +84,7 @@ pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Pictur
     let (assembly, edges) = (context.assembly, context.assembly.edges());
     let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
     let state = with_all_angles(context, &state);
-    let marks =
-        context.self_intersection().map(|mut check| check.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
+    let marks = context.self_intersection().map(|mut check| check.marks(assembly.drawn(), &state));
     picture(context, &Shown { state, residuals: None, marks })
 }
 
@@ -116,6 +115,24 @@ pub(crate) fn add<'s>(
 /// Adds pictures of motions as a VTK series, as [`add_series`] does; the time of a picture is its number.
 pub(crate) fn add_motions(answer: &mut Answer, context: &Context<'_>, endings: [&str; 2], pictures: Vec<Picture>) {
     add_series(answer, context, endings, pictures.into_iter().enumerate().map(|(k, picture)| (k, k, picture)));
+}
+
+/// Adds the state with these coordinates that moves at each of these rates, if there are any and the study draws, and
+/// returns the motion of the number `shown`, drawn with an amplitude of a tenth of the sheet's size.
+pub(crate) fn add_moving(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    endings: [&str; 2],
+    (coordinates, rates): (&[f64], &[Vec<f64>]),
+    shown: usize,
+) -> Option<Picture> {
+    if rates.is_empty() || context.study.draw.is_empty() {
+        return None;
+    }
+    let pictures = moving(context, coordinates, rates);
+    let shown = pictures.get(shown)?.displaced(0.1);
+    add_motions(answer, context, endings, pictures);
+    Some(shown)
 }
 
 /// Adds pictures as a VTK series if the study asks for it, each with the number that names its file and its time. The

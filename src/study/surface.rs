@@ -5,7 +5,6 @@ mod summary;
 use super::trace::enter_folded;
 use super::{Answer, Context, StudyError, StudyResult, energies, states, supported};
 use crate::analysis::chart::screw_coordinates;
-use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
@@ -135,8 +134,7 @@ fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) 
             break;
         }
         let state = enter_folded(&mut model, screw_coordinates(&point.shape), &point.angles);
-        crossing
-            .extend(finder.as_mut().map(|finder| finder.marks(unlocked.drawn(), &state, STACKED_LAYERS_MARGIN).any));
+        crossing.extend(finder.as_mut().map(|finder| finder.marks(unlocked.drawn(), &state).any));
         states.push(state);
     }
     surface.truncate(states.len());

@@ -9,7 +9,7 @@ use super::supported::small_tolerance;
 use super::{Answer, Context, StudyError, StudyResult, branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;
-use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
+use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
 use crate::math::Vec3;
@@ -117,7 +117,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     let model = assembly.model(Gauge::Held);
     let mut crosses = |state: &Folded| {
         let shown = state_at(&model, coordinates_in(assembly.domain(), state), &state.angles);
-        finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any)
+        finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown).any)
     };
     let mut step = 0;
     let mut observe = |_: (usize, i8), point: &continuation::Point| {
@@ -169,7 +169,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
             let state = folded_state(assembly, &mut model, folded);
             let state =
                 along.map_or(state, |along| State { fold_angle: along.angles.clone(), ..along.relaxed.state.clone() });
-            let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
+            let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| spec.engine == Engine::Both);
             let ratios = ratios::of_state(assembly, spec.response.as_ref(), &state.coordinates);

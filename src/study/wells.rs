@@ -6,7 +6,7 @@ mod summary;
 use super::states::{self, Shown};
 use super::surface::{check_resolution, curvature_of_cell};
 use super::{Answer, Context, StudyError, StudyResult, start, supported};
-use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
+use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::state::State;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier};
 use crate::analysis::wells::limit::{Height, rigid_limit};
@@ -144,10 +144,7 @@ fn sampling(assembly: &Assembly, spec: &WellsSpec) -> Sampling {
 /// Whether each well intersects itself.
 fn crossing(assembly: &Assembly, wells: &[Well]) -> Vec<bool> {
     let mut finder = SelfIntersection::new(assembly);
-    wells
-        .iter()
-        .map(|well| finder.marks(assembly.drawn(), &well.settled.relaxed.state, STACKED_LAYERS_MARGIN).any)
-        .collect()
+    wells.iter().map(|well| finder.marks(assembly.drawn(), &well.settled.relaxed.state).any).collect()
 }
 
 /// Returns the largest residual; `None` if nothing was found.
@@ -297,7 +294,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     let mut finder = SelfIntersection::new(context.assembly);
     let mut shown = |state: &State, residuals: [f64; 2]| {
         let state = states::with_all_angles(context, state);
-        let marks = finder.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN);
+        let marks = finder.marks(context.assembly.drawn(), &state);
         Shown { state, residuals: Some(residuals), marks: Some(marks) }
     };
     let mut all = Vec::new();

@@ -72,14 +72,14 @@ impl SelfIntersection {
         }
     }
 
-    /// The self-intersections of a state. `margin`: how deep faces may be in each other and still lie on each other, as
-    /// a part of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
-    pub fn marks(&mut self, drawn: &Drawn, state: &State, margin: f64) -> Marks {
+    /// The self-intersections of a state. [`STACKED_LAYERS_MARGIN`] is how deep faces may be in each other and still lie
+    /// on each other, as a part of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
+    pub fn marks(&mut self, drawn: &Drawn, state: &State) -> Marks {
         let positions = self.view.positions(drawn, &state.coordinates);
-        let mut found = self.finder.crossings(&positions, margin * self.mean_edge).faces;
+        let mut found = self.finder.crossings(&positions, STACKED_LAYERS_MARGIN * self.mean_edge).faces;
         for &(edge, faces) in &self.hinges {
             // false for edges that are no hinges: their angle is NaN
-            if state.fold_angle[edge].abs() > PI + margin {
+            if state.fold_angle[edge].abs() > PI + STACKED_LAYERS_MARGIN {
                 faces.into_iter().for_each(|face| found[face] = true);
             }
         }

@@ -1,6 +1,6 @@
 //! Stops: conditions that end a path before the driven value reaches its target.
 
-use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
+use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::state::{State, cylinder};
 use crate::math::fold_angle::fold_angle;
 use crate::model::{Assembly, DrivenModel, Model};
@@ -95,7 +95,7 @@ impl<'a> Stops<'a> {
     fn crosses(&mut self, driven: &DrivenModel, x: &[f64], tension: &[f64]) -> Option<f64> {
         let finder = self.crossing.as_mut()?;
         let shown = State::new(&driven.model, x, tension);
-        let any = finder.marks(self.assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any;
+        let any = finder.marks(self.assembly.drawn(), &shown).any;
         Some(if any { 1.0 } else { -1.0 })
     }
 

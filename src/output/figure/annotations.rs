@@ -4,7 +4,7 @@ use super::axes::rounded;
 use super::canvas::Canvas;
 use super::palette::{Colour, INK};
 use super::style::{Font, PaperPoint, Style};
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 
 /// Length of the arrow of the largest load, relative to the diagonal of the box around the sheet.
 const LONGEST: f64 = 0.15;
@@ -26,8 +26,7 @@ impl Annotations {
     /// Returns the start and the tip of the arrow of each load, in space; the lengths are proportional to the forces.
     pub(super) fn arrows(&self, points: &[Vec3]) -> Vec<[Vec3; 2]> {
         let finite = points.iter().filter(|point| point.iter().all(|x| x.is_finite()));
-        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-        let (low, high) = finite.fold(none, |(low, high), point| (low.inf(point), high.sup(point)));
+        let [low, high] = bounds(finite);
         let scale = LONGEST * (high - low).norm() / self.largest().max(f64::MIN_POSITIVE);
         self.loads.iter().map(|&(point, force)| [points[point], points[point] + force * scale]).collect()
     }

@@ -171,6 +171,13 @@ impl Canvas {
         self.taken.push(area);
     }
 
+    /// Reserves the area within this distance of a straight line.
+    pub(crate) fn take_line(&mut self, from: PaperPoint, to: PaperPoint, distance: f64) {
+        let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / 6.0).ceil().max(1.0);
+        let at = |part: f64| [0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis]));
+        (0..=steps as usize).for_each(|k| self.take(Area::around(at(k as f64 / steps), distance)));
+    }
+
     /// Sets text at the first of some places where it lies within `room` and overlaps no reserved area. Returns
     /// `false`, and sets no text, if there is no such place.
     pub(crate) fn text_within(

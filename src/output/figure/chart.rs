@@ -143,7 +143,7 @@ impl<'a> Plot<'a> {
     }
 
     fn draw(&self, canvas: &mut Canvas) {
-        self.grid(canvas);
+        grid(canvas, self.frame, &self.axes, [&self.chart.x, &self.chart.y]);
         for (number, points) in self.series.iter().enumerate() {
             self.join(canvas, points, number);
         }
@@ -161,10 +161,6 @@ impl<'a> Plot<'a> {
         }
     }
 
-    fn grid(&self, canvas: &mut Canvas) {
-        grid(canvas, self.frame, &self.axes, [&self.chart.x, &self.chart.y]);
-    }
-
     /// Draws the line and the marks of a series; the more of the later series coincide with it, the wider they are.
     fn join(&self, canvas: &mut Canvas, points: &[(PaperPoint, &Point)], number: usize) {
         let near = |[a, b]: [PaperPoint; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= COINCIDENT;
@@ -176,12 +172,7 @@ impl<'a> Plot<'a> {
         if places.len() > 1 {
             canvas.line(&places, Style::line(SERIES[number % SERIES.len()], 2.2 + 4.0 * wider));
         }
-        for pair in places.windows(2) {
-            let [a, b] = [pair[0], pair[1]];
-            let steps = ((a[0] - b[0]).hypot(a[1] - b[1]) / 6.0).ceil().max(1.0);
-            let at = |k: f64| [0, 1].map(|axis| a[axis] + k / steps * (b[axis] - a[axis]));
-            (0..steps as usize).for_each(|k| canvas.take(Area::around(at(k as f64), 2.0)));
-        }
+        places.windows(2).for_each(|ends| canvas.take_line(ends[0], ends[1], 2.0));
         for (place, point) in points {
             canvas.told(&point.label);
             mark(canvas, *place, number, MARK + 4.0 * wider);

@@ -2,7 +2,7 @@
 
 use super::projection::Projection;
 use super::sheet::{Frame, Pen, ROOM, Shape, shapes};
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 use crate::output::Picture;
 
 /// The view that all frames of a film share.
@@ -41,8 +41,7 @@ impl FilmView {
 fn placed(view: &Projection, picture: &Picture) -> Vec<Vec3> {
     let places: Vec<Vec3> = picture.points.iter().map(|point| Vec3::from(view.place(point))).collect();
     let finite = places.iter().filter(|place| place.iter().all(|x| x.is_finite()));
-    let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    let (low, high) = finite.fold(none, |(low, high), place| (low.inf(place), high.sup(place)));
+    let [low, high] = bounds(finite);
     places.iter().map(|place| place - (low * 0.5 + high * 0.5)).collect()
 }
 

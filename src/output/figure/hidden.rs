@@ -10,7 +10,7 @@
 use std::collections::HashMap;
 
 use super::style::PaperPoint;
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 
 /// Distances that count as zero, relative to the extent of the scene: in general, and in a scene of many pieces, where
 /// surfaces that nearly coincide would otherwise be cut into far more pieces that cannot be distinguished.
@@ -81,9 +81,7 @@ struct Limits {
 
 impl Limits {
     fn of(pieces: &[Piece]) -> Self {
-        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-        let corners = pieces.iter().flat_map(|piece| &piece.corners);
-        let (low, high) = corners.fold(none, |(low, high), corner| (low.inf(corner), high.sup(corner)));
+        let [low, high] = bounds(pieces.iter().flat_map(|piece| &piece.corners));
         let size = (high - low).max().max(0.0);
         let touching = TOUCHING[usize::from(pieces.len() > MANY)];
         Self { length: touching * size, area: NO_AREA * size * size, lift: LIFT.max(2.0 * touching) * size }

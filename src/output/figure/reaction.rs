@@ -70,20 +70,11 @@ pub(crate) fn svg(plot: &ReactionPlot, caption: &Caption) -> Canvas {
         for (piece, stable) in pieces(&states) {
             let places: Vec<PaperPoint> = piece.iter().map(place).collect();
             canvas.line(&places, curve(number, stable));
-            places.windows(2).for_each(|ends| take(&mut canvas, ends[0], ends[1]));
+            places.windows(2).for_each(|ends| canvas.take_line(ends[0], ends[1], 3.0));
         }
     }
     events(&mut canvas, plot, frame, &|state| has(&state).then(|| place(state)));
     canvas
-}
-
-/// Reserves the area of a straight line, which no text covers.
-fn take(canvas: &mut Canvas, from: PaperPoint, to: PaperPoint) {
-    let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / 6.0).ceil().max(1.0);
-    for k in 0..=steps as usize {
-        let part = k as f64 / steps;
-        canvas.take(Area::around([0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis])), 3.0));
-    }
 }
 
 /// Returns the pieces of a branch whose states are all stable, or all not; neighbours have their common state, but where

@@ -11,7 +11,7 @@ use super::hidden::{Piece, back_to_front};
 use super::palette::{Colour, GREY, INK, MOUNTAIN, SHADOW, VALLEY};
 use super::projection::Projection;
 use super::style::{Font, PaperPoint, Style};
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 use crate::output::Picture;
 use crate::output::error::ShapeError;
 use crate::sheet::{Assignment, EdgeKind};
@@ -86,9 +86,7 @@ impl Frame {
     /// Fits the points into the width of the figure, and into a height of at most three quarters of the width, below a
     /// head of this height.
     pub(super) fn around<'a>(places: impl Iterator<Item = &'a Vec3>, head: f64) -> Self {
-        let finite = places.filter(|place| is_finite(place));
-        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-        let (low, high) = finite.fold(none, |(low, high), place| (low.inf(place), high.sup(place)));
+        let [low, high] = bounds(places.filter(|place| is_finite(place)));
         let extent = (high - low).map(|length| length.max(f64::MIN_POSITIVE));
         let room = WIDTH - 2.0 * ROOM;
         let scale = (room / extent.x).min(0.75 * room / extent.y).min(f64::MAX);

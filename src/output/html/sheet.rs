@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::numbers::{Arrays, scale};
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 use crate::output::figure::projection::Projection;
 use crate::output::picture::{OnLines, Picture};
 use crate::output::sequence::{places, sequences};
@@ -140,8 +140,7 @@ fn orders(states: &[Numbered<'_>], table: Option<&str>) -> Vec<Order> {
 /// Returns the middle of the box around points, and half of its diagonal; points that are not finite are left out.
 fn extent(points: &[Vec3]) -> (Vec3, f64) {
     let finite = points.iter().filter(|point| point.iter().all(|x| x.is_finite()));
-    let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    let (low, high) = finite.fold(none, |(low, high), point| (low.inf(point), high.sup(point)));
+    let [low, high] = bounds(finite);
     if low.x > high.x {
         return (Vec3::zeros(), 0.0);
     }

@@ -111,7 +111,7 @@ fn kind(letter: Assignment) -> EdgeKind {
 /// Returns the vertices and cells of which the points are copies; each point is a vertex of its own if the file does
 /// not say.
 fn places(data: &Attributes, points: usize) -> Vec<(usize, [i32; 2])> {
-    let numbers = |name: &str| point_numbers(name, data).filter(|found| found.len() == points);
+    let numbers = |name: &str| numbers_of(name, &data.point).filter(|found| found.len() == points);
     match ["vertex", "cell1", "cell2"].map(numbers) {
         [Some(vertex), Some(c1), Some(c2)] => {
             (0..points).map(|k| (vertex[k] as usize, [c1[k] as i32, c2[k] as i32])).collect()
@@ -120,9 +120,9 @@ fn places(data: &Attributes, points: usize) -> Vec<(usize, [i32; 2])> {
     }
 }
 
-/// Returns the numbers of a point array; `None` if the file has no such array.
-fn point_numbers(name: &str, data: &Attributes) -> Option<Vec<f64>> {
-    data.point.iter().find_map(|attribute| match attribute {
+/// Returns the numbers of an array; `None` if there is no such array.
+fn numbers_of(name: &str, arrays: &[Attribute]) -> Option<Vec<f64>> {
+    arrays.iter().find_map(|attribute| match attribute {
         Attribute::DataArray(array) if array.name == name => array.data.cast_into(),
         _ => None,
     })
@@ -130,7 +130,7 @@ fn point_numbers(name: &str, data: &Attributes) -> Option<Vec<f64>> {
 
 /// Returns the displacements of all points; zero if the file has no such array, or one of another length.
 fn displacements(data: &Attributes, points: usize) -> Vec<Vec3> {
-    let found = point_numbers("displacement", data);
+    let found = numbers_of("displacement", &data.point);
     match found {
         Some(numbers) if numbers.len() == 3 * points => numbers.chunks_exact(3).map(Vec3::from_column_slice).collect(),
         _ => vec![Vec3::zeros(); points],
@@ -251,9 +251,6 @@ fn checked(cell: usize, used: &[u64], count: usize) -> Result<Vec<usize>, VtuFau
 
 /// Returns the numbers of a cell array on the lines; `None` if the file has no such array.
 fn numbers_on(name: &str, data: &Attributes, line_cells: &[usize]) -> Option<Vec<f64>> {
-    let array = data.cell.iter().find_map(|attribute| match attribute {
-        Attribute::DataArray(array) if array.name == name => array.data.cast_into::<f64>(),
-        _ => None,
-    })?;
+    let array = numbers_of(name, &data.cell)?;
     line_cells.iter().map(|&cell| array.get(cell).copied()).collect()
 }

@@ -2,13 +2,12 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::PathBuf;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess};
 
 use crate::scene::Located;
 use crate::scene::forms::FileName;
@@ -103,7 +102,7 @@ struct AxisTable {
     others: BTreeMap<String, IgnoredAny>,
 }
 
-read_as_written!(SweepValues);
+read_as_written!(SweepValues, SweepSpec);
 
 impl Written for SweepValues {
     const FORMS: &str = "a list of values, { linear = [from, to, count] }, { log = [from, to, count] } or \
@@ -161,36 +160,26 @@ impl SweepValues {
     }
 }
 
-impl<'de> Deserialize<'de> for SweepSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Axes;
-        impl<'de> Visitor<'de> for Axes {
-            type Value = SweepSpec;
+impl Written for SweepSpec {
+    const FORMS: &str = "a table of keys and their values, as in \"energy.bars.stiffness\" = [1e2, 1e4]";
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a table of keys and their values, as in \"energy.bars.stiffness\" = [1e2, 1e4]")
+    fn from_table<'de, A: MapAccess<'de>>(mut map: A) -> Result<Self, A::Error> {
+        let mut sweep = Self::default();
+        while let Some(key) = map.next_key::<Located<String>>()? {
+            if key.as_str() == ZIP {
+                sweep.zip = map.next_value()?;
+                continue;
             }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<SweepSpec, A::Error> {
-                let mut sweep = SweepSpec::default();
-                while let Some(key) = map.next_key::<Located<String>>()? {
-                    if key.as_str() == ZIP {
-                        sweep.zip = map.next_value()?;
-                        continue;
-                    }
-                    let values: Located<SweepValues> = map.next_value()?;
-                    let table = matches!(*values, SweepValues::File(_));
-                    if table != (key.as_str() == POINTS) {
-                        let message = format!("`{}` has no values, expected {}", *key, SweepValues::FORMS);
-                        return Err(A::Error::custom(message));
-                    }
-                    sweep.axes.push(SweepAxis { key, values });
-                }
-                sweep.axes.sort_by_key(|axis| axis.key.span().start);
-                Ok(sweep)
+            let values: Located<SweepValues> = map.next_value()?;
+            let table = matches!(*values, SweepValues::File(_));
+            if table != (key.as_str() == POINTS) {
+                let message = format!("`{}` has no values, expected {}", *key, SweepValues::FORMS);
+                return Err(A::Error::custom(message));
             }
+            sweep.axes.push(SweepAxis { key, values });
         }
-        deserializer.deserialize_map(Axes)
+        sweep.axes.sort_by_key(|axis| axis.key.span().start);
+        Ok(sweep)
     }
 }
 

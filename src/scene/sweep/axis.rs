@@ -3,9 +3,20 @@
 use super::super::setting::{Setting, float};
 use super::super::spec::{SweepAxis, SweepRange, SweepValues};
 use super::super::{SceneError, SceneFile};
-use super::place::{Place, TABLE};
 use super::rows;
+use std::ops::Range;
 use std::path::PathBuf;
+
+/// Name of the table of sweeps.
+pub(super) const TABLE: &str = "sweep";
+
+/// Where a value of an axis is written.
+pub(super) enum Place {
+    /// In the scene.
+    Span(Range<usize>),
+    /// In a line of a table.
+    Line(PathBuf, usize),
+}
 
 /// An axis with its values.
 #[derive(Clone, Debug)]
@@ -13,7 +24,7 @@ pub(super) struct Axis {
     /// The paths of the keys that are set.
     pub(super) keys: Vec<String>,
     /// The place of the axis in the scene.
-    pub(super) span: std::ops::Range<usize>,
+    pub(super) span: Range<usize>,
     /// The text of each value for each key.
     values: Vec<Vec<String>>,
     /// The table of points and the lines of its rows.

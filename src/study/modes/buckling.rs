@@ -32,10 +32,9 @@ pub(super) fn factors(
     let mut table = Table::new("mode,factor");
     found.factors.iter().enumerate().for_each(|(k, factor)| table.push([k.into(), (*factor).into()]));
     answer.add(format!("{name}-buckling.csv"), table);
-    if let (Some(factor), false) = (found.factors.first(), found.vectors.is_empty() || context.study.draw.is_empty()) {
-        let pictures = states::moving(context, &state.coordinates, &found.vectors);
-        let shown = pictures[0].displaced(0.1);
-        states::add_motions(answer, context, ["_buckling", "-buckling"], pictures);
+    let motions = (&state.coordinates[..], &found.vectors[..]);
+    let shown = states::add_moving(answer, context, ["_buckling", "-buckling"], motions, 0);
+    if let (Some(factor), Some(shown)) = (found.factors.first(), shown) {
         let factor = rounded(*factor, 5);
         let words = format!("buckles at {factor} times the loads, drawn with an amplitude of a tenth of the sheet");
         states::add_figure_as(&format!("{name}-buckling"), answer, context, (&shown, &words));

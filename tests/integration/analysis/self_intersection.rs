@@ -158,7 +158,7 @@ impl Case {
     fn marks(&mut self, coordinates: Vec<f64>, angle: f64) -> Marks {
         let edges = self.tiling.edges.len();
         let state = State { fold_angle: vec![angle; edges], ..State::empty(coordinates, edges) };
-        self.check.marks(&self.drawn, &state, STACKED_LAYERS_MARGIN)
+        self.check.marks(&self.drawn, &state)
     }
 }
 

@@ -148,7 +148,7 @@ fn tubes_are_shown_closed() {
         assert_eq!(euler, 0, "{seam:?}, inwards {inwards}: a ring");
         let coordinates = case.drawn().coordinates.clone();
         let state = State { fold_angle: case.start_angles().to_vec(), ..State::empty(coordinates, case.edges()) };
-        let marks = SelfIntersection::new(&case).marks(case.drawn(), &state, 1e-9);
+        let marks = SelfIntersection::new(&case).marks(case.drawn(), &state);
         assert!(!inwards || !marks.any, "{seam:?}");
     }
 }
