@@ -34,11 +34,9 @@ pub(crate) fn csv_line<'a>(fields: impl Iterator<Item = &'a str>) -> String {
 /// A value of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Value {
-    /// Not computed.
-    Empty,
     /// An integer.
     Whole(i64),
-    /// A number; NaN is written as an empty field.
+    /// A number; NaN, which is written as an empty field, where it was not computed.
     Number(f64),
     /// A word without commas and quotes.
     Word(&'static str),
@@ -59,7 +57,6 @@ impl Column {
     fn new(values: impl Iterator<Item = Value> + Clone) -> Self {
         let whole = |value| if let Value::Whole(number) = value { Some(number) } else { None };
         let number = |value| match value {
-            Value::Empty => Some(f64::NAN),
             Value::Whole(number) => Some(number as f64),
             Value::Number(number) => Some(number),
             Value::Word(_) => None,
@@ -162,7 +159,6 @@ impl Value {
     fn append_to(self, text: &mut String) {
         // writing to a string does not fail
         let _ = match self {
-            Self::Empty => Ok(()),
             Self::Whole(number) => write!(text, "{number}"),
             Self::Word(word) => write!(text, "{word}"),
             Self::Number(number) if number.is_nan() => Ok(()),
@@ -193,7 +189,7 @@ impl From<usize> for Value {
 
 impl<T: Into<Self>> From<Option<T>> for Value {
     fn from(value: Option<T>) -> Self {
-        value.map_or(Self::Empty, Into::into)
+        value.map_or(Self::Number(f64::NAN), Into::into)
     }
 }
 

@@ -43,13 +43,8 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     if let Some(start) = &spec.start {
         check_start(context, start)?;
     }
-    if context
-        .assembly
-        .terms()
-        .facets
-        .as_ref()
-        .is_some_and(|facets| facets.stiffness.has_rigid() && !facets.stiffness.is_rigid())
-    {
+    let stiffness = context.assembly.terms().facets.as_ref().map(|facets| &facets.stiffness);
+    if stiffness.is_some_and(|stiffness| stiffness.has_rigid() && !stiffness.is_rigid()) {
         let message = "spatially varying modes are those of polygons that are all rigid or all soft";
         return Err(context.refuse(message, "give all facets a finite stiffness, or leave them out").into());
     }

@@ -72,8 +72,8 @@ impl SelfIntersection {
         }
     }
 
-    /// The self-intersections of a state. [`STACKED_LAYERS_MARGIN`] is how deep faces may be in each other and still lie
-    /// on each other, as a part of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
+    /// The self-intersections of a state. [`STACKED_LAYERS_MARGIN`] is how deep faces may be in each other and still
+    /// lie on each other, as a part of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
     pub fn marks(&mut self, drawn: &Drawn, state: &State) -> Marks {
         let positions = self.view.positions(drawn, &state.coordinates);
         let mut found = self.finder.crossings(&positions, STACKED_LAYERS_MARGIN * self.mean_edge).faces;
