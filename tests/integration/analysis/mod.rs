@@ -17,6 +17,7 @@ mod landscape_map;
 mod landscape_torus;
 mod path_events;
 mod path_laws;
+mod path_steps;
 mod planar_curves;
 mod random_folds;
 mod response;

@@ -83,6 +83,7 @@ impl<C: Implicit> Follower<'_, C> {
                 return End::Stopped { indicator };
             }
             if self.points[self.points.len() - 1].arc_length >= options.length {
+                events.retain(|event| event.point.arc_length <= options.length);
                 return if self.cut(options.length) { End::Length } else { End::Failed };
             }
             if !observe(&self.points[self.points.len() - 1]) {

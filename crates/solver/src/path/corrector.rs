@@ -56,8 +56,7 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let rounded = residuals.length <= tolerance && size <= rounding;
         if size <= tolerance || (polished == MOST_POLISHED && rounded) {
             let found = precise(problem, bordered, Corrected { at, residuals, off, iterations }, plane)?;
-            let broken_down = problem.breakdown(&found.at.x).is_some() || !problem.energy(&found.at.x).is_finite();
-            return Ok((!broken_down).then_some(found));
+            return Ok(Some(found).filter(|found| is_sound(problem, found)));
         }
         if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
             break;
@@ -73,7 +72,8 @@ pub(super) fn correct<P: ParametrizedProblem>(
             // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
             let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), bordered.length());
             let kept = Corrected { at, residuals, off, iterations };
-            return Ok((rounded && is_short).then(|| bettered(problem, bordered, kept, &step)));
+            let found = (rounded && is_short).then(|| bettered(problem, bordered, kept, &step));
+            return Ok(found.filter(|found| is_sound(problem, found)));
         }
         if iterations == 0 {
             off = length;
@@ -83,6 +83,11 @@ pub(super) fn correct<P: ParametrizedProblem>(
         at.add(1.0, &step);
     }
     Ok(None)
+}
+
+/// Whether derivatives tell something about a state.
+fn is_sound<P: ParametrizedProblem>(problem: &P, found: &Corrected) -> bool {
+    problem.breakdown(&found.at.x).is_none() && problem.energy(&found.at.x).is_finite()
 }
 
 /// Returns a state whose gaps are within the tolerance, but not those that very stiff measures have by their tensions,

@@ -85,8 +85,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let mut found = vec![];
         let inner = middle.filter(|middle| middle.arc_length < to.arc_length);
         let ends: Vec<&PathState> = [from].into_iter().chain(inner).chain([to]).collect();
-        for piece in ends.windows(2) {
-            found.extend(self.own_marks([piece[0], piece[1]])?);
+        for half in ends.windows(2) {
+            found.extend(self.own_marks([from, to], [half[0], half[1]])?);
         }
         for function in (0..watched[0].len()).filter(|&k| changed(watched[0][k], watched[1][k])) {
             let mut value = |problem: &P, state: &PathState| watch.values(problem, state)[function];
@@ -107,8 +107,12 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(found)
     }
 
-    /// Locates the extrema and branch points between two states.
-    fn own_marks(&mut self, [from, to]: [&PathState; 2]) -> Result<Vec<(PathState, PathMark)>, PathError> {
+    /// Locates the extrema and branch points between two states of a step, or of half of it.
+    fn own_marks(
+        &mut self,
+        step: [&PathState; 2],
+        [from, to]: [&PathState; 2],
+    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
         let mut level = Level { turn: None };
         let rates = [from, to].map(|state| state.tangent.parameter);
@@ -125,30 +129,33 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         {
             found.push((state, PathMark::ConjugateTurns));
         }
-        found.extend(self.branch_points([from, to], &level)?);
+        found.extend(self.branch_points(step, [from, to], &level)?);
         Ok(found)
     }
 
-    /// Locates all states between two others at which the level changes. Changes that are nearer to each other than
+    /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
     /// states that are taken for one are one, of higher multiplicity.
     fn branch_points(
         &mut self,
         [from, to]: [&PathState; 2],
+        ends: [&PathState; 2],
         level: &Level,
     ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
-        let (Some(mut before), Some(last)) = (level.of(from), level.of(to)) else { return Ok(found) };
+        let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(found) };
         if self.problem.has_kinks() {
             return Ok(found); // where stiffness jumps, a change of the level is no zero of it
         }
-        let (mut part, beside) = (0.0, SAME_STATE / (to.arc_length - from.arc_length));
+        let length = to.arc_length - from.arc_length;
+        let [mut part, end] = ends.map(|state| (state.arc_length - from.arc_length) / length);
+        let beside = SAME_STATE / length;
         for _ in 0..MOST_BRANCH_POINTS {
             if before == last {
                 break;
             }
             let mut differs = |state: &PathState| level.of(state).is_some_and(|here| here != before);
-            let Some((at, state)) = self.bisect([from, to], part, &mut differs)? else { break };
-            let beyond = if at + beside < 1.0 { self.between(from, to, at + beside)? } else { None };
+            let Some((at, state)) = self.bisect([from, to], [part, end], &mut differs)? else { break };
+            let beyond = if at + beside < end { self.between(from, to, at + beside)? } else { None };
             let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
             let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
             let point = match crossing {
@@ -202,16 +209,16 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(Crossing::Nowhere)
     }
 
-    /// Locates the first state found, beyond this part of the way between two others, of which something holds that
-    /// holds of the second one, and not where the search begins; with its part of the way. `None` where no state in
+    /// Locates the first state found, between these parts of the way between two others, of which something holds that
+    /// holds where the search ends, and not where it begins; with its part of the way. `None` where no state in
     /// between is found.
     fn bisect(
         &mut self,
         [from, to]: [&PathState; 2],
-        part: f64,
+        [mut low, mut high]: [f64; 2],
         holds: &mut dyn FnMut(&PathState) -> bool,
     ) -> Result<Option<(f64, PathState)>, PathError> {
-        let (mut low, mut high, mut best) = (part, 1.0, None);
+        let mut best = None;
         while high - low > LOCATED_PART {
             let middle = 0.5 * (low + high);
             let Some(state) = self.between(from, to, middle)? else { break };

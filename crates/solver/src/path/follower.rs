@@ -13,12 +13,14 @@ const SHORTEST_STEP: f64 = 1e-9;
 /// Error of a prediction relative to the step that is aimed at.
 const WANTED_ERROR: f64 = 0.02;
 /// Cosine of the largest angle between the tangents at both ends of a step.
-const LEAST_TANGENT_COSINE: f64 = 0.8;
+pub(super) const LEAST_TANGENT_COSINE: f64 = 0.8;
 /// Length of a step relative to the longest one below which a path whose stiffness jumps is taken to have a kink: there
 /// no step, however short, looks smooth.
 const KINK_STEP: f64 = 1e-3;
 /// Largest change of the measure of a soft element in a step: a fold angle in radians.
 const LARGEST_MEASURE_CHANGE: f64 = 0.5;
+/// Distance, over the scale of the parameter, from the value sought at which a state has it.
+const LOCATED: f64 = 1e-9;
 /// Bounds of the ratio of one step to the one before.
 pub(super) const SHRINK: f64 = 0.4;
 const GROWTH: f64 = 1.6;
@@ -54,7 +56,9 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<PathState, PathError> {
         let plane = Plane::of_parameter(x.len(), sign);
         let guess = Guess { x, tension, parameter: self.problem.parameter() };
-        self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart).map(|(state, _)| state)
+        let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
+        self.problem.accept(&mut state.x);
+        Ok(state)
     }
 
     /// Goes to how a state is written, with the reference that belongs to it.
@@ -167,7 +171,9 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
             return Ok(Some(state));
         }
         // next to a state at which the parameter turns only planes across the path meet it well
-        self.locate([from, to], &mut |_, state| state.parameter - parameter)
+        let found = self.locate([from, to], &mut |_, state| state.parameter - parameter)?;
+        let off = LOCATED * self.problem.parameter_scale();
+        Ok(found.filter(|state| (state.parameter - parameter).abs() <= off))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The work along a path: the integral of the conjugate quantity over the parameter, and steps of which it is checked.
 
-use super::follower::{Follower, SHRINK};
+use super::follower::{Follower, LEAST_TANGENT_COSINE, SHRINK};
 use super::interpolant::Cubic;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState};
@@ -13,12 +13,14 @@ const MOST_HALVINGS: usize = 8;
 /// path; and part of the longest step below which none is asked.
 const UNBALANCED: f64 = 1e-8;
 const SHORTEST_CHECKED: f64 = 1e-3;
+/// Rounding error of a sum of energies relative to its size.
+const ROUNDING: f64 = 1e-12;
 
 /// A step along a path.
 pub(super) struct Step {
     /// The state at its end.
     pub state: PathState,
-    /// The state half way, where it is found.
+    /// The state half way, where it is found and the path goes on through it.
     pub middle: Option<PathState>,
     /// The work along it.
     pub work: f64,
@@ -44,6 +46,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let balanced = self.is_balanced([last, &state], work);
             self.largest = largest;
             if balanced || way < SHORTEST_CHECKED * self.settings.max_step {
+                // another branch, or motions that cost nothing, may be met half way
+                let is_along = |end: &PathState, middle: &PathState| {
+                    self.cosine(&end.tangent, &middle.tangent) >= LEAST_TANGENT_COSINE
+                };
+                let middle = middle.filter(|middle| is_along(last, middle) && is_along(&state, middle));
                 return Ok(Some(Step { state, middle, work, longer }));
             }
             length = SHRINK * length.min(way);
@@ -51,12 +58,18 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         }
     }
 
-    /// Whether the potential changes by this work from one state to the next, as far as that is known.
+    /// Whether the potential changes by this work from one state to the next, as far as both are known: but for errors of
+    /// the rates, of sums, and of measures that are not quite met.
     fn is_balanced(&mut self, [from, to]: [&PathState; 2], work: f64) -> bool {
         let [before, after] = [from, to].map(|state| self.potential(state));
-        let noise = to.rate_errors[1] * (to.arc_length - from.arc_length) * (to.parameter - from.parameter).abs();
         let unbalanced = (after - before - work).abs();
-        self.problem.has_kinks() || unbalanced.is_nan() || unbalanced <= noise.max(UNBALANCED * self.largest[1])
+        let rounding = |state: &PathState, potential: f64| {
+            let pulls = state.tension.iter().zip(self.problem.gap_scale()).map(|(t, scale)| (t * scale).abs());
+            ROUNDING * (potential.abs() + self.problem.energy(&state.x).abs())
+                + state.residual_length * pulls.sum::<f64>()
+        };
+        let known = noise(from, to) + rounding(from, before) + rounding(to, after) + UNBALANCED * self.largest[1];
+        self.problem.has_kinks() || unbalanced.is_nan() || unbalanced <= known
     }
 
     fn potential(&mut self, state: &PathState) -> f64 {
@@ -86,13 +99,18 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         }
         let Some(middle) = self.between(from, to, 0.5)? else { return Ok((whole, None)) };
         let halves = Cubic::new(from, &middle).work() + Cubic::new(&middle, to).work();
-        let noise = to.rate_errors[1] * (to.arc_length - from.arc_length) * (to.parameter - from.parameter).abs();
         // the error of a cubic falls with the fourth power of the length and more
-        let work = if (halves - whole).abs() <= noise.max(15.0 * TOLERANCE * self.largest[1].max(halves.abs())) {
-            halves + (halves - whole) / 15.0
-        } else {
-            self.divided(from, &middle, left - 1)?.0 + self.divided(&middle, to, left - 1)?.0
-        };
+        let work =
+            if (halves - whole).abs() <= noise(from, to).max(15.0 * TOLERANCE * self.largest[1].max(halves.abs())) {
+                halves + (halves - whole) / 15.0
+            } else {
+                self.divided(from, &middle, left - 1)?.0 + self.divided(&middle, to, left - 1)?.0
+            };
         Ok((work, Some(middle)))
     }
+}
+
+/// The work between two states that errors of the rates make.
+fn noise(from: &PathState, to: &PathState) -> f64 {
+    to.rate_errors[1] * (to.arc_length - from.arc_length) * (to.parameter - from.parameter).abs()
 }
