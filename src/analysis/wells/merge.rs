@@ -8,11 +8,15 @@
 use super::placement::Placement;
 use super::settle::Settled;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Hinges, Stiffness};
+use crate::model::{Assembly, Gauge, Hinges, Spring, Stiffness};
 use std::collections::HashMap;
+use std::iter::successors;
 
 /// Largest difference of a fold angle between two finds of one well, in radians.
 pub(crate) const SAME_WELL_ANGLE_RAD: f64 = 1e-5;
+
+/// Torque of a hinge over its stiffness, in radians, up to which it is a rounding error of an equilibrium.
+const NO_TORQUE_RAD: f64 = 1e-11;
 
 /// Rest angles of copies of a crease that are the same differ by no more, in radians; stiffnesses relative to them.
 const ROUNDING: f64 = 1e-9;
@@ -71,20 +75,42 @@ fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
 #[derive(Clone, Debug)]
 pub struct Comparison {
     translations: Vec<Vec<usize>>,
+    /// The rest angle of each edge, and the distance from it within which its hinge hardly pulls.
+    slack: Vec<[f64; 2]>,
     placement: Option<Placement>,
+}
+
+/// Returns for each edge the rest angle of its hinge and the distance from it within which the hinge pulls less than
+/// equilibria are solved for: none to speak of for a spring, but laws that have no stiffness at rest leave angles there
+/// unknown, and states that differ in these alone are one.
+fn slack(assembly: &Assembly) -> Vec<[f64; 2]> {
+    let model = assembly.model(Gauge::Held);
+    let mut slack = vec![[0.0; 2]; model.edges()];
+    for hinge in model.soft().filter(|hinge| hinge.is_angle() && hinge.has_law()) {
+        let Some(edge) = hinge.edge() else { continue };
+        let Spring { rest, stiffness } = hinge.spring;
+        let pulls = |off: f64| {
+            [rest - off, rest + off].iter().any(|at| hinge.response(*at)[1].abs() > NO_TORQUE_RAD * stiffness)
+        };
+        let widths = successors(Some(SAME_WELL_ANGLE_RAD), |width| Some(1.2 * width));
+        slack[edge] = [rest, widths.take_while(|width| *width < 1.0 && !pulls(*width)).last().unwrap_or(0.0)];
+    }
+    slack
 }
 
 impl Comparison {
     /// Prepares the test for the states of a sheet.
     pub fn new(assembly: &Assembly) -> Self {
-        Self { translations: translations(assembly), placement: Placement::new(assembly) }
+        Self { translations: translations(assembly), slack: slack(assembly), placement: Placement::new(assembly) }
     }
 
-    /// Smallest over the translations of the largest difference of two lists of fold angles of all edges.
+    /// Smallest over the translations of the largest difference of two lists of fold angles of all edges; angles at which
+    /// hinges do not pull are no different.
     pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let differ = |moved: &Vec<usize>| {
-            let differences = a.iter().zip(moved).map(|(a, &to)| (a - b[to]).abs()).filter(|d| !d.is_nan());
-            differences.fold(0.0, f64::max)
+            let pairs = moved.iter().zip(&self.slack).zip(a).map(|((&to, slack), a)| (slack, [*a, b[to]]));
+            let felt = pairs.filter(|([rest, slack], pair)| !pair.iter().all(|at| (at - rest).abs() <= *slack));
+            felt.map(|(_, [a, b])| (a - b).abs()).filter(|d| !d.is_nan()).fold(0.0, f64::max)
         };
         self.translations.iter().map(differ).fold(f64::INFINITY, f64::min)
     }

@@ -12,12 +12,12 @@ use foldwell::analysis::wells::settle::MinimumTracker;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::kinematics::Closure;
 use foldwell::math::{Vec3, rotation};
-use foldwell::model::{Assembly, Boundary, Hinges, Terms};
-use foldwell::model::{Configuration, Gauge};
+use foldwell::model::{Assembly, Boundary, Configuration, Gauge, Hinges, OfAngle, Power, RestLengths, Terms};
 use foldwell::numerics::dense::null_space;
 use foldwell::numerics::parallel::Threads;
 use foldwell::sheet::{EdgeKey, Sheet, fold};
 use foldwell::solver::Options;
+use foldwell::{Rest, relax};
 use nalgebra::DVector;
 use std::f64::consts::{PI, TAU};
 
@@ -537,5 +537,35 @@ fn stiff_pyramids_turn_inside_out() {
         let inverted = inverted.state.total();
         let has = |energy: f64| energies.iter().any(|found| (found - energy).abs() < 1e-9 * inverted);
         assert!(inverted > 0.01 && has(0.0) && has(inverted), "{sides} sides: {energies:?}, {inverted}");
+    }
+}
+
+/// Claim: two triangles with a crease that rests as drawn have one well, whatever the power of its law: where it has no
+/// stiffness at rest, equilibria differ by what the law cannot feel. Source: the energy grows with the angle on both
+/// sides. Before, 2 to 47 wells were counted. Bars of finite stiffness between pinned vertices, 2 % too short, keep
+/// their energy `EA (0.02 l)^2 / (2 1.02 l)` beside such a crease; tolerance: rounding.
+#[test]
+fn creases_without_stiffness_at_rest_have_one_well() {
+    let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 1.0, 0.0], [1.5, 1.0, 0.3]];
+    let mesh = serde_json::json!({
+        "file_spec": 1.2, "vertices_coords": vertices, "faces_vertices": [[0, 1, 2], [1, 3, 2]]
+    });
+    let of = |exponent: f64, bars: f64| {
+        let sheet = fold::parse(&mesh.to_string(), "s.fold").unwrap();
+        let builder = Assembly::patch(sheet, [1, 1]).bars(bars).creases(1.0).rest(Rest::Drawn);
+        builder.crease_law(OfAngle(Power { exponent }))
+    };
+    for exponent in [1.5, 3.0, 5.0, 9.0] {
+        for bars in [1e4, foldwell::RIGID] {
+            let found = reached(&of(exponent, bars).build().unwrap(), 24, 1.0);
+            assert_eq!(found.len(), 1, "exponent {exponent}, bars {bars}");
+        }
+        for bars in [10.0, 1e6, 1e12] {
+            let longer = of(exponent, bars).rest_lengths(RestLengths::Factor(1.02));
+            let pinned = (0..3).fold(longer, |builder, vertex| builder.pin(vertex, [0, 0], [true; 3]));
+            let energy = relax(&pinned.build().unwrap()).unwrap().state.total();
+            let known = bars * 0.0004 / 2.04 * (1.0 + 2.0 * 1.25f64.sqrt());
+            assert!((energy / known - 1.0).abs() <= 1e-12, "exponent {exponent}, bars {bars}: {energy} {known}");
+        }
     }
 }
