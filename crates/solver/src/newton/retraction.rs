@@ -31,28 +31,21 @@ impl<P: Problem> Newton<'_, P> {
     /// far, by damped Gauss-Newton steps before.
     pub(super) fn retract_start(&mut self) -> Result<(), Failure> {
         let mut gap = Residuals::new(self.problem, &self.tangent.at, &self.tension).length;
-        let mut walled = false;
         for _ in 0..START_STEPS {
             if gap <= START_GAP {
                 return Ok(());
             }
             self.factor_start()?;
             let retracted = self.retract(self.x.clone(), self.tension.clone(), START_GAP, START_CHORDS);
-            match retracted {
-                Ok(trial) if trial.merit.is_finite() => {
-                    self.start_from(trial);
-                    return Ok(());
-                }
-                Ok(_) => walled = true,
-                Err(_) => {}
+            if let Some(trial) = retracted.ok().filter(|trial| trial.merit.is_finite()) {
+                self.start_from(trial);
+                return Ok(());
             }
-            let (left, is_walled) = self.approach(gap);
-            walled |= is_walled;
-            let Some(left) = left else { break };
+            let Some(left) = self.approach(gap) else { break };
             gap = left;
         }
-        // behind a wall of infinite energy: as it is, with the tensions that measures of finite stiffness have
-        let trial = if walled { self.stretched(self.x.clone(), self.tension.clone(), START_GAP) } else { None };
+        // as it is, with the tensions that measures of finite stiffness have
+        let trial = self.stretched(self.x.clone(), self.tension.clone(), START_GAP);
         self.start_from(trial.ok_or(Failure::Infeasible { gap })?);
         Ok(())
     }
@@ -73,28 +66,23 @@ impl<P: Problem> Newton<'_, P> {
         Ok(())
     }
 
-    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that
-    /// gap, and whether a state on the way had infinite energy.
-    fn approach(&mut self, gap: f64) -> (Option<f64>, bool) {
+    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller and the
+    /// energy is finite; that gap.
+    fn approach(&mut self, gap: f64) -> Option<f64> {
         let open = self.tangent.at.missing(&self.tension, self.problem.compliance());
         let (dx, dt) = self.tangent.system.apply(&vec![0.0; self.x.len()], &open);
-        let mut walled = false;
         for fraction in (0..START_HALVINGS).map(|halving| 0.5f64.powi(halving)) {
             let (x, tension) = (moved(&self.x, fraction, &dx), moved(&self.tension, fraction, &dt));
             let open = missing(&self.problem.gaps(&x), &tension, self.problem.compliance());
             let left = self.largest_scaled_gap(&open);
-            if left <= (1.0 - LEAST_CLOSED_PART * fraction) * gap {
-                if !self.problem.energy(&x).is_finite() {
-                    walled = true;
-                    continue;
-                }
+            if left <= (1.0 - LEAST_CLOSED_PART * fraction) * gap && self.problem.energy(&x).is_finite() {
                 (self.x, self.tension) = (x, tension);
                 self.problem.accept(&mut self.x);
                 self.linearize();
-                return (Some(left), walled);
+                return Some(left);
             }
         }
-        (None, walled)
+        None
     }
 
     /// The state at `x` with the tensions that measures of finite stiffness have there; `None` where rigid ones are not
