@@ -4,6 +4,7 @@ use super::iteration::Newton;
 use super::outcome::Failure;
 use crate::linearization::{HessianKind, missing};
 use crate::problem::{Problem, Residuals};
+use foldwell_numerics::sparse::FIXED;
 use foldwell_numerics::vector::{add_scaled, moved};
 
 /// Largest scaled gap of a start.
@@ -30,24 +31,42 @@ impl<P: Problem> Newton<'_, P> {
     /// Pulls the start onto the stiff measures: by chord corrections, and where one linearization does not reach so
     /// far, by damped Gauss-Newton steps before.
     pub(super) fn retract_start(&mut self) -> Result<(), Failure> {
+        self.stretch_held();
         let mut gap = Residuals::new(self.problem, &self.tangent.at, &self.tension).length;
+        let mut walled = false;
         for _ in 0..START_STEPS {
             if gap <= START_GAP {
                 return Ok(());
             }
             self.factor_start()?;
             let retracted = self.retract(self.x.clone(), self.tension.clone(), START_GAP, START_CHORDS);
-            if let Some(trial) = retracted.ok().filter(|trial| trial.merit.is_finite()) {
-                self.start_from(trial);
-                return Ok(());
+            match retracted {
+                Ok(trial) if trial.merit.is_finite() => {
+                    self.start_from(trial);
+                    return Ok(());
+                }
+                Ok(_) => walled = true,
+                Err(_) => {}
             }
-            let Some(left) = self.approach(gap) else { break };
+            let (left, is_walled) = self.approach(gap);
+            walled |= is_walled;
+            let Some(left) = left else { break };
             gap = left;
         }
-        // as it is, with the tensions that measures of finite stiffness have
-        let trial = self.stretched(self.x.clone(), self.tension.clone(), START_GAP);
+        // behind a wall of infinite energy: as it is, with the tensions that measures of finite stiffness have
+        let trial = if walled { self.stretched(self.x.clone(), self.tension.clone(), START_GAP) } else { None };
         self.start_from(trial.ok_or(Failure::Infeasible { gap })?);
         Ok(())
+    }
+
+    /// Gives measures of finite stiffness that no unknown moves, as those between pinned points, their tensions.
+    fn stretch_held(&mut self) {
+        let (measures, compliance) = (&self.problem.layout().stiff, self.problem.compliance());
+        for (row, tension) in self.tension.iter_mut().enumerate().filter(|(row, _)| compliance[*row] > 0.0) {
+            if measures.members(row).iter().all(|member| *member == FIXED) {
+                *tension = self.tangent.at.gaps[row] / compliance[row];
+            }
+        }
     }
 
     fn start_from(&mut self, trial: Trial) {
@@ -66,23 +85,28 @@ impl<P: Problem> Newton<'_, P> {
         Ok(())
     }
 
-    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller and the
-    /// energy is finite; that gap.
-    fn approach(&mut self, gap: f64) -> Option<f64> {
+    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that
+    /// gap, and whether a state on the way had infinite energy.
+    fn approach(&mut self, gap: f64) -> (Option<f64>, bool) {
         let open = self.tangent.at.missing(&self.tension, self.problem.compliance());
         let (dx, dt) = self.tangent.system.apply(&vec![0.0; self.x.len()], &open);
+        let mut walled = false;
         for fraction in (0..START_HALVINGS).map(|halving| 0.5f64.powi(halving)) {
             let (x, tension) = (moved(&self.x, fraction, &dx), moved(&self.tension, fraction, &dt));
             let open = missing(&self.problem.gaps(&x), &tension, self.problem.compliance());
             let left = self.largest_scaled_gap(&open);
-            if left <= (1.0 - LEAST_CLOSED_PART * fraction) * gap && self.problem.energy(&x).is_finite() {
+            if left <= (1.0 - LEAST_CLOSED_PART * fraction) * gap {
+                if !self.problem.energy(&x).is_finite() {
+                    walled = true;
+                    continue;
+                }
                 (self.x, self.tension) = (x, tension);
                 self.problem.accept(&mut self.x);
                 self.linearize();
-                return Some(left);
+                return (Some(left), walled);
             }
         }
-        None
+        (None, walled)
     }
 
     /// The state at `x` with the tensions that measures of finite stiffness have there; `None` where rigid ones are not
