@@ -44,7 +44,7 @@ impl TermKind {
     }
 }
 
-/// What a term says of its elements beside their measures.
+/// The kind, name, edges and laws of the elements of a term: all of it but their measures.
 #[derive(Clone, Debug)]
 pub(super) struct Head {
     pub kind: TermKind,

@@ -1,4 +1,4 @@
-//! What is watched along a trajectory.
+//! Quantities along a trajectory whose sign changes are events: curvature, strains, crease angles, crossing faces.
 
 use super::state::{Folded, Intersects, Stop};
 use crate::analysis::tube::SeamPlace;
@@ -21,7 +21,7 @@ pub(super) const INTERSECTION: usize = CURVATURE + 2;
 /// Number of the indicator of a closed tube: the defect of the condition that is not kept.
 pub(super) const CLOSED: usize = CURVATURE + 3;
 
-/// What is watched along the closure of a sheet.
+/// The quantities of a folding sheet whose sign changes along a trajectory are located.
 pub(super) struct Watched<'a, 'b> {
     pub embedding: &'a Embedding,
     pub periodic: bool,

@@ -6,7 +6,7 @@ mod loading;
 
 use super::{Model, POSE, Support};
 use crate::model::drive::{Drive, DriveError, Driven};
-use crate::model::element::{Element, Local, TermKind};
+use crate::model::element::{Element, TermKind};
 use crate::model::law::Memory;
 use crate::numerics::vector::dot;
 use crate::solver::path::{ParametrizedProblem, Rates};
@@ -152,28 +152,6 @@ impl DrivenModel {
 }
 
 impl Model {
-    /// Returns the gradient of the potential of the loads, for a factor of 1.
-    fn load_rates(&self, x: &[f64]) -> Vec<f64> {
-        let mut rates = vec![0.0; self.free.len()];
-        if self.loads.is_empty() {
-            return rates;
-        }
-        let all = self.generalised(x);
-        let points = self.points();
-        let mut of_poses = vec![0.0; self.equations.bodies.coordinates()];
-        let mut local = Local::default();
-        for (part, forces) in self.loaded_parts() {
-            self.equations.bodies.load(part, &forces, &all, &mut local);
-            of_poses[POSE * part..POSE * (part + 1)].copy_from_slice(&local.gradient);
-        }
-        for (rate, &k) in rates.iter_mut().zip(&self.free) {
-            let k = k as usize;
-            let by_coordinate = if k < points { -self.loads[k] } else { of_poses[k - points] };
-            *rate = by_coordinate * self.unit(k);
-        }
-        rates
-    }
-
     /// Adds supports of these linear functions, at their values in the reference state, and chooses the unknowns anew.
     fn support_moved(&mut self, functions: Vec<Vec<(usize, f64)>>, is_angle: bool) {
         for terms in functions {

@@ -20,8 +20,8 @@ parameters! {
     /// the edges `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of
     /// `pi / sides` makes all triangles isosceles: that is the Yoshimura pattern.
     ///
-    /// With radius `r`, height `h` and twist `t` the edges between two polygons have the length `sqrt(h^2 + 2 r^2 (1 -
-    /// cos t))`, and the diagonals the same with `t - 2 pi / sides` in place of `t`.
+    /// The edges between two polygons have the length `sqrt(h^2 + 2 r^2 (1 - cos t))`, where `r` is the radius, `h` the height
+    /// and `t` the twist; the diagonals have the same with `t - 2 pi / sides` in place of `t`.
     Kresling {
         /// Number of sides of the polygons, 3 to 1000. Default 6.
         sides: usize = 6,

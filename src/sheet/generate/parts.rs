@@ -1,4 +1,4 @@
-//! What generators share: how their parameters are defined, and the step from vertices and polygons to a sheet.
+//! Parts that all generators use: the macro of their parameters, and the step from vertices and polygons to a sheet.
 
 use super::error::GenerateError;
 use crate::math::Vec3;

@@ -1,7 +1,8 @@
 //! The first order of loading: how a state changes with its loads, and what that does to its stiffness.
 
-use super::DrivenModel;
 use super::effect::Effect;
+use super::{DrivenModel, Model, POSE};
+use crate::model::element::Local;
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::self_stress::self_stress;
 use crate::solver::{Linearization, Tangent};
@@ -34,5 +35,29 @@ impl DrivenModel {
         let stress = self_stress(&self.model, &tangent.at, &rates.dt);
         let of_stress = stress.map(|stress| self.model.geometric_stiffness(x, &none, &stress));
         (self.model.geometric_stiffness(x, &forces, &rates.dt), of_stress)
+    }
+}
+
+impl Model {
+    /// Returns the gradient of the potential of the loads, for a factor of 1.
+    pub(super) fn load_rates(&self, x: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; self.free.len()];
+        if self.loads.is_empty() {
+            return rates;
+        }
+        let all = self.generalised(x);
+        let points = self.points();
+        let mut of_poses = vec![0.0; self.equations.bodies.coordinates()];
+        let mut local = Local::default();
+        for (part, forces) in self.loaded_parts() {
+            self.equations.bodies.load(part, &forces, &all, &mut local);
+            of_poses[POSE * part..POSE * (part + 1)].copy_from_slice(&local.gradient);
+        }
+        for (rate, &k) in rates.iter_mut().zip(&self.free) {
+            let k = k as usize;
+            let by_coordinate = if k < points { -self.loads[k] } else { of_poses[k - points] };
+            *rate = by_coordinate * self.unit(k);
+        }
+        rates
     }
 }
