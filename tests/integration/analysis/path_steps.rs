@@ -4,7 +4,7 @@
 //! Sources: minima followed in 400 increments of the drive by Newton's method with full eigenvalue decompositions, in
 //! a program of its own (energies of four sheets); the energy of one hinge, `k l (phi - phi0)^2 / 2`.
 
-use foldwell::analysis::path::{BranchPoint, PathBranch, PathEnd, PathEvent, PathOptions, follow_path};
+use foldwell::analysis::path::{BranchPoint, PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, follow_path};
 use foldwell::math::Vec3;
 use foldwell::model::{Builder, Drive, Driven, TermKind};
 use foldwell::sheet::fold;
@@ -191,4 +191,29 @@ fn a_driven_stiffness_ends_where_it_began() {
         assert_eq!((&branch.end, events(&branch, PathEvent::LimitLoad).len()), (&PathEnd::Returned, 1), "{max_step}");
         assert!((branch.points.last().unwrap().drive - 1.0).abs() <= 1e-9, "{max_step}");
     }
+}
+
+/// Claim: a sheet that is stretched until one of its triangles has no height ends there, stable and without events, for
+/// every step. Before, it arrived with steps of 0.05 at another equilibrium, was lost with 0.2, and ended later with
+/// 0.01. Tolerance: a last step that is refused is within 1e-6 of the collapse.
+#[test]
+fn paths_end_where_a_triangle_collapses() {
+    let vertices = [
+        [0.251, 0.651, 0.059],
+        [0.495, 0.001, 0.299],
+        [0.942, 0.341, 0.078],
+        [0.276, 0.24, -0.133],
+        [0.338, 0.51, -0.047],
+        [0.822, 0.63, -0.146],
+    ];
+    let faces = [[4, 1, 2], [4, 5, 0], [5, 4, 2], [3, 4, 0], [4, 3, 1]];
+    let assembly = pinned(&vertices, &faces, [1e6, 1.0], &[4, 1, 2]).build().unwrap();
+    let ends = STEPS.map(|max_step| {
+        let branch = followed(&assembly, moved(3, [0.34, 0.89, 0.11]), -0.998, max_step);
+        assert_eq!(branch.end, PathEnd::Failed, "{max_step}");
+        let is_plain = |point: &PathPoint| point.event.is_none() && point.negative_eigenvalues == Some(0);
+        assert!(branch.points.iter().all(is_plain), "{max_step}");
+        branch.points.last().unwrap().drive
+    });
+    assert!(ends.iter().all(|end| (end - ends[0]).abs() <= 1e-6), "{ends:?}");
 }

@@ -176,3 +176,18 @@ fn dead_end() {
     let last = &found.points[found.points.len() - 1];
     assert!(last.x[0].abs() < 0.01, "{:?}", last);
 }
+
+/// Claim: events of the last step behind the length at which a curve is cut are left out; those before it are kept.
+/// Source: a circle of radius 1/2 is at `(-1/2, 0)` after a length of pi/2.
+#[test]
+fn events_behind_the_end_are_left_out() {
+    for shorter in (-10..40).filter(|k| *k != 0).map(|k| 1e-3 * f64::from(k)) {
+        let mut curve = Textbook { unknowns: 2, equations: circle, indicator: |point| point.x[1] };
+        // it starts at an angle of 0.1, half of which is the length from (1/2, 0) to there
+        let options = CurveOptions { length: 0.5 * PI - 0.05 - shorter, ..CurveOptions::default() };
+        let (sin, cos) = 0.1f64.sin_cos();
+        let found = run(&mut curve, &[0.5 * cos, 0.5 * sin], &[-sin, cos], &options);
+        assert_eq!(found.end, End::Length);
+        assert_eq!(found.events.len(), usize::from(shorter < 0.0), "{shorter}");
+    }
+}
