@@ -94,7 +94,8 @@ class Assembly:
             pins: Vertices that are held, each a dict as `[[pin]]`: `{"vertex": 3, "cell": (0, 0), "axes": "xyz"}`.
             loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`; or an array with
                 a force for each vertex, cell by cell, shape (n, 3); or the weight of the sheet, `{"weight": (0, 0, -9.81)}`.
-            pressures: Pressures on faces, each a dict as `[[pressure]]`: `{"value": 0.1}` on all, positive along their normals.
+            pressures: Pressures on faces, each a dict as `[[pressure]]`: `{"value": 0.1}` on all, positive along their normals;
+                `{"name": "air"}` for drives of the pressure, `{"name": "p", "pressure": "air", "to": 0.1}`, or of the volume.
             parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
             ties: Vertices that are drawn in one place and stay together, each a dict as `[[tie]]`: `{"vertices": "coincident"}`.
             springs: Springs between two vertices, each a dict as `[[spring]]`: `{"vertices": [3, (7, 0, 1)], "stiffness": 2.0}`.

@@ -46,5 +46,13 @@ def unit(column: str, units: Mapping[str, str], driven: str | None = None) -> st
         return f"1/{length}" if length else None
     if name.startswith("probe_"):
         return length
-    drive, reaction = {"displacement": (length, force), "rotation": ("rad", energy), "lock": ("rad", energy)}.get(driven or "", (None, energy))
+    volume = f"{length}^3" if length else None
+    pressure = f"{force}/{length}^2" if force and length else None
+    if name.startswith("volume_"):
+        return volume
+    known = {
+        "displacement": (length, force), "rotation": ("rad", energy), "lock": ("rad", energy),
+        "pressure": (pressure, volume), "volume": (volume, pressure),
+    }
+    drive, reaction = known.get(driven or "", (None, energy))
     return {"drive": drive, "reaction": reaction}.get(name)

@@ -56,6 +56,8 @@ DRIVEN = {
     "displacement": ("displacement", "force"),
     "rotation": ("rotation (rad)", "torque"),
     "load": ("factor of the loads", "displacement of the loads"),
+    "pressure": ("pressure", "growth of the volume"),
+    "volume": ("growth of the volume", "pressure"),
     "lock": ("fold angle of the lock (rad)", "torque"),
     "rest": ("folded (1: as given)", "derivative of the energy"),
     "stiffness": ("stiffness", "derivative of the energy"),

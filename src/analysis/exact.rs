@@ -110,7 +110,7 @@ impl Springs {
         let mut rest = DVector::zeros(edges);
         let mut start: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
         let mut rigid = Vec::new();
-        for hinge in model.elements().filter(Element::is_angle) {
+        for hinge in model.elements().filter(Element::is_hinge) {
             let (Some(edge), spring) = (hinge.edge(), hinge.spring) else { continue };
             if spring.stiffness.is_infinite() {
                 start[edge] = spring.rest;

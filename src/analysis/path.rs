@@ -11,7 +11,7 @@ use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gaug
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::path::{self, Branch, BranchEnd, PathError, Watch};
 pub use crate::solver::path::{HalfBranches, PathEntry, PathRecord};
-use crate::solver::{Failure, Options, Problem, Start};
+use crate::solver::{Failure, Options, Start};
 pub use options::PathOptions;
 pub use point::{BranchPoint, PathBranch, PathEnd, PathEvent, PathPoint};
 pub use seen::PathCallbacks;
@@ -82,11 +82,10 @@ pub(crate) fn resume_path(
     callbacks: PathCallbacks<'_>,
 ) -> Result<Vec<PathBranch>, PathFailure> {
     let model = assembly.model(Gauge::Held);
-    let measures = model.compliance().len();
     let (mut driven, mut first) = begin(model, drive, start, options)?;
     let then = options.then.iter().map(|value| driven.parameter_at(*value));
     let ways = [driven.parameter(), driven.target()].into_iter().chain(then).collect();
-    let mut seen = Seen::new(measures, ways, callbacks);
+    let mut seen = Seen::new(ways, callbacks);
     let kept = options.at.iter().copied().chain(options.stop.drive).map(|value| driven.parameter_at(value));
     let kept: Vec<f64> = kept.collect();
     let mut is_last = false;
@@ -141,10 +140,9 @@ fn begin(
     });
     let mut driven = DrivenModel::new(model, drive, drawn, restarted)?;
     let x = driven.model.start();
-    let (x, tension) = if let Some(mut tension) = tension {
+    let (x, tension) = if let Some(tension) = tension {
         // an equilibrium of any stability: the path's own iteration finds what the new support carries
-        tension.resize(driven.compliance().len(), 0.0);
-        (x, tension)
+        (x, driven.with_drive(tension))
     } else {
         let newton = Options { tolerance: options.tolerance, ..Options::default() };
         let (relaxed, model, x) =

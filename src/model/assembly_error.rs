@@ -52,6 +52,13 @@ pub enum AssemblyError {
         vertices[1]
     )]
     Open { vertices: [usize; 2] },
+    #[error(
+        "what turns with the part has no potential: it has to turn about {} and about no other axis",
+        ["x", "y", "z"][*axis]
+    )]
+    Turning { part: usize, axis: usize },
+    #[error("nothing holds the sheet, which a torque would turn for ever")]
+    Loose,
     #[error("only faces of a patch have a pressure")]
     NoPatch,
     #[error("the loads push the whole sheet along {} with a force of {force}", ["x", "y", "z"][*axis])]

@@ -24,6 +24,11 @@ pub enum Driven {
     },
     /// A factor of all loads.
     Loads,
+    /// The pressure of this name; the volume of its faces is free.
+    Pressure(String),
+    /// The volume that the faces under the pressure of this name enclose, counted from where the path begins; their
+    /// pressure is what it takes.
+    Volume(String),
     /// The fold angle of these locked edges of the tiling, in radians.
     Lock(Vec<usize>),
     /// The rest values of all elements: 0 where they are those of the state in which the path begins, 1 as given.
@@ -47,6 +52,8 @@ pub struct Drive {
 pub enum DriveError {
     #[error("there are no loads to drive")]
     NoLoads,
+    #[error("no pressure has this name")]
+    NoPressure,
     #[error("the loads can turn the sheet as a whole: hold it against rotations with pins, or drive a displacement")]
     FreeRotation,
     #[error("the crease is not locked")]

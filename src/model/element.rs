@@ -23,7 +23,7 @@ pub enum TermKind {
     Locks,
     /// Elements of a term of one's own.
     Own,
-    /// Faces under pressure, which are loaded and store nothing.
+    /// Faces under pressure, and parts under a torque: loads, which store nothing.
     Pressure,
 }
 
@@ -227,9 +227,14 @@ impl<'a> Element<'a> {
         self.term.head().is_angle
     }
 
+    /// Whether it is a hinge, whose points are its two ends and then its left and right wing.
+    pub(crate) fn is_hinge(&self) -> bool {
+        self.term.head().is_hinge
+    }
+
     /// Whether it is a hinge of finite stiffness.
     pub(crate) fn is_elastic_hinge(&self) -> bool {
-        self.is_angle() && self.spring.stiffness.is_finite()
+        self.is_hinge() && self.spring.stiffness.is_finite()
     }
 
     /// Returns its points: the two ends of a bar, or the two ends of a hinge and then its left and right wing.

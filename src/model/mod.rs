@@ -31,6 +31,7 @@ mod curve;
 pub(crate) mod domain;
 mod drive;
 mod element;
+mod enclosed;
 mod formula;
 pub(crate) mod gauge;
 pub mod intrinsic;
@@ -48,6 +49,7 @@ mod published_laws;
 mod roll;
 mod stiffness;
 mod terms;
+mod torque;
 mod tube;
 
 #[cfg(test)]

@@ -76,12 +76,12 @@ impl OwnTerm {
         Self { elements, springs, has_tensions }
     }
 
-    /// Returns its name.
+    /// Returns its name; that of a pressure is its kind.
     pub fn name(&self) -> &str {
-        &self.elements.head().name
+        if self.is_load() { TermKind::Pressure.name() } else { &self.elements.head().name }
     }
 
-    /// Whether it is a load and no energy: the pressure on faces.
+    /// Whether it is a load and no energy: the pressure on faces, or a torque.
     pub fn is_load(&self) -> bool {
         self.elements.head().kind == TermKind::Pressure
     }

@@ -59,9 +59,9 @@ impl Measure<3, 9> for VolumeFrom {
     }
 }
 
-/// The law of a constant force, the spring constant, that lets the measure grow.
+/// The law of a constant force, the spring constant, that lets the measure grow: that of a load.
 #[derive(Debug)]
-struct Push;
+pub(super) struct Push;
 
 impl Law for Push {
     fn at(&self, value: f64, _rest: f64) -> [f64; 3] {
@@ -74,8 +74,8 @@ impl Law for Push {
 }
 
 impl OwnTerm {
-    /// Makes the pressure on the polygons of a patch whose numbers in the sheet `on` accepts, in all cells: a force per
-    /// area, positive along the face normals. A rim whose vertices are one rigid part is that of a plate, which has the
+    /// Makes the pressure of this name, empty where no drive refers to it, on the polygons of a patch whose numbers in the
+    /// sheet `on` accepts, in all cells: a force per area, positive along the face normals. A rim whose vertices are one rigid part is that of a plate, which has the
     /// pressure too. As a load it has no energy in tables, and a drive of the loads drives it.
     ///
     /// ```
@@ -86,7 +86,7 @@ impl OwnTerm {
     /// // a drum with both ends, stretched by the air in it
     /// let drum = generate(&Pattern::of(&"pattern = \"kresling\"\nclosed = true".parse()?)?)?;
     /// let assembly = Assembly::patch(drum, [1, 1]).bars(100.0).creases(0.1).build()?;
-    /// let blown_up = assembly.with_own_term(OwnTerm::pressure(&assembly, 0.5, |_| true)?);
+    /// let blown_up = assembly.with_own_term(OwnTerm::pressure(&assembly, "air", 0.5, |_| true)?);
     /// assert!(relax(&blown_up)?.state.energy_bars > 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -94,7 +94,12 @@ impl OwnTerm {
     /// # Errors
     /// [`AssemblyError::Open`] if these faces enclose no volume: at a side that is not pinned more of them have it in one
     /// direction than in the other. [`AssemblyError::NoPatch`] for other boundary conditions.
-    pub fn pressure(assembly: &Assembly, value: f64, on: impl Fn(usize) -> bool) -> Result<Self, AssemblyError> {
+    pub fn pressure(
+        assembly: &Assembly,
+        name: &str,
+        value: f64,
+        on: impl Fn(usize) -> bool,
+    ) -> Result<Self, AssemblyError> {
         let tiling = assembly.tiling();
         if *assembly.domain() != Domain::Patch {
             return Err(AssemblyError::NoPatch);
@@ -112,10 +117,18 @@ impl OwnTerm {
         let springs = vec![Spring { stiffness: value, rest: 0.0 }; faces.len()];
         let site = |vertex: usize| Site { vertex, shift: [0, 0] };
         let elements = faces.into_iter().map(|corners| (corners.map(site), None)).collect();
-        let kind = TermKind::Pressure;
         let push: Arc<dyn Law> = Arc::new(Push);
-        let term = Term::new((kind, kind.name()), VolumeFrom(centre), elements, |_| Stored::Law(push.clone()));
+        let term = Term::new((TermKind::Pressure, name), VolumeFrom(centre), elements, |_| Stored::Law(push.clone()));
         Ok(Self::of(Arc::new(term), springs))
+    }
+
+    /// Returns the name of the pressure and the volume that its faces enclose in the state with these coordinates of a
+    /// patch, where only a rim is pinned that between the faces and the centre of the drawn vertices; `None` if it is no
+    /// pressure with a name.
+    pub fn volume(&self, coordinates: &[f64]) -> Option<(&str, f64)> {
+        let name = &self.elements.head().name;
+        let of = |k| self.elements.value(k, &Domain::Patch, coordinates);
+        (self.is_load() && !name.is_empty()).then(|| (name.as_str(), (0..self.elements.len()).map(of).sum()))
     }
 }
 
@@ -134,6 +147,7 @@ fn lids(open: &[[usize; 2]], parts: &[Part]) -> Vec<[usize; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::tests::check_derivatives;
 
     /// Claim: the volumes between the faces of a tetrahedron and any point, inside it or not, sum to a sixth of the
     /// product of its edges at the right angle. Tolerance: rounding.
@@ -147,28 +161,11 @@ mod tests {
         }
     }
 
-    /// Claim: gradient and Hessian of the volume are its central differences. Tolerance: 1e-8, differences of a cubic
-    /// with steps of 1e-4.
+    /// Claim: gradient and Hessian of the volume are its differences.
     #[test]
     fn volumes_have_their_derivatives() {
         let measure = VolumeFrom(Vec3::new(0.3, -0.2, 0.7));
         let points = [Vec3::new(1.0, 0.1, 0.2), Vec3::new(-0.3, 1.2, 0.4), Vec3::new(0.2, -0.5, 1.9)];
-        let mut lower = Vec::new();
-        let (value, gradient) = measure.hessian(&points, &mut lower);
-        assert_eq!((value, gradient), measure.gradient(&points));
-        let moved = |k: usize, by: f64| {
-            let mut points = points;
-            points[k / 3][k % 3] += by;
-            points
-        };
-        let step = 1e-4;
-        for row in 0..9 {
-            let [more, less] = [step, -step].map(|by| measure.gradient(&moved(row, by)));
-            assert!(((more.0 - less.0) / (2.0 * step) - gradient[row]).abs() < 1e-8);
-            for column in 0..=row {
-                let found = lower[row * (row + 1) / 2 + column];
-                assert!(((more.1[column] - less.1[column]) / (2.0 * step) - found).abs() < 1e-8, "{row} {column}");
-            }
-        }
+        check_derivatives(&measure, &points);
     }
 }

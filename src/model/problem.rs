@@ -37,6 +37,7 @@ pub(super) const RIGHT_WING: Range<u32> = 9..12;
 const DEPENDENT: f64 = 1e-9;
 
 /// The equations of a sheet, which no run of a solver changes: measures on a domain, and rigid parts.
+#[derive(Clone)]
 pub(super) struct Equations {
     /// The map from coordinates to points.
     pub domain: Domain,

@@ -88,7 +88,7 @@ pub struct Terms {
     pub mass: Option<Mass>,
     /// Laws of bars, creases and facets other than that of a spring.
     pub laws: Laws,
-    /// Terms of one's own, and the pressure on faces.
+    /// Terms of one's own, the pressure on faces, and torques on parts.
     pub own: Vec<OwnTerm>,
 }
 

@@ -172,7 +172,7 @@ fn places(file: &SceneFile) -> Checked {
     })
 }
 
-/// Checks that no two parts, and no two drives, have one name.
+/// Checks that no two parts, no two pressures and no two drives have one name.
 fn names(file: &SceneFile) -> Checked {
     let fault = |what: &'static str| {
         move |name: &&str, line: usize| {
@@ -181,6 +181,8 @@ fn names(file: &SceneFile) -> Checked {
     };
     let parts = file.scene.parts.iter().map(|part| (part.name.0.as_str(), part.name.span()));
     unique(file, parts, fault("parts"))?;
+    let pressures = file.scene.pressures.iter().filter_map(|pressure| pressure.name.as_ref());
+    unique(file, pressures.map(|name| (name.0.as_str(), name.span())), fault("pressures"))?;
     unique(file, file.scene.drives.iter().map(|drive| (drive.name.0.as_str(), drive.name.span())), fault("drives"))
 }
 

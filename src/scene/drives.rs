@@ -15,11 +15,17 @@ use crate::sheet::similar::there_are;
 /// Part of a direction along which a vertex is held, up to which it counts as free to move along the direction.
 const FREE: f64 = 1e-12;
 
+/// Largest number of vertices of a patch of which a volume is driven: each of them is coupled with each other one, which
+/// takes 2 GB for as many.
+const MOST_OF_VOLUME: usize = 3_000;
+
 /// The one quantity that a drive names.
 enum Quantity<'a> {
     Part(&'a Located<String>, &'a Located<AxisSpec>),
     Vertices(&'a Located<VertexSet>, &'a Located<AxisSpec>),
     Loads(Range<usize>),
+    Pressure(&'a Located<String>),
+    Volume(&'a Located<String>),
     Lock(&'a Located<EdgeName>),
     Rest(Range<usize>),
     Stiffness(&'a Located<DrivenTerm>),
@@ -61,7 +67,7 @@ pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec
         match resolve(file, assembly, spec)?.quantity {
             Driven::Vertices { direction, .. } => directions.push(direction),
             Driven::Part { axis, .. } if axis < 3 => directions.push(Vec3::ith(axis, 1.0)),
-            Driven::Part { .. } | Driven::Loads | Driven::Lock(_) | Driven::Rest | Driven::Stiffness(_) => {}
+            _ => {}
         }
     }
     Ok(directions)
@@ -78,6 +84,17 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
             return nothing(span, "the scene has no loads to drive", "add a [[load]] or [[pressure]]");
         }
         Quantity::Loads(_) => Driven::Loads,
+        Quantity::Pressure(name) => Driven::Pressure(pressure(file, name)?),
+        Quantity::Volume(name) => {
+            let vertices = assembly.tiling().positions.len();
+            if vertices > MOST_OF_VOLUME {
+                let message = format!("the volume depends on {vertices} vertices at once");
+                let help =
+                    format!("a volume is driven of at most {MOST_OF_VOLUME} vertices; drive the pressure instead");
+                return nothing(name.span(), &message, &help);
+            }
+            Driven::Volume(pressure(file, name)?)
+        }
         Quantity::Lock(crease) => lock(file, assembly, spec, crease)?,
         Quantity::Rest(span) => rest(file, assembly, span)?,
         Quantity::Stiffness(term) => {
@@ -110,17 +127,19 @@ pub(crate) fn rest(file: &SceneFile, assembly: &Assembly, span: Range<usize>) ->
 
 /// Returns the one quantity that a drive names.
 fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, SceneError> {
-    let DriveSpec { name, part, vertices, axis, load, lock, rest, stiffness, to: _ } = drive;
+    let DriveSpec { name, part, vertices, axis, load, pressure, volume, lock, rest, stiffness, to: _ } = drive;
     let flag = |flag: &Located<bool>| if **flag { Ok(flag.span()) } else { Err(flag.span()) };
     let given = [
         part.as_ref().map(|part| part.span()),
         vertices.as_ref().map(|vertices| vertices.span()),
         load.as_ref().map(Located::span),
+        pressure.as_ref().map(Located::span),
+        volume.as_ref().map(Located::span),
         lock.as_ref().map(Located::span),
         rest.as_ref().map(Located::span),
         stiffness.as_ref().map(Located::span),
     ];
-    let help = "give one of part, vertices, load = true, lock, rest = true and stiffness";
+    let help = "give one of part, vertices, load = true, pressure, volume, lock, rest = true and stiffness";
     let mut given = given.into_iter().flatten();
     match (given.next(), given.next()) {
         (None, _) => return Err(file.error_at(name.span(), "the drive drives nothing", help)),
@@ -140,13 +159,15 @@ fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, 
         _ => {}
     }
     let not_driven = |span: Range<usize>| file.error_at(span, "false drives nothing", "write true, or leave it out");
-    match (part, vertices, axis, load, lock, rest, stiffness) {
-        (Some(part), _, Some(axis), ..) => Ok(Quantity::Part(part, axis)),
-        (_, Some(vertices), Some(axis), ..) => Ok(Quantity::Vertices(vertices, axis)),
-        (_, _, _, Some(load), ..) => flag(load).map(Quantity::Loads).map_err(not_driven),
-        (.., Some(lock), _, _) => Ok(Quantity::Lock(lock)),
-        (.., Some(rest), _) => flag(rest).map(Quantity::Rest).map_err(not_driven),
-        (.., Some(stiffness)) => Ok(Quantity::Stiffness(stiffness)),
+    match drive {
+        DriveSpec { part: Some(part), axis: Some(axis), .. } => Ok(Quantity::Part(part, axis)),
+        DriveSpec { vertices: Some(vertices), axis: Some(axis), .. } => Ok(Quantity::Vertices(vertices, axis)),
+        DriveSpec { load: Some(load), .. } => flag(load).map(Quantity::Loads).map_err(not_driven),
+        DriveSpec { pressure: Some(pressure), .. } => Ok(Quantity::Pressure(pressure)),
+        DriveSpec { volume: Some(volume), .. } => Ok(Quantity::Volume(volume)),
+        DriveSpec { lock: Some(lock), .. } => Ok(Quantity::Lock(lock)),
+        DriveSpec { rest: Some(rest), .. } => flag(rest).map(Quantity::Rest).map_err(not_driven),
+        DriveSpec { stiffness: Some(stiffness), .. } => Ok(Quantity::Stiffness(stiffness)),
         _ => Err(file.error_at(name.span(), "the drive drives nothing", help)),
     }
 }
@@ -191,12 +212,26 @@ fn end_of_way(
         ),
         Quantity::Stiffness(_) => Ok(()),
         _ if !to.is_finite() => wrong(format!("the number is {to}"), "expected a finite number"),
-        Quantity::Part(..) | Quantity::Vertices(..) if to == 0.0 && !later => wrong(
+        Quantity::Part(..) | Quantity::Vertices(..) | Quantity::Volume(_) if to == 0.0 && !later => wrong(
             "the drive ends where it begins".into(),
-            "`to` is a displacement, or an angle, from where a path begins",
+            "`to` is a displacement, an angle or a volume from where a path begins",
         ),
         _ => Ok(()),
     }
+}
+
+/// Returns the name of the pressure that a drive names.
+fn pressure(file: &SceneFile, name: &Located<String>) -> Result<String, SceneError> {
+    let names = file.scene.pressures.iter().filter_map(|pressure| pressure.name.as_ref());
+    let names: Vec<&str> = names.map(|name| name.0.as_str()).collect();
+    if names.contains(&name.as_str()) {
+        return Ok((**name).clone());
+    }
+    let help = match names.is_empty() {
+        true => "no [[pressure]] of the scene has a name; give one `name`".to_owned(),
+        false => there_are(name, names),
+    };
+    Err(file.error_at(name.span(), format!("no pressure is called `{}`", **name), help))
 }
 
 /// Returns the motion of a part that a drive names.

@@ -17,7 +17,7 @@ mod vertices;
 use super::Located;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Fraction, Positive, SeamCell, Stiffness, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Fraction, Label, Positive, SeamCell, Stiffness, Triple};
 use crate::sheet::SeamKept;
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
@@ -321,6 +321,8 @@ pub struct LoadSpec {
     pub vertices: Option<Located<VertexSet>>,
     /// The force `[x, y, z]`.
     pub force: Option<Located<Triple>>,
+    /// true: the force turns with the rigid part to which its vertices belong; the part turns about one axis at most.
+    pub turns: Option<Located<bool>>,
     /// Instead of vertices and force: the acceleration `[x, y, z]` of gravity, on the `mass` of every vertex.
     pub weight: Option<Located<Triple>>,
 }
@@ -330,8 +332,10 @@ pub struct LoadSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PressureSpec {
-    /// The pressure, positive along the face normals.
-    pub value: Finite,
+    /// Its name, by which drives refer to it.
+    pub name: Option<Located<Label>>,
+    /// The pressure, positive along the face normals; left out of one with a name: 0.
+    pub value: Option<Finite>,
     /// Numbers of the polygons of the mesh that are under pressure, in all cells; left out: all.
     pub faces: Option<Located<Vec<usize>>>,
 }

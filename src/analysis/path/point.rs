@@ -110,7 +110,7 @@ impl PathPoint {
 }
 
 /// Makes the point of a state, but for what depends on those before.
-pub(super) fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoint {
+pub(super) fn point(driven: &DrivenModel, marked: &MarkedState) -> PathPoint {
     let MarkedState { state, mark, negative_eigenvalues, .. } = marked;
     let PathState { x, tension, parameter, conjugate: [conjugate, _], .. } = state;
     PathPoint {
@@ -121,7 +121,7 @@ pub(super) fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize)
         work: f64::NAN,
         state: State::new(&driven.model, x, tension),
         x: x.clone(),
-        tension: tension[..measures].to_vec(),
+        tension: driven.without_drive(tension),
         angles: angles_at(&driven.model, x),
         memory: driven.model.memory_after(x),
         residual_force: state.residual_force,

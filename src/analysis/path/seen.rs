@@ -20,8 +20,6 @@ pub struct PathCallbacks<'a> {
 
 /// The points of a path so far, and its observers.
 pub(super) struct Seen<'a> {
-    /// Number of stiff measures of the model without drive.
-    measures: usize,
     /// Parameters at the beginning and at the ends of all ways.
     ways: Vec<f64>,
     /// The states of each branch, and how often its parameter has begun to go another way.
@@ -48,8 +46,8 @@ struct Before {
 
 impl<'a> Seen<'a> {
     /// No points yet of a path whose parameter goes these ways.
-    pub(super) fn new(measures: usize, ways: Vec<f64>, callbacks: PathCallbacks<'a>) -> Self {
-        Self { measures, ways, branches: vec![], before: Before::default(), callbacks }
+    pub(super) fn new(ways: Vec<f64>, callbacks: PathCallbacks<'a>) -> Self {
+        Self { ways, branches: vec![], before: Before::default(), callbacks }
     }
 
     /// The number of the stretch that is followed.
@@ -144,7 +142,7 @@ impl PathObserver<DrivenModel> for Seen<'_> {
         let turns = self.branches[branch].1;
         let part = part_of(&self.ways, turns, parameter);
         let (points, turns) = &mut self.branches[branch];
-        let found = point(driven, marked, self.measures);
+        let found = point(driven, marked);
         points.push(PathPoint {
             part,
             arc_length: self.before.arc_length + marked.state.arc_length,

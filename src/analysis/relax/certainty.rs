@@ -47,6 +47,6 @@ pub(super) fn next_change(tangent: &mut Tangent, tension: &[f64]) -> Option<f64>
 /// The largest angle between a soft hinge and its rest, in radians.
 pub(super) fn off_rest(model: &Model, x: &[f64]) -> f64 {
     let coordinates = model.coordinates(x);
-    let off = model.soft().filter(Element::is_angle).map(|hinge| hinge.value(&coordinates) - hinge.spring.rest);
+    let off = model.soft().filter(Element::is_hinge).map(|hinge| hinge.value(&coordinates) - hinge.spring.rest);
     off.fold(0.0, |largest, off| largest.max(off.abs()))
 }

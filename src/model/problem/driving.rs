@@ -3,6 +3,7 @@
 mod axis;
 mod effect;
 mod loading;
+mod volume;
 
 use super::{Model, POSE, Support};
 use crate::model::drive::{Drive, DriveError, Driven};
@@ -12,6 +13,7 @@ use crate::numerics::vector::dot;
 use crate::solver::path::{ParametrizedProblem, Rates};
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem};
 use effect::Effect;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A model with a driven quantity, for [`crate::solver::path::follow_path`].
@@ -27,6 +29,10 @@ pub struct DrivenModel {
     way: f64,
     /// The part of the model that changes with the parameter.
     effect: Effect,
+    /// The driven value for a parameter of 1, where one is proportional to the other.
+    unit: f64,
+    /// Numbers of the stiff measures that the model has for the drive only.
+    added: Range<usize>,
     /// Generalised coordinates of the state at which the held coordinates were first chosen.
     first: Vec<f64>,
 }
@@ -41,6 +47,7 @@ impl DrivenModel {
         let first = model.compliance.len();
         let quantity = drive.quantity.clone();
         let begin = f64::from(u8::from(loaded));
+        let mut unit = 1.0;
         let (effect, parameter, target) = match &quantity {
             Driven::Part { part, axis } => {
                 let pose = model.points() + POSE * part + axis;
@@ -56,10 +63,17 @@ impl DrivenModel {
                 return Err(DriveError::NoLoads);
             }
             Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
-            Driven::Loads => {
-                let pressures = model.pressures();
-                let origin = model.load_displacement(&model.base) + model.work_of(&pressures, &model.base);
-                (Effect::Loads { origin, pressures }, begin, drive.to)
+            Driven::Loads => (Effect::loads(&model, true, model.pressures()), begin, drive.to),
+            Driven::Pressure(name) => {
+                let faces = model.pressure_of(name).ok_or(DriveError::NoPressure)?;
+                let value = begin * model.springs[faces.start].stiffness;
+                (Effect::loads(&model, false, faces.map(|k| (k, 1.0)).collect()), value, drive.to)
+            }
+            Driven::Volume(name) => {
+                let (measure, area) = model.hold_volume(name).ok_or(DriveError::NoPressure)?;
+                unit = area;
+                let value = model.values(&model.start())[model.soft_elements() + measure];
+                (Effect::Prescribed(vec![(measure, value)]), 0.0, drive.to / area)
             }
             Driven::Lock(edges) => {
                 let locks = model
@@ -76,7 +90,9 @@ impl DrivenModel {
         if !((target - parameter).abs() > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
-        Ok(Self::driven(model, quantity, [parameter, target], effect))
+        let added = effect.first_prescribed().unwrap_or(first);
+        let added = added..added + model.compliance.len() - first;
+        Ok(Self { unit, added, ..Self::driven(model, quantity, [parameter, target], effect) })
     }
 
     /// Makes a model whose rest values, those of locks and supports included, go from some at 0 to others at 1: one of
@@ -94,7 +110,7 @@ impl DrivenModel {
 
     fn driven(model: Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {
         let (first, way) = (model.base.clone(), (target - parameter).abs());
-        let mut driven = Self { model, quantity, parameter, target, way, effect, first };
+        let mut driven = Self { model, quantity, parameter, target, way, effect, unit: 1.0, added: 0..0, first };
         driven.set_parameter(parameter);
         driven
     }
@@ -106,12 +122,12 @@ impl DrivenModel {
 
     /// Returns the driven value that belongs to a parameter.
     pub fn drive_at(&self, parameter: f64) -> f64 {
-        if matches!(self.effect, Effect::Compliance(_)) { parameter.recip() } else { parameter }
+        if matches!(self.effect, Effect::Compliance(_)) { parameter.recip() } else { parameter * self.unit }
     }
 
     /// Returns the parameter that belongs to a driven value.
     pub fn parameter_at(&self, drive: f64) -> f64 {
-        if matches!(self.effect, Effect::Compliance(_)) { drive.recip() } else { drive }
+        if matches!(self.effect, Effect::Compliance(_)) { drive.recip() } else { drive / self.unit }
     }
 
     /// Returns the reaction for a value of [`ParametrizedProblem::conjugate`]: the derivative of the energy by the
@@ -119,8 +135,19 @@ impl DrivenModel {
     pub fn reaction_of(&self, conjugate: f64, parameter: f64) -> f64 {
         match self.effect {
             Effect::Compliance(_) => -parameter * parameter * conjugate,
-            _ => conjugate,
+            _ => conjugate / self.unit,
         }
+    }
+
+    /// Returns the tensions of the model without drive.
+    pub(crate) fn without_drive(&self, tension: &[f64]) -> Vec<f64> {
+        [&tension[..self.added.start], &tension[self.added.end..]].concat()
+    }
+
+    /// Returns tensions of this model, zero where the model without drive, whose are given, has no measure.
+    pub(crate) fn with_drive(&self, mut tension: Vec<f64>) -> Vec<f64> {
+        tension.splice(self.added.start..self.added.start, vec![0.0; self.added.len()]);
+        tension
     }
 
     /// Returns the work that the drive has done on the sheet, given the integral of the conjugate over the parameter.
@@ -134,7 +161,7 @@ impl DrivenModel {
 
     /// Whether the parameter is a load and its conjugate a displacement, instead of the other way round.
     pub fn is_load(&self) -> bool {
-        matches!(self.quantity, Driven::Loads | Driven::Rest | Driven::Stiffness(_))
+        matches!(self.quantity, Driven::Loads | Driven::Pressure(_) | Driven::Rest | Driven::Stiffness(_))
     }
 
     /// Whether the parameter is a stiffness, or the reciprocal of one, which should not become negative.
@@ -239,8 +266,8 @@ impl ParametrizedProblem for DrivenModel {
         let model = &mut self.model;
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, offset)| model.prescribe(*k, value + offset)),
-            Effect::Loads { pressures, .. } => {
-                model.load_factor = value;
+            Effect::Loads { forces, pressures, .. } => {
+                model.load_factor = if *forces { value } else { model.load_factor };
                 pressures.iter().for_each(|(k, unit)| model.springs[*k].stiffness = value * unit);
             }
             Effect::Rest { drawn, given } => model.set_rests(drawn, given, value),
@@ -258,10 +285,10 @@ impl ParametrizedProblem for DrivenModel {
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, _)| gap[*k] = -1.0),
             Effect::Loads { pressures, .. } => {
-                force = self.model.load_rates(x);
-                let mut forces = vec![0.0; at.soft_stiffness.len()];
-                pressures.iter().for_each(|(k, unit)| forces[*k] = -unit);
-                at.soft_rows().add_transpose_product(&forces, &mut force);
+                force = self.load_rates(x);
+                let mut of_faces = vec![0.0; at.soft_stiffness.len()];
+                pressures.iter().for_each(|(k, unit)| of_faces[*k] = -unit);
+                at.soft_rows().add_transpose_product(&of_faces, &mut force);
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
@@ -287,9 +314,8 @@ impl ParametrizedProblem for DrivenModel {
     fn conjugate(&self, _: &Linearization, x: &[f64], tension: &[f64]) -> f64 {
         match &self.effect {
             Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| tension[*k]).sum::<f64>(),
-            Effect::Loads { origin, pressures } => {
-                let all = self.model.coordinates(x);
-                self.model.load_displacement(&all) + self.model.work_of(pressures, &all) - origin
+            Effect::Loads { forces, origin, pressures } => {
+                self.model.loaded_along(*forces, pressures, &self.model.coordinates(x)) - origin
             }
             Effect::Rest { drawn, given } => {
                 let of_soft = self.model.soft_by_rest(x).into_iter().map(|[energy, ..]| energy);
@@ -313,7 +339,7 @@ impl ParametrizedProblem for DrivenModel {
             Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| rates.tension[*k]).sum::<f64>(),
             Effect::Loads { pressures, .. } => {
                 let of_pressure = pressures.iter().map(|(k, unit)| unit * changes[*k]).sum::<f64>();
-                of_pressure - dot(&self.model.load_rates(x), &rates.x)
+                of_pressure - dot(&self.load_rates(x), &rates.x)
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();

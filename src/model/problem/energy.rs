@@ -166,8 +166,14 @@ impl Model {
     /// Returns the work of pressures, one for each face that has one, from the state without volume to that with these
     /// coordinates.
     pub(super) fn work_of(&self, pressures: &[(usize, f64)], all: &[f64]) -> f64 {
-        let faces = self.soft().filter(Element::is_load).map(|face| face.value(&all[..self.points()]));
-        faces.zip(pressures).map(|(volume, (_, pressure))| pressure * volume).sum()
+        let of = |number: usize| pressures.binary_search_by_key(&number, |(face, _)| *face).ok();
+        let faces = self.soft().filter(Element::is_load).filter_map(|face| Some((face, pressures[of(face.number)?].1)));
+        faces.map(|(face, pressure)| pressure * face.value(&all[..self.points()])).sum()
+    }
+
+    /// Displacement of these pressures, and of the forces on vertices if they are asked for, each weighted by it.
+    pub(super) fn loaded_along(&self, forces: bool, pressures: &[(usize, f64)], all: &[f64]) -> f64 {
+        self.work_of(pressures, all) + if forces { self.load_displacement(all) } else { 0.0 }
     }
 
     /// Returns the work of the pressures on faces, from the state without volume to that with these coordinates.

@@ -24,7 +24,7 @@ impl Model {
         let coordinates = self.coordinates(x);
         let triangles = self
             .elements()
-            .filter(Element::is_angle)
+            .filter(Element::is_hinge)
             .flat_map(|hinge| [2, 3].map(|wing| self.triangle(&hinge, wing, &coordinates)));
         let (quality, vertices) = triangles.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (quality < COLLAPSED).then_some(Collapse { vertices, quality })
@@ -39,14 +39,17 @@ impl Model {
         ((b - a).cross(&(c - a)).norm() / longest, sites.map(|site| site.vertex))
     }
 
-    /// Whether no hinge turns by more than [`LARGEST_TURN_RAD`] between two states, the first of which was accepted
+    /// Whether no angle turns by more than [`LARGEST_TURN_RAD`] between two states, the first of which was accepted
     /// last, and the triangles beside hinges keep [`KEPT_HEIGHT`] of their heights.
     pub(super) fn turns_no_hinge_too_far(&self, from: &[f64], to: &[f64]) -> bool {
         let [from, to] = [from, to].map(|x| self.coordinates(x));
-        self.elements().filter(Element::is_angle).all(|hinge| {
-            let turn = hinge.value(&to) - hinge.last;
-            let [before, after] = [&from, &to].map(|x| self.heights(&hinge, x));
-            turn.abs() <= LARGEST_TURN_RAD && (0..2).all(|side| after[side] >= KEPT_HEIGHT * before[side])
+        self.elements().filter(Element::is_angle).all(|element| {
+            let turn = element.value(&to) - element.last;
+            let keeps_heights = || {
+                let [before, after] = [&from, &to].map(|x| self.heights(&element, x));
+                (0..2).all(|side| after[side] >= KEPT_HEIGHT * before[side])
+            };
+            turn.abs() <= LARGEST_TURN_RAD && (!element.is_hinge() || keeps_heights())
         })
     }
 

@@ -48,7 +48,7 @@ impl Model {
     /// angle.
     pub(crate) fn hinges_on_rest_side(&self, x: &[f64]) -> [usize; 2] {
         let coordinates = self.coordinates(x);
-        let aimed = self.soft().filter(|element| element.is_angle() && element.spring.rest.abs() > FLAT_RAD);
+        let aimed = self.soft().filter(|element| element.is_hinge() && element.spring.rest.abs() > FLAT_RAD);
         let aimed: Vec<bool> = aimed.map(|hinge| hinge.spring.rest * hinge.value(&coordinates) > 0.0).collect();
         [aimed.len(), aimed.iter().filter(|same| **same).count()]
     }

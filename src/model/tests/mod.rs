@@ -6,6 +6,10 @@ mod parts;
 mod terms;
 mod whole;
 
+use super::measure::Measure;
+use crate::math::Vec3;
+use crate::numerics::DenseMatrix;
+use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -27,8 +31,20 @@ impl Numbers {
     }
 }
 
+/// Checks gradient and Hessian of a measure at some points against extrapolated differences.
+pub(super) fn check_derivatives<M: Measure<N, D>, const N: usize, const D: usize>(measure: &M, points: &[Vec3; N]) {
+    let at = |x: &[f64]| std::array::from_fn(|k| Vec3::from_column_slice(&x[3 * k..3 * k + 3]));
+    let mut lower = vec![f64::NAN; 3];
+    let x: Vec<f64> = points.iter().flat_map(|point| point.iter().copied()).collect();
+    let (value, gradient) = measure.hessian(points, &mut lower);
+    assert_eq!((value, gradient), measure.gradient(points));
+    assert_eq!(value, measure.value(points));
+    check_gradient(|x| measure.value(&at(x)), &x, gradient.as_slice(), TOLERANCE).unwrap();
+    check_jacobian(|x| measure.gradient(&at(x)).1.as_slice().to_vec(), &x, &symmetric(D, &lower), TOLERANCE).unwrap();
+}
+
 /// Returns the full symmetric matrix of a lower triangle that is stored row by row.
-fn symmetric(size: usize, lower: &[f64]) -> crate::numerics::DenseMatrix {
+fn symmetric(size: usize, lower: &[f64]) -> DenseMatrix {
     let entry = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-    crate::numerics::DenseMatrix::from_fn(size, size, entry)
+    DenseMatrix::from_fn(size, size, entry)
 }

@@ -134,7 +134,7 @@ fn rates_of_drives() {
     }
 }
 
-/// Claim: so are those by a factor of loads and pressures, on faces and on plates. Source: differences.
+/// Claim: so are those by a factor of loads and pressures, by a pressure and by a volume, of faces and plates. Source: differences.
 #[test]
 fn rates_of_loads_and_pressures() {
     let pattern = Pattern::of(&"pattern = \"kresling\"\nlevels = 2".parse().unwrap()).unwrap();
@@ -144,8 +144,21 @@ fn rates_of_loads_and_pressures() {
     let held =
         tube.part(floor, [false; 6]).part(lid, ALL).load(7, [0, 0], [0.1, 0.0, -0.2]).load(14, [0, 0], [0.0, 0.3, 0.1]);
     let assembly = held.build().unwrap();
-    let pressed = assembly.with_own_term(OwnTerm::pressure(&assembly, 0.7, |_| true).unwrap());
-    check_rates(pressed.model(Gauge::Held), Driven::Loads);
+    let pressed = assembly.with_own_term(OwnTerm::pressure(&assembly, "air", 0.7, |_| true).unwrap());
+    for quantity in [Driven::Loads, Driven::Pressure("air".into()), Driven::Volume("air".into())] {
+        check_rates(pressed.model(Gauge::Held), quantity);
+    }
+}
+
+/// Claim: so are those by a factor of a torque. Source: differences.
+#[test]
+fn rates_of_torques() {
+    let assembly = patch();
+    let all = terms(&assembly, parts([false, false, true, false, false, true]));
+    let held = assembly.with_terms(Terms { pins: vec![(8, [true; 3])], ..all });
+    let guided = held.with_terms(Terms { guides: vec![], ..held.terms().clone() });
+    let turned = guided.with_own_term(OwnTerm::torque(&guided, 0, 2, 0.3).unwrap());
+    check_rates(turned.model(Gauge::Held), Driven::Loads);
 }
 
 /// Checks the rates of a drive of this quantity in a random state near the drawn one.

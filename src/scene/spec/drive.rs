@@ -32,8 +32,8 @@ pub struct TieSpec {
     pub vertices: Located<VertexSet>,
 }
 
-/// `[[drive]]`: a quantity that a path drives. One of `part`, `vertices`, `load`, `lock`, `rest` and `stiffness` says
-/// which.
+/// `[[drive]]`: a quantity that a path drives. One of `part`, `vertices`, `load`, `pressure`, `volume`, `lock`, `rest` and
+/// `stiffness` says which.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DriveSpec {
@@ -48,14 +48,18 @@ pub struct DriveSpec {
     pub axis: Option<Located<AxisSpec>>,
     /// true: a factor of all loads.
     pub load: Option<Located<bool>>,
+    /// The pressure of this name.
+    pub pressure: Option<Located<String>>,
+    /// The volume that the faces under the pressure of this name enclose; the pressure is what it takes.
+    pub volume: Option<Located<String>>,
     /// The angle of this locked crease, in radians.
     pub lock: Option<Located<EdgeName>>,
     /// true: the rest angles, from 0 (as drawn) to 1 (as `[energy]` gives them).
     pub rest: Option<Located<bool>>,
     /// The stiffness of this term.
     pub stiffness: Option<Located<DrivenTerm>>,
-    /// The value at the end: a displacement or an angle from where the path begins, a factor, the angle of a lock, or a
-    /// stiffness (`inf`: exactly rigid). An angle may be a text with its unit, "60 deg". A list of such values, as
+    /// The value at the end: a displacement, an angle or a volume from where the path begins, a factor, a pressure, the
+    /// angle of a lock, or a stiffness (`inf`: exactly rigid). An angle may be a text with its unit, "60 deg". A list of such values, as
     /// [0.3, -0.3, 0.3], are the ends of ways to and fro.
     pub to: Located<DriveEnd>,
 }

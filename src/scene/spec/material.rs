@@ -18,22 +18,32 @@ pub struct UnitsSpec {
 }
 
 impl UnitsSpec {
-    /// Returns a quantity with its unit in parentheses: that of force, of length, or their product. Without names of
+    /// Returns a quantity with its unit in parentheses: these powers of the units of force and length. Without names of
     /// these units the quantity alone.
-    pub(crate) fn label(&self, quantity: &str, forces: bool, lengths: bool) -> String {
-        let wanted = [(forces, &self.force), (lengths, &self.length)];
-        let mut names = Vec::new();
-        for (_, name) in wanted.into_iter().filter(|(wanted, _)| *wanted) {
+    pub(crate) fn label(&self, quantity: &str, force: i32, length: i32) -> String {
+        let mut unit = String::new();
+        for (power, name) in [(force, &self.force), (length, &self.length)].into_iter().filter(|(power, _)| *power != 0)
+        {
             let Some(name) = name else { return quantity.to_owned() };
-            names.push(name.as_str());
+            let sign = if power < 0 {
+                "/"
+            } else if unit.is_empty() {
+                ""
+            } else {
+                " "
+            };
+            unit += &match power.abs() {
+                1 => format!("{sign}{name}"),
+                power => format!("{sign}{name}^{power}"),
+            };
         }
-        if names.is_empty() { quantity.to_owned() } else { format!("{quantity} ({})", names.join(" ")) }
+        if unit.is_empty() { quantity.to_owned() } else { format!("{quantity} ({unit})") }
     }
 
     /// Returns the name of an axis of energies.
     pub(crate) fn energy(&self) -> String {
         let unnamed = self.force.is_none() || self.length.is_none();
-        if unnamed { "energy (unit of the scene)".to_owned() } else { self.label("energy", true, true) }
+        if unnamed { "energy (unit of the scene)".to_owned() } else { self.label("energy", 1, 1) }
     }
 }
 

@@ -50,19 +50,22 @@ pub(super) fn drive_name<'a>(context: &'a Context<'_>, spec: &'a PathSpec) -> &'
     spec.drive.as_ref().map(|name| name.as_str()).or(first).unwrap_or_default()
 }
 
-/// Checks that a factor of loads or rest angles does not end where it begins: at 0 in the drawn state, at 1 in an
-/// earlier state.
+/// Checks that loads or rest angles do not end where they begin: at 0 in the drawn state, as given in an earlier state.
 pub(super) fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
     let drive = drive(context, spec)?;
     let drawn = matches!(spec.start.as_deref(), None | Some(StartSpec::Drawn));
-    let begin = if drawn { 0.0 } else { 1.0 };
-    if !matches!(drive.quantity, Driven::Loads | Driven::Rest) || drive.to != begin {
+    let stays = match drive.quantity {
+        Driven::Loads | Driven::Rest => drive.to == f64::from(u8::from(!drawn)),
+        Driven::Pressure(_) => matches!(check_drive(context.assembly, &drive, !drawn), Err(DriveError::NoWay { .. })),
+        _ => false,
+    };
+    if !stays {
         return Ok(());
     }
     let span = end(context, spec);
     let message = format!("the path of study `{}` ends where it begins", context.name());
-    let help =
-        "loads and rest angles begin at 0 in the drawn state, and at 1 in the state of an earlier study or of a file";
+    let help = "loads, pressures and rest angles begin at 0 in the drawn state, and as given, which is 1 of a factor, in the \
+         state of an earlier study or of a file";
     Err(context.file.error_at(span, message, help).into())
 }
 
@@ -82,7 +85,8 @@ pub(super) fn lists(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     let farther = |far: f64, value: &f64| if (value - far) * way > 0.0 { *value } else { far };
     let nearer = |near: f64, value: &f64| if (value - near) * way < 0.0 { *value } else { near };
     let [from, to] = [then.iter().fold(from, nearer), then.iter().fold(to, farther)];
-    let before = |value: f64| drive.quantity != Driven::Loads && (value - from) * (to - from) < 0.0;
+    let loads = matches!(drive.quantity, Driven::Loads | Driven::Pressure(_));
+    let before = |value: f64| !loads && (value - from) * (to - from) < 0.0;
     let beyond = |value: f64| (value - to) * (to - from) > 0.0;
     let Some(off) = asked().find(|value| before(value.0) || beyond(value.0)) else { return Ok(()) };
     let [value, from, to] = [off.0, from, to].map(|number| rounded(number, 12));

@@ -21,11 +21,9 @@ impl Words {
     pub(crate) fn new(context: &Context<'_>, drive: &Drive) -> Self {
         let units = context.units();
         let words = |driven, quantity, reaction| Self { driven, quantity, reaction };
-        let moved = |quantity: String| {
-            words("displacement", units.label(&quantity, false, true), units.label("force", true, false))
-        };
-        let energy = || units.label("derivative of the energy", true, true);
-        let torque = || units.label("torque", true, true);
+        let moved = |quantity: String| words("displacement", units.label(&quantity, 0, 1), units.label("force", 1, 0));
+        let energy = || units.label("derivative of the energy", 1, 1);
+        let torque = || units.label("torque", 1, 1);
         match &drive.quantity {
             Driven::Part { part, axis } => {
                 let name = context.file.scene.parts.get(*part).map_or("", |part| &part.name.0);
@@ -44,16 +42,26 @@ impl Words {
                     axis.map_or_else(|| format!("({:.3}, {:.3}, {:.3})", d.x, d.y, d.z), |k| ["x", "y", "z"][k].into());
                 moved(format!("displacement of {which} along {along}"))
             }
-            Driven::Loads if context.assembly.terms().loads.is_empty() => {
+            Driven::Loads if context.assembly.terms().loads.is_empty() && context.file.scene.loads.is_empty() => {
                 let reaction = "growth of the volume times the pressure at 1".to_owned();
                 words("load", "factor of the pressure".into(), reaction)
             }
             Driven::Loads => {
                 let conjugate = "displacement of the loads";
-                let named = Some(units.label(conjugate, true, true)).filter(|label| label != conjugate);
+                let named = Some(units.label(conjugate, 1, 1)).filter(|label| label != conjugate);
                 let conjugate = named.unwrap_or_else(|| format!("{conjugate} (force times length)"));
                 words("load", "factor of the loads".into(), conjugate)
             }
+            Driven::Pressure(name) => words(
+                "pressure",
+                units.label(&format!("pressure {name}"), 1, -2),
+                units.label("growth of the volume", 0, 3),
+            ),
+            Driven::Volume(name) => words(
+                "volume",
+                units.label(&format!("growth of the volume {name}"), 0, 3),
+                units.label("pressure", 1, -2),
+            ),
             Driven::Lock(_) => words("lock", "fold angle of the lock (rad)".into(), torque()),
             Driven::Rest => words("rest", "rest angles (0: as drawn, 1: as given)".into(), energy()),
             Driven::Stiffness(kind) => words("stiffness", format!("stiffness of {}", kind.name()), energy()),

@@ -17,6 +17,7 @@ pub(crate) fn table(
     marks: Option<&[Vec<Marks>]>,
 ) -> Table {
     let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
+    let drawn = context.assembly.drawn().coordinates.clone();
     let mut table = Table::new("branch,step,arc_length,drive,reaction,work")
         .with(Solution::columns(context.assembly.terms().own_names()))
         .with(["negative_eigenvalues", "event"])
@@ -25,6 +26,7 @@ pub(crate) fn table(
         .with(asked(spec.response.is_some(), &RATIOS))
         .with(asked(yields(context), &["dissipated"]))
         .with(probes.iter().map(|(name, _)| format!("probe_{name}")))
+        .with(volumes(context, &drawn).map(|(name, _)| format!("volume_{name}")))
         .with(["state"])
         .with_edges("fold", context.assembly.sheet().edges.iter().map(|edge| &edge.key));
     for (number, branch) in branches.iter().enumerate() {
@@ -64,8 +66,14 @@ fn row(
     let shape = shape.into_iter().flatten().map(Value::Number);
     let asked = crossing.into_iter().chain(shape).chain(ratios.into_iter().flatten().map(Value::from));
     let moved = probes.iter().map(|(_, probe)| probe.displacement(assembly, coordinates).into());
+    let volumes = volumes(context, coordinates).map(|(_, volume)| volume.into());
     let dissipated = yields(context).then_some(Value::Number(point.state.dissipated));
-    own.chain(asked).chain(dissipated).chain(moved).chain([number]).chain(fold).collect()
+    own.chain(asked).chain(dissipated).chain(moved).chain(volumes).chain([number]).chain(fold).collect()
+}
+
+/// The names of pressures, and the volumes that their faces enclose in a state.
+fn volumes<'a>(context: &Context<'a>, coordinates: &'a [f64]) -> impl Iterator<Item = (&'a str, f64)> {
+    context.assembly.terms().own.iter().filter_map(|term| term.volume(coordinates))
 }
 
 /// Whether elements yield.

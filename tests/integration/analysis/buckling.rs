@@ -164,7 +164,7 @@ fn pressure_has_a_stiffness_of_its_own() {
         let mesh = format!("{{\"vertices_coords\": {octahedron:?}, \"faces_vertices\": {FACES:?}}}");
         let held = Assembly::patch(fold::parse(&mesh, "octahedron").unwrap(), [1, 1]).bars(1.0);
         let held = (0..3).fold(held, |held, vertex| held.pin(vertex, [0, 0], [true; 3])).build().unwrap();
-        let pressed = held.with_own_term(OwnTerm::pressure(&held, pressure, |_| true).unwrap());
+        let pressed = held.with_own_term(OwnTerm::pressure(&held, "", pressure, |_| true).unwrap());
         for wanted in 1..=9 {
             let found = buckling(&pressed, None, wanted, &mut || true).unwrap().factors;
             let last = expected[wanted.min(expected.len()) - 1];

@@ -13,8 +13,10 @@ const SAME_REST: f64 = 1e-9;
 pub(super) enum Effect {
     /// Prescribed values of the stiff measures with these numbers: the parameter plus an offset for each.
     Prescribed(Vec<(usize, f64)>),
-    /// The factor of the loads.
+    /// The factor of loads.
     Loads {
+        /// Whether the forces on vertices are among them.
+        forces: bool,
         /// Displacement of the loads at the beginning.
         origin: f64,
         /// Soft elements that are faces under pressure, by number, with that for a factor of 1.
@@ -32,6 +34,17 @@ impl Effect {
     pub(super) fn prescribed(model: &Model, measures: std::ops::Range<usize>) -> Self {
         let first = model.compliance.len() - model.supports.len();
         Self::Prescribed(measures.map(|k| (k, model.supports[k - first].rest)).collect())
+    }
+
+    /// Loads with the displacement that they have in the reference state.
+    pub(super) fn loads(model: &Model, forces: bool, pressures: Vec<(usize, f64)>) -> Self {
+        let origin = model.loaded_along(forces, &pressures, &model.base);
+        Self::Loads { forces, origin, pressures }
+    }
+
+    /// Number of the first stiff measure that is prescribed, if any is.
+    pub(super) fn first_prescribed(&self) -> Option<usize> {
+        if let Self::Prescribed(measures) = self { measures.first().map(|(measure, _)| *measure) } else { None }
     }
 
     /// Rest values as given, and those of the drawn state, from which some differ; locks and supports keep theirs.
