@@ -116,6 +116,11 @@ impl ForceCurve for Power {
         let torque = size.powf(p);
         [torque * size / (p + 1.0), torque.copysign(off), p * size.powf(p - 1.0)]
     }
+
+    /// At rest the stiffness of neighbours, over each other, has no limit.
+    fn has_kinks(&self) -> bool {
+        self.exponent > 1.0
+    }
 }
 
 /// A spring of two stiffnesses: `k` up to two values off rest, `ratio k` beyond them. A bar that buckles has the values

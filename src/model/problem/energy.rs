@@ -21,6 +21,9 @@ const SHORTEST_ARMS: f64 = 1e4;
 const SUPPORT: f64 = 1e-6;
 /// Least stiffness of an element in the metric, over that at rest.
 const LEAST_METRIC: f64 = 1e-9;
+/// Least stiffness of an element in the Hessian, over that at rest, but for negative ones: what hangs on a hinge that bends
+/// by a power has none at rest. Where such a law pulls more than residuals may be, it is stiffer.
+const LEAST_STIFFNESS: f64 = 1e-12;
 /// Gap of a stiff measure, relative to its natural size, below which its force counts as that of this gap where no soft
 /// element and no load gives forces a size.
 const LEAST_GAP: f64 = 1e-3;
@@ -250,6 +253,8 @@ impl Model {
                 out.rest_stiffness = out.rest_stiffness.max(stiffness * largest * largest);
                 let (gradient, hessian) = (&local.gradient, &local.hessian);
                 let secant = force / (local.value - element.spring.rest);
+                let least = LEAST_STIFFNESS * stiffness;
+                let second = if (0.0..least).contains(&second) { least } else { second };
                 let metric = stiffness.min(second.max(secant).max(LEAST_METRIC * stiffness));
                 let excess = second - metric;
                 out.add_soft(first + k, &SoftElement { stiffness: metric, excess, force, size, gradient, hessian });

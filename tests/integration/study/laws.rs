@@ -451,3 +451,21 @@ fn paths_pass_kinks() {
     });
     assert!(ends.iter().all(|end| (end - ends[0]).abs() <= 1e-9 * ends[0]), "{ends:?}");
 }
+
+/// Claim: paths lead from the drawn state, where hinges that bend by a power have no stiffness, to all rest angles: to the
+/// state that a relaxation finds. Tolerance: 1e-9 of its energy, as residuals are 1e-12.
+#[test]
+fn powers_follow_their_rest_angles() {
+    for (of_creases, of_facets) in [(4.0 / 3.0, 1.0), (1.0, 4.0 / 3.0), (4.0 / 3.0, 4.0 / 3.0), (2.0, 1.0), (3.0, 1.0)] {
+        let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
+        let hinges = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).rest(Rest::Angle(0.9)).facets(10.0);
+        let [creases, facets] = [of_creases, of_facets].map(|exponent| OfAngle(Power { exponent }));
+        let assembly = hinges.crease_law(creases).facet_law(facets).build().unwrap();
+        let drive = Drive { quantity: Driven::Rest, to: 1.0 };
+        let branches = follow_path(&assembly, &drive, None, &PathOptions::default(), &mut |_, _| true).unwrap();
+        assert_eq!(branches[0].end, PathEnd::Arrived, "{of_creases} {of_facets}");
+        let (found, relaxed) = (branches[0].points.last().unwrap(), relax(&assembly).unwrap().state.total());
+        assert_eq!(found.negative_eigenvalues, Some(0), "{of_creases} {of_facets}");
+        assert!((found.state.total() - relaxed).abs() < 1e-9 * relaxed, "{of_creases} {of_facets}: {relaxed}");
+    }
+}

@@ -8,7 +8,7 @@ use super::problem::{ParametrizedProblem, PathState};
 /// Error of the work of a piece, relative to the largest product of conjugate and parameter's way, at which the piece
 /// is not divided further; and how often one is halved at most.
 const TOLERANCE: f64 = 1e-12;
-const MOST_HALVINGS: usize = 8;
+const MOST_HALVINGS: usize = 7;
 /// Difference of the potential's change and the work, relative to the same product, above which a step has left its
 /// path; and part of the longest step below which none is asked.
 const UNBALANCED: f64 = 1e-8;
@@ -28,6 +28,15 @@ pub(super) struct Step {
     pub longer: f64,
 }
 
+/// The work from one state to another.
+pub(super) struct Worked {
+    pub work: f64,
+    /// What pieces that are not divided further leave unknown of it.
+    unknown: f64,
+    /// The state half way if it was sought and found.
+    middle: Option<PathState>,
+}
+
 impl<P: ParametrizedProblem> Follower<'_, P> {
     /// One step as [`Follower::step`] takes it. Along a path the potential changes by the work; where it does not, the
     /// step led to another curve of equilibria next to the path, and a shorter one is taken.
@@ -42,8 +51,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let Some((state, longer)) = self.step(before, last, length)? else { return Ok(None) };
             let (largest, way) = (self.largest, state.arc_length - last.arc_length);
             self.measure(&state);
-            let (work, middle) = self.work(last, &state)?;
-            let balanced = self.is_balanced([last, &state], work);
+            let Worked { work, unknown, middle } = self.work(last, &state)?;
+            let balanced = self.is_balanced([last, &state], (work, unknown));
             self.largest = largest;
             if balanced || way < SHORTEST_CHECKED * self.settings.max_step {
                 // another branch, or motions that cost nothing, may be met half way
@@ -60,7 +69,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Whether the potential changes by this work from one state to the next, as far as both are known: but for errors of
     /// the rates, of sums, and of measures that are not quite met.
-    fn is_balanced(&mut self, [from, to]: [&PathState; 2], work: f64) -> bool {
+    fn is_balanced(&mut self, [from, to]: [&PathState; 2], (work, unknown): (f64, f64)) -> bool {
         let [before, after] = [from, to].map(|state| self.potential(state));
         let unbalanced = (after - before - work).abs();
         let rounding = |state: &PathState, potential: f64| {
@@ -69,7 +78,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 + state.residual_length * pulls.sum::<f64>()
         };
         let known = noise(from, to) + rounding(from, before) + rounding(to, after) + UNBALANCED * self.largest[1];
-        self.problem.has_kinks() || unbalanced.is_nan() || unbalanced <= known
+        let at_kinks = if self.kinks { unknown } else { 0.0 };
+        self.problem.has_kinks() || unbalanced.is_nan() || unbalanced <= known + at_kinks
     }
 
     fn potential(&mut self, state: &PathState) -> f64 {
@@ -77,36 +87,33 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.problem.conjugate_integral(&state.x, &state.tension)
     }
 
-    /// The work from one state to the next, and the state half way if it was sought and found: from both states alone
-    /// where no interpolation is good, else by cubic interpolation between them and as many states of the path in
-    /// between as that takes, but for errors of the rates.
-    pub(super) fn work(&mut self, from: &PathState, to: &PathState) -> Result<(f64, Option<PathState>), PathError> {
+    /// The work from one state to the next: from both states alone where no interpolation is good, else by cubic
+    /// interpolation between them and as many states of the path in between as that takes, but for errors of the rates.
+    pub(super) fn work(&mut self, from: &PathState, to: &PathState) -> Result<Worked, PathError> {
         if self.problem.has_kinks() {
-            return Ok((self.potential(to) - self.potential(from), None));
+            let work = self.potential(to) - self.potential(from);
+            return Ok(Worked { work, unknown: 0.0, middle: None });
         }
         self.divided(from, to, MOST_HALVINGS)
     }
 
-    fn divided(
-        &mut self,
-        from: &PathState,
-        to: &PathState,
-        left: usize,
-    ) -> Result<(f64, Option<PathState>), PathError> {
-        let whole = Cubic::new(from, to).work();
-        if left == 0 || to.arc_length <= from.arc_length {
-            return Ok((whole, None));
+    fn divided(&mut self, from: &PathState, to: &PathState, left: usize) -> Result<Worked, PathError> {
+        let whole = Worked { work: Cubic::new(from, to).work(), unknown: 0.0, middle: None };
+        if to.arc_length <= from.arc_length {
+            return Ok(whole);
         }
-        let Some(middle) = self.between(from, to, 0.5)? else { return Ok((whole, None)) };
+        let Some(middle) = self.between(from, to, 0.5)? else { return Ok(whole) };
         let halves = Cubic::new(from, &middle).work() + Cubic::new(&middle, to).work();
+        let change = halves - whole.work;
         // the error of a cubic falls with the fourth power of the length and more
-        let work =
-            if (halves - whole).abs() <= noise(from, to).max(15.0 * TOLERANCE * self.largest[1].max(halves.abs())) {
-                halves + (halves - whole) / 15.0
-            } else {
-                self.divided(from, &middle, left - 1)?.0 + self.divided(&middle, to, left - 1)?.0
-            };
-        Ok((work, Some(middle)))
+        let is_known = change.abs() <= noise(from, to).max(15.0 * TOLERANCE * self.largest[1].max(halves.abs()));
+        let [work, unknown] = if is_known || left == 0 {
+            [halves + change / 15.0, if is_known { 0.0 } else { change.abs() }]
+        } else {
+            let [first, second] = [self.divided(from, &middle, left - 1)?, self.divided(&middle, to, left - 1)?];
+            [first.work + second.work, first.unknown + second.unknown]
+        };
+        Ok(Worked { work, unknown, middle: Some(middle) })
     }
 }
 
