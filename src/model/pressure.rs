@@ -113,7 +113,8 @@ impl OwnTerm {
         if let Some(&vertices) = open_sides(&faces).iter().find(|ends| !ends.iter().all(held)) {
             return Err(AssemblyError::Open { vertices });
         }
-        let centre = tiling.positions.iter().sum::<Vec3>() / tiling.positions.len().max(1) as f64;
+        let drawn = assembly.drawn().coordinates.chunks_exact(3).map(Vec3::from_column_slice);
+        let centre = drawn.sum::<Vec3>() / tiling.positions.len().max(1) as f64;
         let springs = vec![Spring { stiffness: value, rest: 0.0 }; faces.len()];
         let site = |vertex: usize| Site { vertex, shift: [0, 0] };
         let elements = faces.into_iter().map(|corners| (corners.map(site), None)).collect();

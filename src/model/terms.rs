@@ -141,9 +141,10 @@ impl Terms {
         self.laws.first().or_else(|| self.own.first().map(OwnTerm::name))
     }
 
-    /// Whether there are loads, forces or pressures.
+    /// Whether there are loads, forces or pressures that are not zero.
     pub fn is_loaded(&self) -> bool {
-        !self.loads.is_empty() || self.own.iter().any(OwnTerm::is_load)
+        let acts = |term: &OwnTerm| term.is_load() && term.springs.iter().any(|spring| spring.stiffness != 0.0);
+        !self.loads.is_empty() || self.own.iter().any(acts)
     }
 
     /// Returns the same terms without loads.

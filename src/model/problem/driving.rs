@@ -3,9 +3,9 @@
 mod axis;
 mod effect;
 mod loading;
-mod volume;
+mod prescribed;
 
-use super::{Model, POSE, Support};
+use super::{Model, POSE};
 use crate::model::drive::{Drive, DriveError, Driven};
 use crate::model::element::{Element, TermKind};
 use crate::model::law::Memory;
@@ -59,7 +59,7 @@ impl DrivenModel {
                 model.support_moved(vertices.iter().map(along).collect(), false);
                 (Effect::prescribed(&model, first..first + vertices.len()), 0.0, drive.to)
             }
-            Driven::Loads if model.loads.is_empty() && model.pressures().is_empty() => {
+            Driven::Loads if model.loads.is_empty() && model.pressures().iter().all(|(_, value)| *value == 0.0) => {
                 return Err(DriveError::NoLoads);
             }
             Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
@@ -179,17 +179,6 @@ impl DrivenModel {
 }
 
 impl Model {
-    /// Adds supports of these linear functions, at their values in the reference state, and chooses the unknowns anew.
-    fn support_moved(&mut self, functions: Vec<Vec<(usize, f64)>>, is_angle: bool) {
-        for terms in functions {
-            let support = Support { terms, rest: 0.0, is_angle };
-            let rest = support.value(&self.base);
-            self.supports.push(Support { rest, ..support });
-        }
-        self.count_measures();
-        self.choose_unknowns();
-    }
-
     /// Returns the stiff elements of a kind, each with its number among the stiff measures.
     pub(super) fn stiff_of(&self, kind: TermKind) -> impl Iterator<Item = (usize, Element<'_>)> {
         self.stiff().enumerate().filter(move |(_, element)| element.kind() == kind)
@@ -199,15 +188,6 @@ impl Model {
     pub(super) fn length_of(&self, element: &Element<'_>) -> f64 {
         let [from, to] = [0, 1].map(|n| self.equations.domain.point(&self.equations.drawn, element.sites()[n]));
         (to - from).norm()
-    }
-
-    /// Sets the prescribed value of a stiff measure: the rest value of an element, or that of a support.
-    fn prescribe(&mut self, measure: usize, rest: f64) {
-        let number = self.soft_elements() + measure;
-        match number.checked_sub(self.springs.len()) {
-            None => self.springs[number].rest = rest,
-            Some(support) => self.supports[support].rest = rest,
-        }
     }
 }
 

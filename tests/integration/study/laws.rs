@@ -456,7 +456,8 @@ fn paths_pass_kinks() {
 /// state that a relaxation finds. Tolerance: 1e-9 of its energy, as residuals are 1e-12.
 #[test]
 fn powers_follow_their_rest_angles() {
-    for (of_creases, of_facets) in [(4.0 / 3.0, 1.0), (1.0, 4.0 / 3.0), (4.0 / 3.0, 4.0 / 3.0), (2.0, 1.0), (3.0, 1.0)] {
+    for (of_creases, of_facets) in [(4.0 / 3.0, 1.0), (1.0, 4.0 / 3.0), (4.0 / 3.0, 4.0 / 3.0), (2.0, 1.0), (3.0, 1.0)]
+    {
         let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
         let hinges = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).rest(Rest::Angle(0.9)).facets(10.0);
         let [creases, facets] = [of_creases, of_facets].map(|exponent| OfAngle(Power { exponent }));

@@ -270,7 +270,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         known: Option<f64>,
     ) -> Result<MarkedState, PathError> {
         self.follower.measure(&state);
-        let work = known.map_or_else(|| self.follower.work(from, &state).map(|worked| worked.work), Ok)?;
+        let work = known.map_or_else(|| self.follower.work(from, &state).map(|worked| worked.on_path()), Ok)?;
         let before = states.last().or(self.branches[number].states.last()).map_or(0.0, |marked| marked.work);
         Ok(self.marked(state, mark, before + work))
     }

@@ -80,7 +80,7 @@ impl<P: ParametrizedProblem> Run<'_, P> {
         let rate = (first.conjugate[0] - from.conjugate[0]) / first.arc_length;
         let conjugate = [from.conjugate[0], rate];
         let begin = PathState { tangent: chord.scaled(1.0 / first.arc_length), conjugate, ..from };
-        let work = point.work + self.follower.work(&begin, &first)?.work;
+        let work = point.work + self.follower.work(&begin, &first)?.on_path();
         let first = self.marked(first, None, work);
         self.branch(vec![MarkedState { state: begin, ..point }, first])
     }

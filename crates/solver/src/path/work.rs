@@ -5,15 +5,13 @@ use super::interpolant::Cubic;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState};
 
-/// Error of the work of a piece, relative to the largest product of conjugate and parameter's way, at which the piece
-/// is not divided further; and how often one is halved at most.
-const TOLERANCE: f64 = 1e-12;
+/// How often a piece is halved at most.
 const MOST_HALVINGS: usize = 7;
-/// Difference of the potential's change and the work, relative to the same product, above which a step has left its
-/// path; and part of the longest step below which none is asked.
+/// Difference of the potential's change and the work, relative to the largest product of conjugate and parameter's way, above
+/// which a step has left its path; and part of the longest step below which none is asked.
 const UNBALANCED: f64 = 1e-8;
 const SHORTEST_CHECKED: f64 = 1e-3;
-/// Rounding error of a sum of energies relative to its size.
+/// Rounding error of a sum of energies, and of work that is integrated, relative to their size.
 const ROUNDING: f64 = 1e-12;
 
 /// A step along a path.
@@ -31,10 +29,19 @@ pub(super) struct Step {
 /// The work from one state to another.
 pub(super) struct Worked {
     pub work: f64,
-    /// What pieces that are not divided further leave unknown of it.
-    unknown: f64,
+    /// The change of the potential, and whether it is the work.
+    change: f64,
+    balanced: bool,
     /// The state half way if it was sought and found.
     middle: Option<PathState>,
+}
+
+impl Worked {
+    /// The work between two states of which it is known that they are on one path: next to others no states between them
+    /// may be found.
+    pub(super) fn on_path(&self) -> f64 {
+        if self.balanced || !self.change.is_finite() { self.work } else { self.change }
+    }
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
@@ -51,8 +58,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let Some((state, longer)) = self.step(before, last, length)? else { return Ok(None) };
             let (largest, way) = (self.largest, state.arc_length - last.arc_length);
             self.measure(&state);
-            let Worked { work, unknown, middle } = self.work(last, &state)?;
-            let balanced = self.is_balanced([last, &state], (work, unknown));
+            let Worked { work, balanced, middle, .. } = self.work(last, &state)?;
             self.largest = largest;
             if balanced || way < SHORTEST_CHECKED * self.settings.max_step {
                 // another branch, or motions that cost nothing, may be met half way
@@ -67,53 +73,69 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         }
     }
 
-    /// Whether the potential changes by this work from one state to the next, as far as both are known: but for errors of
-    /// the rates, of sums, and of measures that are not quite met.
-    fn is_balanced(&mut self, [from, to]: [&PathState; 2], (work, unknown): (f64, f64)) -> bool {
-        let [before, after] = [from, to].map(|state| self.potential(state));
-        let unbalanced = (after - before - work).abs();
-        let rounding = |state: &PathState, potential: f64| {
-            let pulls = state.tension.iter().zip(self.problem.gap_scale()).map(|(t, scale)| (t * scale).abs());
-            ROUNDING * (potential.abs() + self.problem.energy(&state.x).abs())
-                + state.residual_length * pulls.sum::<f64>()
+    /// The work from one state to the next. It is integrated by cubic interpolation between them and as many states of the
+    /// path in between as it takes until the potential changes by it, as far as both are known; the better known of the
+    /// two is the work. Where stiffness jumps no interpolation is good, and it is the change of the potential.
+    pub(super) fn work(&mut self, from: &PathState, to: &PathState) -> Result<Worked, PathError> {
+        let potentials = [self.potential(from), self.potential(to)];
+        if self.problem.has_kinks() {
+            let change = potentials[1] - potentials[0];
+            return Ok(Worked { work: change, change, balanced: true, middle: None });
+        }
+        self.divided([from, to], potentials, MOST_HALVINGS)
+    }
+
+    fn divided(&mut self, ends: [&PathState; 2], known: [f64; 2], left: usize) -> Result<Worked, PathError> {
+        let [from, to] = ends;
+        let whole = Cubic::new(from, to).work();
+        let middle = if to.arc_length > from.arc_length { self.between(from, to, 0.5)? } else { None };
+        let Some(middle) = middle else {
+            return Ok(self.compared(ends, known, [whole, 0.0], None));
         };
-        let known = noise(from, to) + rounding(from, before) + rounding(to, after) + UNBALANCED * self.largest[1];
-        let at_kinks = if self.kinks { unknown } else { 0.0 };
-        self.problem.has_kinks() || unbalanced.is_nan() || unbalanced <= known + at_kinks
+        let halves = Cubic::new(from, &middle).work() + Cubic::new(&middle, to).work();
+        // the error of a cubic falls with the fourth power of the length and more
+        let change = halves - whole;
+        let is_final = left == 0 || change.abs() <= noise(from, to).max(ROUNDING * self.largest[1].max(halves.abs()));
+        let unknown = if self.kinks && left == 0 { change.abs() } else { 0.0 };
+        let found = self.compared(ends, known, [halves + change / 15.0, unknown], Some(&middle));
+        let is_known = found.balanced && known.iter().all(|potential| potential.is_finite());
+        if is_known || is_final {
+            return Ok(found);
+        }
+        let at_middle = self.potential(&middle);
+        let first = self.divided([from, &middle], [known[0], at_middle], left - 1)?;
+        let second = self.divided([&middle, to], [at_middle, known[1]], left - 1)?;
+        let (work, balanced) = (first.work + second.work, first.balanced && second.balanced);
+        Ok(Worked { work, change: first.change + second.change, balanced, middle: Some(middle) })
+    }
+
+    /// Compares integrated work, and what is unknown of it, with the change of the potential, which is known but for rounding
+    /// errors of sums and measures that are not quite met.
+    fn compared(
+        &mut self,
+        [from, to]: [&PathState; 2],
+        [before, after]: [f64; 2],
+        [integrated, unknown]: [f64; 2],
+        middle: Option<&PathState>,
+    ) -> Worked {
+        let change = after - before;
+        let rounding = self.rounding(from, before) + self.rounding(to, after);
+        let unbalanced = (change - integrated).abs();
+        let known = noise(from, to) + rounding + UNBALANCED * self.largest[1] + unknown;
+        let balanced = unbalanced.is_nan() || unbalanced <= known;
+        let work = if balanced && unbalanced > rounding { change } else { integrated };
+        Worked { work, change, balanced, middle: middle.cloned() }
+    }
+
+    /// The rounding error of the potential of a state.
+    fn rounding(&mut self, state: &PathState, potential: f64) -> f64 {
+        let pulls = state.tension.iter().zip(self.problem.gap_scale()).map(|(t, scale)| (t * scale).abs());
+        ROUNDING * (potential.abs() + self.problem.energy(&state.x).abs()) + state.residual_length * pulls.sum::<f64>()
     }
 
     fn potential(&mut self, state: &PathState) -> f64 {
         self.problem.set_parameter(state.parameter);
         self.problem.conjugate_integral(&state.x, &state.tension)
-    }
-
-    /// The work from one state to the next: from both states alone where no interpolation is good, else by cubic
-    /// interpolation between them and as many states of the path in between as that takes, but for errors of the rates.
-    pub(super) fn work(&mut self, from: &PathState, to: &PathState) -> Result<Worked, PathError> {
-        if self.problem.has_kinks() {
-            let work = self.potential(to) - self.potential(from);
-            return Ok(Worked { work, unknown: 0.0, middle: None });
-        }
-        self.divided(from, to, MOST_HALVINGS)
-    }
-
-    fn divided(&mut self, from: &PathState, to: &PathState, left: usize) -> Result<Worked, PathError> {
-        let whole = Worked { work: Cubic::new(from, to).work(), unknown: 0.0, middle: None };
-        if to.arc_length <= from.arc_length {
-            return Ok(whole);
-        }
-        let Some(middle) = self.between(from, to, 0.5)? else { return Ok(whole) };
-        let halves = Cubic::new(from, &middle).work() + Cubic::new(&middle, to).work();
-        let change = halves - whole.work;
-        // the error of a cubic falls with the fourth power of the length and more
-        let is_known = change.abs() <= noise(from, to).max(15.0 * TOLERANCE * self.largest[1].max(halves.abs()));
-        let [work, unknown] = if is_known || left == 0 {
-            [halves + change / 15.0, if is_known { 0.0 } else { change.abs() }]
-        } else {
-            let [first, second] = [self.divided(from, &middle, left - 1)?, self.divided(&middle, to, left - 1)?];
-            [first.work + second.work, first.unknown + second.unknown]
-        };
-        Ok(Worked { work, unknown, middle: Some(middle) })
     }
 }
 

@@ -1,14 +1,26 @@
-//! Pressures by their names, and the volumes that their faces enclose.
+//! Measures that drives prescribe: the supports of displacements, and the volumes that faces under pressure enclose.
 
 use super::Model;
 use crate::model::element::{Elements, TermKind};
 use crate::model::enclosed::Enclosed;
 use crate::model::law::{Memory, Spring};
+use crate::model::problem::Support;
 use crate::model::terms::RIGID;
 use std::ops::Range;
 use std::sync::Arc;
 
 impl Model {
+    /// Adds supports of these linear functions, at their values in the reference state, and chooses the unknowns anew.
+    pub(super) fn support_moved(&mut self, functions: Vec<Vec<(usize, f64)>>, is_angle: bool) {
+        for terms in functions {
+            let support = Support { terms, rest: 0.0, is_angle };
+            let rest = support.value(&self.base);
+            self.supports.push(Support { rest, ..support });
+        }
+        self.count_measures();
+        self.choose_unknowns();
+    }
+
     /// Returns the numbers of the faces under the pressure of this name, which are soft elements; `None` if there are
     /// none.
     pub(super) fn pressure_of(&self, name: &str) -> Option<Range<usize>> {
@@ -41,5 +53,13 @@ impl Model {
         self.count_measures();
         self.choose_unknowns();
         Some((measure, area))
+    }
+    /// Sets the prescribed value of a stiff measure: the rest value of an element, or that of a support.
+    pub(super) fn prescribe(&mut self, measure: usize, rest: f64) {
+        let number = self.soft_elements() + measure;
+        match number.checked_sub(self.springs.len()) {
+            None => self.springs[number].rest = rest,
+            Some(support) => self.supports[support].rest = rest,
+        }
     }
 }
