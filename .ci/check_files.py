@@ -325,8 +325,8 @@ def check_table(checks, path, kind, edges):
     if kind == "path":
         between = header[len(PATH_COLUMNS):-edges]
         checks.that(header[: len(PATH_COLUMNS)] == PATH_COLUMNS, f"{path}: the first columns")
-        probes = [name for name in between if name.startswith("probe_")]
-        checks.that(between[len(between) - 1 - len(probes) : -1] == probes, f"{path}: probes stand before `state`, {between}")
+        probes = [name for name in between if name.startswith("probe_")] + [name for name in between if name.startswith("volume_")]
+        checks.that(between[len(between) - 1 - len(probes) : -1] == probes, f"{path}: probes and volumes stand before `state`, {between}")
         own = [name for name in between if name not in CYLINDER + RATIOS + probes + ["dissipated"]]
         checks.that(own in (["state"], ["self_intersecting", "state"]), f"{path}: the columns between, {between}")
         checks.that(not set(between) & set(CYLINDER) or set(CYLINDER) <= set(between), f"{path}: a whole cylinder")

@@ -117,7 +117,7 @@ impl ForceCurve for Power {
         [torque * size / (p + 1.0), torque.copysign(off), p * size.powf(p - 1.0)]
     }
 
-    /// At rest the stiffness of neighbours, over each other, has no limit.
+    /// Next to rest the stiffnesses of two elements may have any ratio, so that no step from there looks smooth.
     fn has_kinks(&self) -> bool {
         self.exponent > 1.0
     }

@@ -75,8 +75,8 @@ impl Law for Push {
 
 impl OwnTerm {
     /// Makes the pressure of this name, empty where no drive refers to it, on the polygons of a patch whose numbers in the
-    /// sheet `on` accepts, in all cells: a force per area, positive along the face normals. A rim whose vertices are one rigid part is that of a plate, which has the
-    /// pressure too. As a load it has no energy in tables, and a drive of the loads drives it.
+    /// sheet `on` accepts, in all cells: a force per area, positive along the face normals. A rim whose vertices are one
+    /// rigid part is that of a plate, which has the pressure too. As a load it has no energy in tables, and a drive of the loads drives it.
     ///
     /// ```
     /// use foldwell::model::OwnTerm;

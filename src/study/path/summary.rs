@@ -12,7 +12,7 @@ pub struct PathSummary {
     /// Name of the drive.
     pub drive: String,
     /// The kind of the driven quantity.
-    #[schemars(extend("enum" = ["displacement", "rotation", "load", "lock", "rest", "stiffness"]))]
+    #[schemars(extend("enum" = ["displacement", "rotation", "load", "pressure", "volume", "lock", "rest", "stiffness"]))]
     pub driven: String,
     /// Its value at the first end that was asked for; null: infinite stiffness.
     pub to: Option<f64>,

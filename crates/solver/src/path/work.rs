@@ -28,7 +28,8 @@ pub(super) struct Step {
 
 /// The work from one state to another.
 pub(super) struct Worked {
-    pub work: f64,
+    /// The integral of the conjugate over the parameter, as well as it is known.
+    work: f64,
     /// The change of the potential, and whether it is the work.
     change: f64,
     balanced: bool,

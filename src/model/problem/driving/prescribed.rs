@@ -31,7 +31,7 @@ impl Model {
     fn pressure_term(&self, name: &str) -> Option<(usize, &Arc<dyn Elements>)> {
         let soft = &self.equations.soft;
         let is_wanted = |term: &Arc<dyn Elements>| term.head().kind == TermKind::Pressure && term.head().name == name;
-        let number = soft.iter().position(is_wanted)?;
+        let number = soft.iter().position(is_wanted).filter(|_| !name.is_empty())?;
         Some((soft[..number].iter().map(|term| term.len()).sum(), &soft[number]))
     }
 
