@@ -214,7 +214,7 @@ pub(super) fn grid(canvas: &mut Canvas, frame: Area, axes: &[Axis; 2], names: [&
     let [x, y] = axes;
     let middle = [0.5 * (left + right), 0.5 * (top + bottom)];
     canvas.text([middle[0], bottom + 56.0], &name(x, names[0]), Font::SMALL.middle());
-    canvas.text([left - ROOM[0] + 26.0, middle[1]], &name(y, names[1]), Font::SMALL.middle().turned());
+    canvas.text([left - ROOM[0] + 14.0, middle[1]], &name(y, names[1]), Font::SMALL.middle().turned());
 }
 
 /// Sets text next to a point where it overlaps nothing.
