@@ -143,7 +143,9 @@ impl State {
             TermKind::Bars => self.energy_bars += energy,
             TermKind::Creases => self.energy_creases += energy,
             TermKind::Facets => self.energy_facets += energy,
-            TermKind::Locks | TermKind::Own | TermKind::Pressure => debug_assert!(energy == 0.0, "locks are rigid"),
+            TermKind::Locks | TermKind::Own | TermKind::Pressure | TermKind::Torque => {
+                debug_assert!(energy == 0.0, "locks are rigid");
+            }
         }
     }
 
@@ -183,7 +185,7 @@ impl State {
             TermKind::Bars => self.energy_bars,
             TermKind::Creases => self.energy_creases,
             TermKind::Facets => self.energy_facets,
-            TermKind::Locks | TermKind::Pressure => 0.0,
+            TermKind::Locks | TermKind::Pressure | TermKind::Torque => 0.0,
             TermKind::Own => self.energy_own.iter().map(|(_, energy)| energy).sum(),
         }
     }

@@ -23,13 +23,16 @@ pub enum TermKind {
     Locks,
     /// Elements of a term of one's own.
     Own,
-    /// Faces under pressure, and parts under a torque: loads, which store nothing.
+    /// Faces under pressure, which are loaded and store nothing.
     Pressure,
+    /// Parts under a torque, which do the same.
+    Torque,
 }
 
 impl TermKind {
     /// All kinds, in the order in which a scene lists them.
-    pub(crate) const ALL: [Self; 6] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks, Self::Own, Self::Pressure];
+    pub(crate) const ALL: [Self; 7] =
+        [Self::Bars, Self::Creases, Self::Facets, Self::Locks, Self::Own, Self::Pressure, Self::Torque];
 
     /// Returns the name of this kind in a scene.
     pub fn name(self) -> &'static str {
@@ -40,7 +43,13 @@ impl TermKind {
             Self::Locks => "locks",
             Self::Own => "own terms",
             Self::Pressure => "pressure",
+            Self::Torque => "torque",
         }
+    }
+
+    /// Whether it is a load, whose potential is no energy of the sheet.
+    pub(super) fn is_load(self) -> bool {
+        matches!(self, Self::Pressure | Self::Torque)
     }
 }
 
@@ -295,7 +304,7 @@ impl<'a> Element<'a> {
 
     /// Whether it is a load, whose potential is no energy of the sheet.
     pub(crate) fn is_load(&self) -> bool {
-        self.kind() == TermKind::Pressure
+        self.kind().is_load()
     }
 
     /// Whether it has another law than a spring.

@@ -76,14 +76,14 @@ impl OwnTerm {
         Self { elements, springs, has_tensions }
     }
 
-    /// Returns its name; that of a pressure is its kind.
+    /// Returns its name; that of a load is its kind.
     pub fn name(&self) -> &str {
-        if self.is_load() { TermKind::Pressure.name() } else { &self.elements.head().name }
+        if self.is_load() { self.elements.head().kind.name() } else { &self.elements.head().name }
     }
 
     /// Whether it is a load and no energy: the pressure on faces, or a torque.
     pub fn is_load(&self) -> bool {
-        self.elements.head().kind == TermKind::Pressure
+        self.elements.head().kind.is_load()
     }
 }
 

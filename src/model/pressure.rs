@@ -9,7 +9,7 @@
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::domain::Domain;
-use super::element::{Term, TermKind};
+use super::element::{Head, Term, TermKind};
 use super::law::{Law, Spring, Stored};
 use super::measure::Measure;
 use super::own_term::OwnTerm;
@@ -76,7 +76,8 @@ impl Law for Push {
 impl OwnTerm {
     /// Makes the pressure of this name, empty where no drive refers to it, on the polygons of a patch whose numbers in the
     /// sheet `on` accepts, in all cells: a force per area, positive along the face normals. A rim whose vertices are one
-    /// rigid part is that of a plate, which has the pressure too. As a load it has no energy in tables, and a drive of the loads drives it.
+    /// rigid part is that of a plate, which has the pressure too. As a load it has no energy in tables, and a drive of the
+    /// loads drives it.
     ///
     /// ```
     /// use foldwell::model::OwnTerm;
@@ -127,9 +128,10 @@ impl OwnTerm {
     /// patch, where only a rim is pinned that between the faces and the centre of the drawn vertices; `None` if it is no
     /// pressure with a name.
     pub fn volume(&self, coordinates: &[f64]) -> Option<(&str, f64)> {
-        let name = &self.elements.head().name;
+        let Head { kind, name, .. } = self.elements.head();
         let of = |k| self.elements.value(k, &Domain::Patch, coordinates);
-        (self.is_load() && !name.is_empty()).then(|| (name.as_str(), (0..self.elements.len()).map(of).sum()))
+        let is_named = *kind == TermKind::Pressure && !name.is_empty();
+        is_named.then(|| (name.as_str(), (0..self.elements.len()).map(of).sum()))
     }
 }
 

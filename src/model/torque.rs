@@ -110,7 +110,7 @@ impl OwnTerm {
         let ends = [body.vertices[0], far].map(|vertex| Site { vertex, shift: [0, 0] });
         let push: Arc<dyn Law> = Arc::new(Push);
         let stored = |_| Stored::Law(push.clone());
-        let term = Term::new((TermKind::Pressure, ""), measure, vec![(ends, None)], stored);
+        let term = Term::new((TermKind::Torque, TermKind::Torque.name()), measure, vec![(ends, None)], stored);
         Ok(Self::of(Arc::new(term), vec![Spring { stiffness: value, rest: 0.0 }]))
     }
 }

@@ -67,7 +67,8 @@ pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec
         match resolve(file, assembly, spec)?.quantity {
             Driven::Vertices { direction, .. } => directions.push(direction),
             Driven::Part { axis, .. } if axis < 3 => directions.push(Vec3::ith(axis, 1.0)),
-            _ => {}
+            Driven::Part { .. } | Driven::Loads | Driven::Pressure(_) | Driven::Volume(_) => {}
+            Driven::Lock(_) | Driven::Rest | Driven::Stiffness(_) => {}
         }
     }
     Ok(directions)

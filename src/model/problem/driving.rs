@@ -47,17 +47,19 @@ impl DrivenModel {
         let first = model.compliance.len();
         let quantity = drive.quantity.clone();
         let begin = f64::from(u8::from(loaded));
-        let mut unit = 1.0;
+        let (mut unit, mut added) = (1.0, first..first);
         let (effect, parameter, target) = match &quantity {
             Driven::Part { part, axis } => {
                 let pose = model.points() + POSE * part + axis;
                 model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3);
-                (Effect::prescribed(&model, first..first + 1), 0.0, drive.to)
+                added.end += 1;
+                (Effect::prescribed(&model, added.clone()), 0.0, drive.to)
             }
             Driven::Vertices { vertices, direction } => {
                 let along = |v: &usize| (0..3).map(|axis| (3 * v + axis, direction[axis])).collect();
                 model.support_moved(vertices.iter().map(along).collect(), false);
-                (Effect::prescribed(&model, first..first + vertices.len()), 0.0, drive.to)
+                added.end += vertices.len();
+                (Effect::prescribed(&model, added.clone()), 0.0, drive.to)
             }
             Driven::Loads if model.loads.is_empty() && model.pressures().iter().all(|(_, value)| *value == 0.0) => {
                 return Err(DriveError::NoLoads);
@@ -70,10 +72,9 @@ impl DrivenModel {
                 (Effect::loads(&model, false, faces.map(|k| (k, 1.0)).collect()), value, drive.to)
             }
             Driven::Volume(name) => {
-                let (measure, area) = model.hold_volume(name).ok_or(DriveError::NoPressure)?;
-                unit = area;
-                let value = model.values(&model.start())[model.soft_elements() + measure];
-                (Effect::Prescribed(vec![(measure, value)]), 0.0, drive.to / area)
+                let (volume, area) = model.hold_volume(name).ok_or(DriveError::NoPressure)?;
+                (unit, added) = (area, volume.0..volume.0 + 1);
+                (Effect::Prescribed(vec![volume]), 0.0, drive.to / area)
             }
             Driven::Lock(edges) => {
                 let locks = model
@@ -90,8 +91,6 @@ impl DrivenModel {
         if !((target - parameter).abs() > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
-        let added = effect.first_prescribed().unwrap_or(first);
-        let added = added..added + model.compliance.len() - first;
         Ok(Self { unit, added, ..Self::driven(model, quantity, [parameter, target], effect) })
     }
 
@@ -247,7 +246,9 @@ impl ParametrizedProblem for DrivenModel {
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, offset)| model.prescribe(*k, value + offset)),
             Effect::Loads { forces, pressures, .. } => {
-                model.load_factor = if *forces { value } else { model.load_factor };
+                if *forces {
+                    model.load_factor = value;
+                }
                 pressures.iter().for_each(|(k, unit)| model.springs[*k].stiffness = value * unit);
             }
             Effect::Rest { drawn, given } => model.set_rests(drawn, given, value),
@@ -264,8 +265,10 @@ impl ParametrizedProblem for DrivenModel {
         let (mut force, mut gap) = (vec![0.0; at.gradient.len()], vec![0.0; tension.len()]);
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, _)| gap[*k] = -1.0),
-            Effect::Loads { pressures, .. } => {
-                force = self.load_rates(x);
+            Effect::Loads { forces, pressures, .. } => {
+                if *forces {
+                    force = self.model.load_rates(x);
+                }
                 let mut of_faces = vec![0.0; at.soft_stiffness.len()];
                 pressures.iter().for_each(|(k, unit)| of_faces[*k] = -unit);
                 at.soft_rows().add_transpose_product(&of_faces, &mut force);
@@ -317,9 +320,10 @@ impl ParametrizedProblem for DrivenModel {
         at.soft_rows().product(&rates.x, &mut changes);
         match &self.effect {
             Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| rates.tension[*k]).sum::<f64>(),
-            Effect::Loads { pressures, .. } => {
+            Effect::Loads { forces, pressures, .. } => {
                 let of_pressure = pressures.iter().map(|(k, unit)| unit * changes[*k]).sum::<f64>();
-                of_pressure - dot(&self.load_rates(x), &rates.x)
+                let of_forces = if *forces { -dot(&self.model.load_rates(x), &rates.x) } else { 0.0 };
+                of_pressure + of_forces
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();

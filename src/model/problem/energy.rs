@@ -2,7 +2,7 @@
 
 use super::{Equations, Model, POSE};
 use crate::model::Site;
-use crate::model::element::{Element, Elements, Local, TermKind, continued};
+use crate::model::element::{Element, Elements, Local, continued};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -240,7 +240,7 @@ impl Model {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
             let size = match term.head().kind {
-                TermKind::Pressure => f64::INFINITY,
+                kind if kind.is_load() => f64::INFINITY,
                 _ if term.head().is_angle => 1.0,
                 _ => self.equations.mean_edge,
             };

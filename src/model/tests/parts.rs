@@ -145,9 +145,17 @@ fn rates_of_loads_and_pressures() {
         tube.part(floor, [false; 6]).part(lid, ALL).load(7, [0, 0], [0.1, 0.0, -0.2]).load(14, [0, 0], [0.0, 0.3, 0.1]);
     let assembly = held.build().unwrap();
     let pressed = assembly.with_own_term(OwnTerm::pressure(&assembly, "air", 0.7, |_| true).unwrap());
+    let pressed = pressed.with_terms(Terms { guides: vec![(8, Vec3::new(0.6, 0.8, 0.0))], ..pressed.terms().clone() });
     for quantity in [Driven::Loads, Driven::Pressure("air".into()), Driven::Volume("air".into())] {
         check_rates(pressed.model(Gauge::Held), quantity);
     }
+    // the volume comes after the elements and before the guide
+    let (model, measures) = (pressed.model(Gauge::Held), pressed.model(Gauge::Held).compliance().len());
+    let drive = Drive { quantity: Driven::Volume("air".into()), to: 0.1 };
+    let driven = DrivenModel::new(model.clone(), &drive, model.values(&model.start()), false).unwrap();
+    let tension = driven.with_drive(vec![1.0; measures]);
+    assert_eq!(tension.iter().position(|tension| *tension == 0.0), Some(measures - 1));
+    assert_eq!(driven.without_drive(&tension), vec![1.0; measures]);
 }
 
 /// Claim: so are those by a factor of a torque. Source: differences.

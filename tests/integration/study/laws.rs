@@ -453,20 +453,31 @@ fn paths_pass_kinks() {
 }
 
 /// Claim: paths lead from the drawn state, where hinges that bend by a power have no stiffness, to all rest angles: to the
-/// state that a relaxation finds. Tolerance: 1e-9 of its energy, as residuals are 1e-12.
+/// state that a relaxation finds. Tolerance: 1e-9 of its energy, as residuals are 1e-12; a yoshimura folds without any.
 #[test]
 fn powers_follow_their_rest_angles() {
-    for (of_creases, of_facets) in [(4.0 / 3.0, 1.0), (1.0, 4.0 / 3.0), (4.0 / 3.0, 4.0 / 3.0), (2.0, 1.0), (3.0, 1.0)]
-    {
-        let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
-        let hinges = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).rest(Rest::Angle(0.9)).facets(10.0);
+    let third = 4.0 / 3.0;
+    let all = [
+        ("miura", 1e3, third, 1.0),
+        ("miura", 1e3, 1.0, third),
+        ("miura", 1e3, third, third),
+        ("miura", 1e3, 2.0, 1.0),
+        ("miura", 1e3, 3.0, 1.0),
+        ("eggbox", 1e2, third, third),
+        ("eggbox", RIGID, 1.0, third),
+        ("yoshimura", 1e2, third, 1.0),
+    ];
+    for (pattern, bars, of_creases, of_facets) in all {
+        let sheet = generate(&Pattern::named(pattern).unwrap()).unwrap();
+        let hinges = Assembly::patch(sheet, [2, 2]).bars(bars).creases(1.0).rest(Rest::Angle(0.9)).facets(3.0);
         let [creases, facets] = [of_creases, of_facets].map(|exponent| OfAngle(Power { exponent }));
         let assembly = hinges.crease_law(creases).facet_law(facets).build().unwrap();
         let drive = Drive { quantity: Driven::Rest, to: 1.0 };
         let branches = follow_path(&assembly, &drive, None, &PathOptions::default(), &mut |_, _| true).unwrap();
-        assert_eq!(branches[0].end, PathEnd::Arrived, "{of_creases} {of_facets}");
+        let what = format!("{pattern} {of_creases} {of_facets}");
+        assert_eq!(branches[0].end, PathEnd::Arrived, "{what}");
         let (found, relaxed) = (branches[0].points.last().unwrap(), relax(&assembly).unwrap().state.total());
-        assert_eq!(found.negative_eigenvalues, Some(0), "{of_creases} {of_facets}");
-        assert!((found.state.total() - relaxed).abs() < 1e-9 * relaxed, "{of_creases} {of_facets}: {relaxed}");
+        assert!(found.negative_eigenvalues == Some(0) && branches[0].points.len() < 200, "{what}");
+        assert!((found.state.total() - relaxed).abs() < 1e-9 * relaxed + 1e-20, "{what}: {relaxed}");
     }
 }

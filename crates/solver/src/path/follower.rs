@@ -17,8 +17,6 @@ pub(super) const LEAST_TANGENT_COSINE: f64 = 0.8;
 /// Length of a step relative to the longest one below which a path whose stiffness jumps is taken to have a kink: there
 /// no step, however short, looks smooth.
 const KINK_STEP: f64 = 1e-3;
-/// Part that the parameter has of a direction in which the unknowns do not move.
-const MOST_OF_PARAMETER: f64 = 0.999;
 /// Largest change of the measure of a soft element in a step: a fold angle in radians.
 const LARGEST_MEASURE_CHANGE: f64 = 0.5;
 /// Distance, over the scale of the parameter, from the value sought at which a state has it.
@@ -33,7 +31,7 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
     pub bordered: Bordered,
     pub settings: PathSettings,
     /// Whether stiffness may jump on the way.
-    pub kinks: bool,
+    kinks: bool,
     /// The parameter at which the path began.
     pub origin: f64,
     /// Largest rate of the conjugate quantity, and largest product of it and the parameter's way, on the path.
@@ -106,8 +104,9 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
             let at_kink = self.kinks && length < KINK_STEP * self.settings.max_step;
-            for across in [false, true].into_iter().filter(|across| at_kink || !across) {
-                let plane = self.plane(&last.tangent, across);
+            // at a kink the path may go on either way
+            for of_unknowns in [false, true].into_iter().filter(|of_unknowns| at_kink || !of_unknowns) {
+                let plane = self.plane(&last.tangent, of_unknowns);
                 let Some((mut state, off)) = self.settle(guess.clone(), &plane, 0.0)? else { continue };
                 let chord = Cubic::new(last, &state).chord();
                 let way = self.size(&chord);
@@ -129,11 +128,10 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The plane across a direction; at a kink, where the parameter may turn back at once while the unknowns go on, across
-    /// the direction of the unknowns, if they move.
+    /// the direction of the unknowns.
     fn plane(&self, direction: &Rates, at_kink: bool) -> Plane {
         let plane = Plane::across(direction, self.bordered.unit());
-        let moves = plane.parameter.abs() < MOST_OF_PARAMETER;
-        if at_kink && moves { Plane { parameter: 0.0, ..plane } } else { plane }
+        if at_kink { Plane { parameter: 0.0, ..plane } } else { plane }
     }
 
     /// First step of a path.

@@ -4,6 +4,7 @@ use super::follower::{Follower, LEAST_TANGENT_COSINE, SHRINK};
 use super::interpolant::Cubic;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState};
+use foldwell_numerics::larger;
 
 /// How often a piece is halved at most.
 const MOST_HALVINGS: usize = 7;
@@ -91,17 +92,16 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let whole = Cubic::new(from, to).work();
         let middle = if to.arc_length > from.arc_length { self.between(from, to, 0.5)? } else { None };
         let Some(middle) = middle else {
-            return Ok(self.compared(ends, known, [whole, 0.0], None));
+            return Ok(self.compared(ends, known, whole));
         };
         let halves = Cubic::new(from, &middle).work() + Cubic::new(&middle, to).work();
         // the error of a cubic falls with the fourth power of the length and more
         let change = halves - whole;
         let is_final = left == 0 || change.abs() <= noise(from, to).max(ROUNDING * self.largest[1].max(halves.abs()));
-        let unknown = if self.kinks && left == 0 { change.abs() } else { 0.0 };
-        let found = self.compared(ends, known, [halves + change / 15.0, unknown], Some(&middle));
+        let found = self.compared(ends, known, halves + change / 15.0);
         let is_known = found.balanced && known.iter().all(|potential| potential.is_finite());
         if is_known || is_final {
-            return Ok(found);
+            return Ok(Worked { middle: Some(middle), ..found });
         }
         let at_middle = self.potential(&middle);
         let first = self.divided([from, &middle], [known[0], at_middle], left - 1)?;
@@ -110,22 +110,19 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(Worked { work, change: first.change + second.change, balanced, middle: Some(middle) })
     }
 
-    /// Compares integrated work, and what is unknown of it, with the change of the potential, which is known but for rounding
-    /// errors of sums and measures that are not quite met.
-    fn compared(
-        &mut self,
-        [from, to]: [&PathState; 2],
-        [before, after]: [f64; 2],
-        [integrated, unknown]: [f64; 2],
-        middle: Option<&PathState>,
-    ) -> Worked {
+    /// Compares integrated work with the change of the potential, which is known but for rounding errors of sums, and for
+    /// measures and forces that are not quite met.
+    fn compared(&mut self, [from, to]: [&PathState; 2], [before, after]: [f64; 2], integrated: f64) -> Worked {
         let change = after - before;
         let rounding = self.rounding(from, before) + self.rounding(to, after);
         let unbalanced = (change - integrated).abs();
-        let known = noise(from, to) + rounding + UNBALANCED * self.largest[1] + unknown;
+        // what is left of forces works too
+        let left = larger(from.residual_force, to.residual_force) * self.bordered.at.largest_force;
+        let left = left * from.x.iter().zip(&to.x).map(|(x, y)| (y - x).abs()).sum::<f64>();
+        let known = noise(from, to) + rounding + left + UNBALANCED * self.largest[1];
         let balanced = unbalanced.is_nan() || unbalanced <= known;
         let work = if balanced && unbalanced > rounding { change } else { integrated };
-        Worked { work, change, balanced, middle: middle.cloned() }
+        Worked { work, change, balanced, middle: None }
     }
 
     /// The rounding error of the potential of a state.

@@ -42,11 +42,6 @@ impl Effect {
         Self::Loads { forces, origin, pressures }
     }
 
-    /// Number of the first stiff measure that is prescribed, if any is.
-    pub(super) fn first_prescribed(&self) -> Option<usize> {
-        if let Self::Prescribed(measures) = self { measures.first().map(|(measure, _)| *measure) } else { None }
-    }
-
     /// Rest values as given, and those of the drawn state, from which some differ; locks and supports keep theirs.
     pub(super) fn rest(model: &Model, mut drawn: Vec<f64>) -> Result<Self, DriveError> {
         let given = model.rests();

@@ -38,14 +38,6 @@ impl DrivenModel {
     }
 }
 
-impl DrivenModel {
-    /// Returns the gradient of the potential of the driven forces on vertices, for a factor of 1.
-    pub(super) fn load_rates(&self, x: &[f64]) -> Vec<f64> {
-        let driven = matches!(self.effect, Effect::Loads { forces: true, .. });
-        if driven { self.model.load_rates(x) } else { vec![0.0; x.len()] }
-    }
-}
-
 impl Model {
     /// Returns the gradient of the potential of the loads, for a factor of 1.
     pub(super) fn load_rates(&self, x: &[f64]) -> Vec<f64> {

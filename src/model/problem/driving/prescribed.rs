@@ -31,13 +31,14 @@ impl Model {
     fn pressure_term(&self, name: &str) -> Option<(usize, &Arc<dyn Elements>)> {
         let soft = &self.equations.soft;
         let is_wanted = |term: &Arc<dyn Elements>| term.head().kind == TermKind::Pressure && term.head().name == name;
-        let number = soft.iter().position(is_wanted).filter(|_| !name.is_empty())?;
+        let number = soft.iter().position(is_wanted)?;
         Some((soft[..number].iter().map(|term| term.len()).sum(), &soft[number]))
     }
 
     /// Keeps the volume that the faces under the pressure of this name enclose, instead of the pressure. Returns the
-    /// number of that volume among the stiff measures, and the drawn area of the faces, by which it is divided.
-    pub(super) fn hold_volume(&mut self, name: &str) -> Option<(usize, f64)> {
+    /// number of that volume among the stiff measures and its value, and the drawn area of the faces, by which it is
+    /// divided.
+    pub(super) fn hold_volume(&mut self, name: &str) -> Option<((usize, f64), f64)> {
         let (first, term) = self.pressure_term(name)?;
         let faces = first..first + term.len();
         let volume = Enclosed::new(term.clone(), &self.equations.drawn);
@@ -52,8 +53,9 @@ impl Model {
         }
         self.count_measures();
         self.choose_unknowns();
-        Some((measure, area))
+        Some(((measure, rest), area))
     }
+
     /// Sets the prescribed value of a stiff measure: the rest value of an element, or that of a support.
     pub(super) fn prescribe(&mut self, measure: usize, rest: f64) {
         let number = self.soft_elements() + measure;
