@@ -121,6 +121,46 @@ fn all_half_branches_of_a_loaded_dome_are_found() {
     }
 }
 
+/// A dome of seven sides, of a ring of vertices and an apex within its pinned rim, turned about its axis by an angle,
+/// under a load at the apex: bars and soft creases.
+fn ringed_dome(turn: f64) -> Assembly {
+    const SIDES: usize = 7;
+    let corner = |k: f64, radius: f64, z: f64| {
+        let (sin, cos) = (turn + TAU * k / SIDES as f64).sin_cos();
+        [radius * cos, radius * sin, z]
+    };
+    let rim = (0..SIDES).map(|k| corner(k as f64, 1.0, 0.0));
+    let ring = (0..SIDES).map(|k| corner(k as f64 + 0.5, 0.633, 0.4));
+    let vertices: Vec<[f64; 3]> = rim.chain(ring).chain([[0.0, 0.0, 0.635]]).collect();
+    let around = |k: usize| [k, (k + 1) % SIDES, SIDES + k, SIDES + (k + 1) % SIDES];
+    let sectors = (0..SIDES).map(around);
+    let faces: Vec<Vec<usize>> =
+        sectors.flat_map(|[a, b, c, d]| [vec![a, b, c], vec![b, d, c], vec![c, d, 2 * SIDES]]).collect();
+    let mut builder = Assembly::patch(sheet(&vertices, &faces), [1, 1]).bars(1.0).creases(1e-3);
+    for k in 0..SIDES {
+        builder = builder.pin(k, [0, 0], [true; 3]);
+    }
+    builder.load(2 * SIDES, [0, 0], [0.0, 0.0, -1.0]).build().unwrap()
+}
+
+/// Claim: all half branches of a double point are found where other branch points are as near as on a dome with a ring,
+/// whatever the turn about the axis. Source: group theory, as above: 2N of N sides for every wave number, since N is
+/// prime.
+#[test]
+fn all_half_branches_beside_other_branch_points_are_found() {
+    for turn in [0.0, 1.0, 3.677] {
+        let stop = PathStop { arc_length: Some(0.6), ..PathStop::default() };
+        let options = PathOptions { switch: true, stop, ..PathOptions::default() };
+        let branches = followed(&ringed_dome(turn), &Drive { quantity: Driven::Loads, to: 1.0 }, &options);
+        let points = branch_points(&branches[0]);
+        assert!(points.len() >= 2, "{turn}: {}", points.len());
+        for known in points.into_iter().map(|point| point.branch_point.unwrap()) {
+            let counted = known.half_branches.map(|HalfBranches { found, expected, .. }| (found, expected));
+            assert_eq!((known.multiplicity, counted), (2, Some((14, Some(14)))), "{turn}");
+        }
+    }
+}
+
 /// The octagonal drum of Kresling's pattern whose upper vertices are pushed down by equal loads: radius, height and
 /// twist 1, 1 and an eighth of a turn.
 fn octagon() -> Assembly {

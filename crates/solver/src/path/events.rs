@@ -2,7 +2,7 @@
 
 use super::branching::guesses;
 use super::exits::SAME_STATE;
-use super::follower::Follower;
+use super::follower::{Follower, LEAST_TANGENT_COSINE};
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathMark};
 use super::problem::{ParametrizedProblem, PathState};
@@ -18,6 +18,9 @@ const AROUND: f64 = 1e-4;
 /// far in units of the way to there.
 const MOST_SHIFTS: usize = 5;
 const BEYOND: f64 = 1.2;
+/// Ratio of a rate within a step to those at both ends below which it may turn twice, and the most states that tell.
+const NEARER: f64 = 0.5;
+const MOST_ADDED: usize = 8;
 /// Largest number of changes of the level that are sought in a step.
 const MOST_BRANCH_POINTS: usize = 16;
 
@@ -37,6 +40,23 @@ pub(super) fn changed(before: f64, after: f64) -> bool {
 /// Whether a rate changed its sign, where neither value is an error of the linear algebra.
 fn turned([before, after]: [f64; 2], errors: [f64; 2]) -> bool {
     before.abs() > errors[0] && after.abs() > errors[1] && changed(before, after)
+}
+
+/// The part of the way between two states at which a rate of one sign at both, that of the parameter or of its conjugate,
+/// is much nearer to zero or beyond it, by the cubic through both.
+fn least_rate(from: &PathState, to: &PathState) -> Option<f64> {
+    let length = to.arc_length - from.arc_length;
+    let parameters = [from.tangent.parameter, (to.parameter - from.parameter) / length, to.tangent.parameter];
+    let conjugates = [from.conjugate[1], (to.conjugate[0] - from.conjugate[0]) / length, to.conjugate[1]];
+    [parameters, conjugates].into_iter().zip([0, 1]).find_map(|([before, mean, after], quantity)| {
+        let errors = [from, to].map(|state| state.rate_errors[quantity]);
+        let (linear, square) = (6.0 * mean - 4.0 * before - 2.0 * after, 3.0 * (before + after - 2.0 * mean));
+        let part = -0.5 * linear / square;
+        let least = (before + 0.5 * linear * part) * before.signum();
+        let small = least < NEARER * f64::min(before.abs(), after.abs());
+        let known = before.abs() > errors[0] && after.abs() > errors[1] && before * after > 0.0;
+        (known && small && 0.0 < part && part < 1.0).then_some(part)
+    })
 }
 
 /// The number of negative eigenvalues along a piece of a path, less what the extremum of the parameter in it makes.
@@ -84,9 +104,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
         let inner = middle.filter(|middle| middle.arc_length < to.arc_length);
-        let ends: Vec<&PathState> = [from].into_iter().chain(inner).chain([to]).collect();
-        for half in ends.windows(2) {
-            found.extend(self.own_marks([from, to], [half[0], half[1]])?);
+        let states = self.apart([from].into_iter().chain(inner).chain([to]).cloned().collect())?;
+        for piece in states.windows(2) {
+            found.extend(self.own_marks([from, to], [&piece[0], &piece[1]])?);
         }
         for function in (0..watched[0].len()).filter(|&k| changed(watched[0][k], watched[1][k])) {
             let mut value = |problem: &P, state: &PathState| watch.values(problem, state)[function];
@@ -107,7 +127,24 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(found)
     }
 
-    /// Locates the extrema and branch points between two states of a step, or of half of it.
+    /// States of a step with others in between where a rate is far smaller there, by the cubics through two neighbours,
+    /// than at both: it may turn twice.
+    fn apart(&mut self, mut states: Vec<PathState>) -> Result<Vec<PathState>, PathError> {
+        let (mut first, mut added) = (0, 0);
+        while first + 1 < states.len() {
+            let [from, to] = [&states[first], &states[first + 1]];
+            let part = if added < MOST_ADDED { least_rate(from, to) } else { None };
+            let between = part.map_or(Ok(None), |part| self.between(from, to, part))?;
+            match between.filter(|state| self.cosine(&states[first].tangent, &state.tangent) >= LEAST_TANGENT_COSINE) {
+                Some(state) => states.insert(first + 1, state),
+                None => first += 1,
+            }
+            added += usize::from(part.is_some());
+        }
+        Ok(states)
+    }
+
+    /// Locates the extrema and branch points between two states of a step, or of a piece of it.
     fn own_marks(
         &mut self,
         step: [&PathState; 2],

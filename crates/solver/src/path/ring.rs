@@ -9,7 +9,8 @@
 //! in Bifurcation Theory", 1988).
 //!
 //! The force `T` shrinks with the radius as `r^(N - 1)` where the sheet has a symmetry of order `N`. On a small ring it
-//! is lost in rounding errors: the ring is widened until it is well above them.
+//! is lost in rounding errors: the ring is widened until it is well above them. Where another branch point is near, no
+//! states are found on a wide ring: it is narrowed.
 
 use super::bordered::{Plane, Planes, REFUSED_RESIDUAL};
 use super::corrector::Guess;
@@ -19,10 +20,12 @@ use super::problem::{ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::vector::{add_scaled, dot, larger, max_abs, norm_blocked};
 use std::f64::consts::TAU;
 
-/// Radius of the smallest ring in arc length, the factor to the next, and the number of rings.
-const SMALLEST: f64 = 0.01;
+/// Radius of the first ring in arc length, the factor to the next one, and the number of wider rings and of narrower
+/// ones.
+const FIRST_RADIUS: f64 = 0.01;
 const WIDER: f64 = std::f64::consts::SQRT_2;
-const RINGS: i32 = 11;
+const WIDER_RINGS: i32 = 10;
+const NARROWER_RINGS: i32 = 10;
 /// Number of states on a ring on which half branches are sought, a multiple of that on one that is only tried.
 const STATES: usize = 144;
 const TRIED: usize = 36;
@@ -34,8 +37,10 @@ const CLEAR_BETWEEN: f64 = 1e1;
 /// Newton steps to a state on a ring, the length relative to the radius of one after which there is none, and the
 /// largest contraction.
 const MOST_STEPS: usize = 12;
-const LAST_STEP: f64 = 1e-10;
+const LAST_STEP: f64 = 1e-7;
 const SLOWEST_CONTRACTION: f64 = 0.6;
+/// Largest distance between the first state of a ring and that after a whole turn, relative to the radius.
+const CLOSES: f64 = 1e-3;
 /// Rounds in which a zero is located.
 const MOST_ROUNDS: usize = 40;
 /// Distance of an equilibrium from the zero of the tangential force that led to it, relative to the radius.
@@ -56,6 +61,16 @@ struct OnRing {
     at: Guess,
     pull: f64,
     residual: f64,
+}
+
+/// What a ring tells of half branches.
+enum Round {
+    /// Their number, and the first states of those that are found.
+    Told(usize, Vec<PathState>),
+    /// Tangential forces are rounding errors: the ring is too narrow.
+    Unclear,
+    /// There is no state at some angle: the ring is too wide.
+    Without,
 }
 
 impl Ring<'_> {
@@ -83,25 +98,36 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     ) -> Result<Option<(usize, Vec<PathState>)>, PathError> {
         let unit = self.bordered.unit();
         let planes = [0, 1].map(|k| Plane { x: nulls[k].x.clone(), parameter: nulls[k].parameter / unit });
-        for rung in 0..RINGS {
-            let radius = SMALLEST * WIDER.powi(rung) * self.bordered.length();
+        let (mut rung, mut unclear, mut without) = (0, -NARROWER_RINGS - 1, WIDER_RINGS + 1);
+        while unclear + 1 < without {
+            let radius = FIRST_RADIUS * WIDER.powi(rung) * self.bordered.length();
             let ring = Ring { point, nulls, planes: planes.clone(), radius };
-            let Some(tried) = self.round(&ring, TRIED)? else { break };
-            if !self.is_clear(&tried, CLEAR) {
-                continue;
-            }
-            let Some(states) = self.round(&ring, STATES)? else { break };
-            let zeros: Vec<usize> = (0..STATES).filter(|&k| crosses(&states, k)).collect();
-            let lobe = |k: usize| {
-                let (from, to) = (zeros[k] + 1, zeros[(k + 1) % zeros.len()] + 1);
-                let count = (to + STATES - from - 1) % STATES + 1;
-                (0..count).map(|step| states[(from + step) % STATES].clone()).collect::<Vec<_>>()
-            };
-            if (0..zeros.len()).all(|k| self.is_clear(&lobe(k), CLEAR_BETWEEN)) {
-                return Ok(Some((zeros.len(), self.equilibria(&ring, &states, &zeros)?)));
+            match self.on_round(&ring)? {
+                Round::Told(zeros, states) => return Ok(Some((zeros, states))),
+                Round::Unclear => (rung, unclear) = (rung + 1, rung),
+                Round::Without => (rung, without) = (rung - 1, rung),
             }
         }
         Ok(None)
+    }
+
+    /// What one ring tells.
+    fn on_round(&mut self, ring: &Ring<'_>) -> Result<Round, PathError> {
+        let Some(tried) = self.round(ring, TRIED)? else { return Ok(Round::Without) };
+        if !self.is_clear(&tried, CLEAR) {
+            return Ok(Round::Unclear);
+        }
+        let Some(states) = self.round(ring, STATES)? else { return Ok(Round::Without) };
+        let zeros: Vec<usize> = (0..STATES).filter(|&k| crosses(&states, k)).collect();
+        let lobe = |k: usize| {
+            let (from, to) = (zeros[k] + 1, zeros[(k + 1) % zeros.len()] + 1);
+            let count = (to + STATES - from - 1) % STATES + 1;
+            (0..count).map(|step| states[(from + step) % STATES].clone()).collect::<Vec<_>>()
+        };
+        if !(0..zeros.len()).all(|k| self.is_clear(&lobe(k), CLEAR_BETWEEN)) {
+            return Ok(Round::Unclear);
+        }
+        Ok(Round::Told(zeros.len(), self.equilibria(ring, &states, &zeros)?))
     }
 
     /// Whether the largest tangential force of these states is clearly not rounding error.
@@ -111,11 +137,12 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         largest >= times * residual
     }
 
-    /// States at evenly spaced angles of a ring; `None` where one is not found.
+    /// States at evenly spaced angles of a ring; `None` where one is not found, or another one than the first after a
+    /// whole turn.
     fn round(&mut self, ring: &Ring<'_>, count: usize) -> Result<Option<Vec<OnRing>>, PathError> {
         let mut states: Vec<OnRing> = vec![];
-        for k in 0..count {
-            let angle = FIRST_ANGLE + TAU * k as f64 / count as f64;
+        for k in 0..=count {
+            let angle = FIRST_ANGLE + TAU * (k % count) as f64 / count as f64;
             let guess = match states.last() {
                 None => ring.turned(ring.point.place(), [[0.0; 2], ring.place(angle)]),
                 Some(last) => ring.turned(last.at.clone(), [last.angle, angle].map(|angle| ring.place(angle))),
@@ -123,7 +150,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let Some(state) = self.on_ring(ring, angle, guess)? else { return Ok(None) };
             states.push(state);
         }
-        Ok(Some(states))
+        let closes = states.pop().is_some_and(|last| {
+            let turns = last.at.x.iter().zip(&states[0].at.x).all(|(x, y)| (x - y).abs() <= CLOSES * ring.radius);
+            turns && (last.at.parameter - states[0].at.parameter).abs() <= CLOSES * ring.radius * self.bordered.unit()
+        });
+        Ok(closes.then_some(states))
     }
 
     /// The state on a ring at this angle, by Newton's method from a guess.

@@ -277,6 +277,44 @@ fn a_column_buckles() {
     assert!((ends[0] + ends[1]).abs() <= 1e-10 && ends[0].abs() > 1.0, "{ends:?}");
 }
 
+/// Part by which the load falls in each wave of a staircase, and waves a length.
+const FALL: f64 = 1e-3;
+const WAVES: f64 = 6.0;
+
+/// Claim: pairs of limit points that are a tenth of a step apart are found, whatever the longest step. Source: the load
+/// `x - (1 + e) sin(k x)/k` falls where `cos(k x) > 1/(1 + e)`, within `0.0075` of `x = 2 pi n / k`. Tolerance: where
+/// the load turns, to rounding over its curvature.
+#[test]
+fn close_pairs_of_limit_points_are_found() {
+    for max_step in [0.02, 0.05, 0.1, 0.2] {
+        let mut staircase = Textbook {
+            layout: Textbook::layout(1, 0),
+            compliance: vec![],
+            scale: vec![],
+            parameter: 0.0,
+            way: 1.0,
+            soft: |x, load| {
+                let ((sin, cos), x) = ((WAVES * x[0]).sin_cos(), x[0]);
+                let energy = 0.5 * x * x + (1.0 + FALL) * cos / (WAVES * WAVES) - load * x;
+                (energy, vec![x - (1.0 + FALL) * sin / WAVES - load], vec![1.0 - (1.0 + FALL) * cos])
+            },
+            stiff: |_, _| vec![],
+            rates: |_| [vec![-1.0], vec![]],
+            conjugate: |x, _| x[0],
+        };
+        let start = std::f64::consts::PI / WAVES;
+        staircase.parameter = start;
+        let settings = PathSettings { target: 4.0 + start, max_step, ..PathSettings::default() };
+        let branches = follow(&mut staircase, vec![start], &settings);
+        let turns = marked(&branches[0], PathMark::ParameterTurns);
+        assert_eq!(turns.len(), 8, "{max_step}: {turns:?}");
+        for state in turns {
+            let slope = 1.0 - (1.0 + FALL) * (WAVES * state.x[0]).cos();
+            assert!(slope.abs() <= 1e-9, "{max_step}: {slope} at {}", state.x[0]);
+        }
+    }
+}
+
 /// Claim: a state is found on its branch, and not on another one at a distance of a thousandth of a step. Tolerance:
 /// the interpolant between states 0.1 apart is off by a fifth of that distance, so that Newton's method leads to the
 /// nearer branch. Source: branches `y = sin(3 u) +- d`, `u = load`, of the energy `(u - load)^2/2 + z^3/3 - d^2 z` with
