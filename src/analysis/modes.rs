@@ -186,7 +186,7 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let hinged: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
     let closure = Closure::of_edges(&hinged, |site| state.domain.point(&state.coordinates, site))?;
     let tube = matches!(assembly.domain(), Domain::Tube { .. } | Domain::Own(_));
-    let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
+    let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || tiling.has_bars_alone();
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }
@@ -195,11 +195,6 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let angles: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     let null = closure.with_locked(&locked).motions(&angles)?;
     Ok(Some(null.basis.ncols()))
-}
-
-/// Whether an edge of a patch has no face: then vertices hang on the sheet that no fold angle moves.
-fn dangling(tiling: &Tiling) -> bool {
-    tiling.edges.iter().any(|edge| edge.wings == [None, None])
 }
 
 #[cfg(test)]

@@ -81,6 +81,11 @@ pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
 }
 
 impl Tiling {
+    /// Whether an edge has no face: then vertices hang on the sheet that no fold angle moves.
+    pub fn has_bars_alone(&self) -> bool {
+        self.edges.iter().any(|edge| edge.wings == [None; 2])
+    }
+
     /// Returns the numbers of the edges that are diagonals of polygons.
     pub fn facets(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.edges.len()).filter(|&edge| self.edges[edge].kind == EdgeKind::Facet)

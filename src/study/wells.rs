@@ -9,12 +9,13 @@ use super::{Answer, Context, StudyError, StudyResult, start, supported};
 use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::state::State;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier};
+use crate::analysis::wells::families::is_in_family;
 use crate::analysis::wells::limit::{Height, rigid_limit};
 use crate::analysis::wells::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, wells};
 use crate::analysis::wells::placement::free_rigid_motions;
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
 use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_around};
-use crate::model::{Assembly, Gauge};
+use crate::model::{Assembly, Domain, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
@@ -29,7 +30,7 @@ pub use summary::{BarrierSummary, FailedStartsSummary, HeightSummary, RigidSumma
 const STARTS: u32 = 64;
 const RESOLUTION: u32 = 64;
 
-/// Checks that the energy is that of bars and creases, and that pins hold a sheet under loads.
+/// Checks that there is an energy of which wells are known, and that pins hold a sheet under loads.
 pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     start::check(context, spec.start.as_ref())?;
@@ -37,9 +38,18 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
         check_resolution(context.file, resolution)?;
     }
     let terms = context.assembly.terms();
-    if terms.bars.is_none() || terms.creases.as_ref().is_none_or(|creases| creases.stiffness.is_rigid()) {
-        let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
+    let elastic = match (&terms.bars, &terms.creases) {
+        (Some(_), Some(creases)) => !creases.stiffness.is_rigid(),
+        (Some(bars), None) => !bars.stiffness.is_rigid() && *context.assembly.domain() == Domain::Patch,
+        _ => false,
+    };
+    if !elastic {
+        let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite; bars of a patch may do without creases";
         return refuse("wells are those of the energy of bars and creases", help);
+    }
+    if terms.creases.is_none() && (spec.rigid || !spec.barriers.is_empty()) {
+        let help = "give creases a stiffness, or leave out `barriers` and `rigid`";
+        return refuse("barriers and rigid wells are sought in fold angles of creases", help);
     }
     supported::drawn_lengths(context, "wells")?;
     if spec.rigid || !spec.barriers.is_empty() {
@@ -93,6 +103,8 @@ struct FoundWells {
     stiffness: f64,
     wells: Vec<Well>,
     crossing: Vec<bool>,
+    /// Number of the wells that have motions that cost nothing, or of which that is not known.
+    in_families: usize,
     barriers: Vec<([usize; 2], Result<Barrier, BarrierError>)>,
     rigid: Option<Result<RigidLandscape, RigidError>>,
 }
@@ -125,7 +137,9 @@ pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer,
         }
     }
     let crossing = crossing(assembly, &wells);
-    let found = FoundWells { tally, stiffness: assembly.bar_stiffness(), wells, crossing, barriers, rigid };
+    let in_families = wells.iter().filter(|well| is_in_family(assembly, &well.settled).unwrap_or(true)).count();
+    let found =
+        FoundWells { tally, stiffness: assembly.bar_stiffness(), wells, crossing, in_families, barriers, rigid };
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, &found);
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
@@ -163,6 +177,10 @@ impl FoundWells {
         }
         if 2 * self.tally.failed > self.tally.starts {
             return Some(format!("{}: there may be other wells", self.tally.failed()));
+        }
+        if self.in_families > 0 {
+            let of = format!("{} of {count} wells", self.in_families);
+            return Some(format!("{of} have motions that cost nothing: each is one of many states at this energy"));
         }
         if let Some(pair) = spec.barriers.iter().find(|pair| pair.0.iter().any(|well| *well >= count)) {
             return Some(format!("a barrier is wanted between wells {:?}, but there are {count}", pair.0));

@@ -7,6 +7,7 @@
 //! on curves and on surfaces ([`rigid`]).
 
 pub mod barrier;
+pub(crate) mod families;
 pub mod limit;
 pub mod merge;
 pub(crate) mod pass;

@@ -6,8 +6,10 @@
 //! shape too, and one shape can be held by them in several places, between which the sheet has to bend: a triangle on
 //! two pinned vertices, whose third one is kept in a plane, stands on either side of that plane's zero line. Two states
 //! of one shape then are one if a rigid motion that the pins leave free leads from one to the other. Guides, and the
-//! coordinates of parts that are not free, count as pins do.
+//! coordinates of parts that are not free, count as pins do. Where bars without faces or creases make fold angles no
+//! shape, as in trusses, vertices are compared always.
 
+use super::families::is_truss;
 use crate::math::{Vec3, rotation};
 use crate::model::gauge::{self, Motion};
 use crate::model::{Assembly, Domain, Gauge, Model};
@@ -29,16 +31,16 @@ const DEPENDENT: f64 = 1e-12;
 pub(crate) struct Placement(Assembly);
 
 impl Placement {
-    /// Returns the conditions for the pins, guides and parts of a patch; `None` if two states of one shape are always
-    /// one.
+    /// Returns the conditions for the pins, guides and parts of a patch; `None` if two states of the same fold angles are
+    /// always one.
     pub(crate) fn new(assembly: &Assembly) -> Option<Self> {
         let model = assembly.model(Gauge::Free);
         let kept = kept(&model);
         let shapes = kept == 0 || (only_against_motions(&model, kept) && !assembly.terms().is_loaded());
-        (!shapes).then(|| Self(assembly.clone()))
+        (!shapes || is_truss(assembly)).then(|| Self(assembly.clone()))
     }
 
-    /// Whether a rigid motion that is left free leads from one state to another of the same shape.
+    /// Whether a rigid motion that is left free leads from one state to another.
     ///
     /// The sheet is moved towards the other state by rigid motions, step by step, each the one that brings all vertices
     /// closest and leaves where it is what is kept.

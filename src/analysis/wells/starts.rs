@@ -5,7 +5,8 @@
 //! gets an axis at random, and the sheet relaxes with bars of at most a thousand times the stiffness of its median
 //! crease, so that no folded state is out of reach; on pins that hold its shape, and with rigid parts, of a thousand, a
 //! hundred and ten times by turns. From there it relaxes with its own bars and rest angles. Where that ends in no well
-//! the start is made anew, a few times. Its random numbers depend on the seed and its own number alone.
+//! the start is made anew, a few times. Its random numbers depend on the seed and its own number alone. Trusses, which
+//! have no creases, start from coordinates that are moved farther.
 //!
 //! One more start is no random one: the drawn patch turned inside out, which a stiff dome snaps to and crumpled sheets miss.
 //! It counts where it leads to a well.
@@ -32,6 +33,8 @@ const SOFT: f64 = 1e3;
 const SOFT_ON_PINS: [f64; 3] = [1e3, 1e2, 1e1];
 /// Random part of a coordinate, over the mean edge.
 const MOVED: f64 = 0.05;
+/// The same without creases, for a spread of half a turn: joints may come to the other side of their neighbours.
+const MOVED_JOINTS: f64 = 2.0;
 /// When a crumpled state is good enough to be released.
 const CRUMPLED: Options = Options { tolerance: 1e-4, iterations: 60 };
 /// Least length of the sum of the normals of all faces, over their area, with which a sheet has a mean normal.
@@ -46,7 +49,8 @@ pub struct Starts {
     pub count: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Largest distance of a random rest angle from the fold angle in the state around which starts are, in radians.
+    /// Largest distance of a random rest angle from the fold angle in the state around which starts are, in radians; without
+    /// creases that of a coordinate, of which half a turn is two mean edges.
     pub spread: f64,
     /// When a well is converged.
     pub options: Options,
@@ -222,6 +226,7 @@ fn crumpled(
     let angles = centre.map_or(assembly.drawn_angles(), |centre| &centre.angles);
     // loads that the sheet bears could fold soft bars over
     let mut terms = assembly.terms().unloaded();
+    let moved = if terms.creases.is_some() { MOVED } else { MOVED_JOINTS * spread / PI };
     if let Some(creases) = &mut terms.creases {
         let random = angles.iter().map(|angle| angle + within(spread));
         let rigid = |edge: usize| creases.stiffness.of(edge).is_infinite();
@@ -237,7 +242,7 @@ fn crumpled(
         Some(Centre { state, angles }) => settler.at(state.coordinates.clone(), angles),
         None => settler.drawn(),
     };
-    shake(assembly, &mut from.coordinates, within);
+    shake(assembly, &mut from.coordinates, &mut || within(moved * assembly.mean_edge()));
     match settler.free(&from.without_tension(), CRUMPLED, &mut |_| true) {
         Ok(found) => Ok(found.place),
         Err(error) => match error.failure {
@@ -253,13 +258,13 @@ fn crumpled(
 
 /// Moves every coordinate at random; those that are no lengths by what moves points as far. The axis of a screw has its
 /// direction by chance already.
-fn shake(assembly: &Assembly, coordinates: &mut [f64], within: &mut dyn FnMut(f64) -> f64) {
-    let (domain, edge) = (&assembly.drawn().domain, assembly.mean_edge());
-    let units = domain.units(coordinates, edge);
+fn shake(assembly: &Assembly, coordinates: &mut [f64], moved: &mut dyn FnMut() -> f64) {
+    let domain = &assembly.drawn().domain;
+    let units = domain.units(coordinates, assembly.mean_edge());
     let points = coordinates.len() - units.len();
     let direction = domain.turns(coordinates).map(|turns| turns.direction);
     for (k, x) in coordinates.iter_mut().enumerate() {
-        *x += within(MOVED * edge) * k.checked_sub(points).map_or(1.0, |shared| units[shared]);
+        *x += moved() * k.checked_sub(points).map_or(1.0, |shared| units[shared]);
     }
     if let Some(direction) = direction {
         domain.point_axis(coordinates, direction);

@@ -208,7 +208,8 @@ impl Model {
         self.choose_unknowns();
     }
 
-    /// Separation of the rigid motions of the state `x` by the held coordinates, relative to that by newly chosen ones.
+    /// Separation of the rigid motions of the state `x` by the held coordinates, relative to that by newly chosen ones; 0
+    /// where these are more or fewer, as of a truss that becomes straight or ceases to be.
     fn gauge_quality(&self, x: &[f64]) -> f64 {
         if self.equations.gauge == Gauge::Free {
             return 1.0;
@@ -217,6 +218,12 @@ impl Model {
         let mut held = vec![true; motions.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
         let chosen = self.chosen(&motions);
+        let conditions = self.held_by_conditions(motions.len());
+        let added =
+            |held: &[bool]| (0..self.base.len()).filter(|&k| held[k] && !conditions[k] && !self.is_derived(k)).count();
+        if added(&held) != added(&chosen) {
+            return 0.0;
+        }
         let quality = |(number, piece): (usize, &Vec<usize>)| {
             let [now, best] = [&held, &chosen].map(|held| {
                 let (motions, held) = self.motions_of_piece((number, piece), &motions, held);

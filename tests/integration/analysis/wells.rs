@@ -483,7 +483,7 @@ fn runs_write_wells_and_passes() {
 #[test]
 fn refusals() {
     let cases = [
-        (CROSS, "bars = { stiffness = 1.0 }", "", "bars and creases"),
+        (CROSS, "bars = { stiffness = inf }", "", "bars and creases"),
         (CROSS, "creases = { stiffness = 1.0 }", "", "bars and creases"),
         (CROSS, RIGID, "barriers = [[1, 1]]", "from well 1 to itself"),
         (CROSS, RIGID, "barriers = [[0, 1, 2]]", "the list has 3 values"),

@@ -26,3 +26,4 @@ mod snaps;
 mod touching;
 mod waterbomb_base;
 mod wells_of_parts;
+mod wells_of_trusses;
