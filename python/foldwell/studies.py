@@ -276,7 +276,8 @@ def wells(
         start: The state around which random starts are crumpled, as in `relax`.
         starts: Number of random starts; left out: 64.
         seed: Seed of their random numbers; left out: 0.
-        spread: Largest distance of their fold angles from those of the start, radians; left out: pi.
+        spread: Largest distance of their fold angles from those of the start, radians; of a truss without creases
+            that of a coordinate, of which pi is two mean edges. Left out: pi.
         barriers: Pairs of wells, numbered by rising energy from 0, between which the barrier is wanted.
         rigid: Whether wells and passes are also sought in fold angles alone.
         resolution: With `rigid`, states over a whole turn of fold angles; left out: 64.

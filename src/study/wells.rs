@@ -7,6 +7,7 @@ use super::states::{self, Shown};
 use super::surface::{check_resolution, curvature_of_cell};
 use super::{Answer, Context, StudyError, StudyResult, start, supported};
 use crate::analysis::intersections::SelfIntersection;
+use crate::analysis::modes::ModesError;
 use crate::analysis::state::State;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier};
 use crate::analysis::wells::families::is_in_family;
@@ -103,8 +104,8 @@ struct FoundWells {
     stiffness: f64,
     wells: Vec<Well>,
     crossing: Vec<bool>,
-    /// Number of the wells that have motions that cost nothing, or of which that is not known.
-    in_families: usize,
+    /// Number of the wells in which the sheet has motions that cost nothing.
+    in_families: Result<usize, ModesError>,
     barriers: Vec<([usize; 2], Result<Barrier, BarrierError>)>,
     rigid: Option<Result<RigidLandscape, RigidError>>,
 }
@@ -137,7 +138,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer,
         }
     }
     let crossing = crossing(assembly, &wells);
-    let in_families = wells.iter().filter(|well| is_in_family(assembly, &well.settled).unwrap_or(true)).count();
+    let in_families = wells.iter().map(|well| is_in_family(assembly, &well.settled).map(usize::from)).sum();
     let found =
         FoundWells { tally, stiffness: assembly.bar_stiffness(), wells, crossing, in_families, barriers, rigid };
     let mut answer = Answer::empty(context.study);
@@ -178,9 +179,15 @@ impl FoundWells {
         if 2 * self.tally.failed > self.tally.starts {
             return Some(format!("{}: there may be other wells", self.tally.failed()));
         }
-        if self.in_families > 0 {
-            let of = format!("{} of {count} wells", self.in_families);
-            return Some(format!("{of} have motions that cost nothing: each is one of many states at this energy"));
+        match &self.in_families {
+            Ok(0) => {}
+            Ok(some) => {
+                let what = "have motions that cost nothing: each is one of many states at this energy";
+                return Some(format!("{some} of {count} wells {what}"));
+            }
+            Err(error) => {
+                return Some(format!("whether the wells have motions that cost nothing is not known: {error}"));
+            }
         }
         if let Some(pair) = spec.barriers.iter().find(|pair| pair.0.iter().any(|well| *well >= count)) {
             return Some(format!("a barrier is wanted between wells {:?}, but there are {count}", pair.0));

@@ -1,26 +1,22 @@
-//! Wells of trusses along which the truss moves at no cost: states of a family, any number of which may be found.
+//! Motions that cost nothing: a truss that has one in a well has a whole family of states at this energy, and any number
+//! of them may be found.
 
+use super::placement::angles_determine_shape;
 use super::settle::Settled;
 use crate::analysis::modes::{ModesError, modes_at};
-use crate::model::{Assembly, Domain, Stiffness};
+use crate::model::{Assembly, Stiffness};
 
 /// Stiffness of a motion, over that of the median crease, or without creases of the median bar, of mean length, up to
 /// which it costs nothing: rounding errors of equilibria.
 const COSTS_NOTHING: f64 = 1e-9;
 
-/// Whether fold angles alone do not tell the shape of a patch: there are bars without faces, or no creases.
-pub(crate) fn is_truss(assembly: &Assembly) -> bool {
-    let (terms, tiling) = (assembly.terms(), assembly.tiling());
-    *assembly.domain() == Domain::Patch && (terms.creases.is_none() || tiling.has_bars_alone())
-}
-
-/// Whether a well of a truss has a motion, other than rigid ones, that costs nothing, by the lowest eigenvalues of its
-/// stiffness; other sheets are not asked.
+/// Whether the sheet has a motion in a well, other than rigid ones, that costs nothing, by the lowest eigenvalues of its
+/// stiffness. Only sheets of which fold angles do not determine the shape are asked: their joints move freely most often.
 ///
 /// # Errors
 /// [`ModesError`] where they are not found.
 pub(crate) fn is_in_family(assembly: &Assembly, well: &Settled) -> Result<bool, ModesError> {
-    if !is_truss(assembly) {
+    if angles_determine_shape(assembly) {
         return Ok(false);
     }
     let terms = assembly.terms();

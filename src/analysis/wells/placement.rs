@@ -6,10 +6,9 @@
 //! shape too, and one shape can be held by them in several places, between which the sheet has to bend: a triangle on
 //! two pinned vertices, whose third one is kept in a plane, stands on either side of that plane's zero line. Two states
 //! of one shape then are one if a rigid motion that the pins leave free leads from one to the other. Guides, and the
-//! coordinates of parts that are not free, count as pins do. Where bars without faces or creases make fold angles no
-//! shape, as in trusses, vertices are compared always.
+//! coordinates of parts that are not free, count as pins do. Where fold angles do not determine the shape, as those of
+//! trusses, states are compared so always.
 
-use super::families::is_truss;
 use crate::math::{Vec3, rotation};
 use crate::model::gauge::{self, Motion};
 use crate::model::{Assembly, Domain, Gauge, Model};
@@ -37,7 +36,7 @@ impl Placement {
         let model = assembly.model(Gauge::Free);
         let kept = kept(&model);
         let shapes = kept == 0 || (only_against_motions(&model, kept) && !assembly.terms().is_loaded());
-        (!shapes || is_truss(assembly)).then(|| Self(assembly.clone()))
+        (!shapes || !angles_determine_shape(assembly)).then(|| Self(assembly.clone()))
     }
 
     /// Whether a rigid motion that is left free leads from one state to another.
@@ -92,6 +91,12 @@ pub fn free_rigid_motions(assembly: &Assembly) -> usize {
 fn only_against_motions(model: &Model, kept: usize) -> bool {
     let [all, free] = model.rigid_motion_counts();
     all - free == kept
+}
+
+/// Whether the fold angles determine the shape: not of patches without creases, as trusses, or with bars that have no
+/// face, at which vertices hang.
+pub(super) fn angles_determine_shape(assembly: &Assembly) -> bool {
+    *assembly.domain() != Domain::Patch || (assembly.terms().creases.is_some() && !assembly.tiling().has_bars_alone())
 }
 
 /// Number of coordinates that pins and parts of a patch, and guides, keep.

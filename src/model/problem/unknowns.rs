@@ -215,13 +215,11 @@ impl Model {
             return 1.0;
         }
         let motions = self.rigid_motions(&self.generalised(x), self.loads.is_empty());
-        let mut held = vec![true; motions.len()];
+        let mut held: Vec<bool> = (0..motions.len()).map(|k| !self.is_derived(k)).collect();
         self.free.iter().for_each(|&k| held[k as usize] = false);
         let chosen = self.chosen(&motions);
-        let conditions = self.held_by_conditions(motions.len());
-        let added =
-            |held: &[bool]| (0..self.base.len()).filter(|&k| held[k] && !conditions[k] && !self.is_derived(k)).count();
-        if added(&held) != added(&chosen) {
+        let count = |held: &[bool]| held.iter().filter(|held| **held).count();
+        if count(&held) != count(&chosen) {
             return 0.0;
         }
         let quality = |(number, piece): (usize, &Vec<usize>)| {

@@ -279,7 +279,7 @@ pub struct WellsSpec {
     #[serde(default)]
     pub seed: u64,
     /// Largest distance of the random fold angles towards which the sheet is crumpled from those of the start, in
-    /// radians; left out: pi.
+    /// radians; of a truss without creases that of a coordinate, of which pi is two mean edges. Left out: pi.
     pub spread: Option<Located<Positive>>,
     /// Pairs of wells between which the barrier is wanted, each `[a, b]`: wells are numbered by rising energy, from 0.
     /// Left out: none.

@@ -18,7 +18,8 @@ const AROUND: f64 = 1e-4;
 /// far in units of the way to there.
 const MOST_SHIFTS: usize = 5;
 const BEYOND: f64 = 1.2;
-/// Ratio of a rate within a step to those at both ends below which it may turn twice, and the most states that tell.
+/// Ratio of a rate within a step to those at both ends below which it may turn twice, and the largest number of states
+/// in a step that are found to see it.
 const NEARER: f64 = 0.5;
 const MOST_ADDED: usize = 8;
 /// Largest number of changes of the level that are sought in a step.
@@ -51,6 +52,7 @@ fn least_rate(from: &PathState, to: &PathState) -> Option<f64> {
     [parameters, conjugates].into_iter().zip([0, 1]).find_map(|([before, mean, after], quantity)| {
         let errors = [from, to].map(|state| state.rate_errors[quantity]);
         let (linear, square) = (6.0 * mean - 4.0 * before - 2.0 * after, 3.0 * (before + after - 2.0 * mean));
+        // the rate of a cubic is the parabola `before + linear t + square t^2`
         let part = -0.5 * linear / square;
         let least = (before + 0.5 * linear * part) * before.signum();
         let small = least < NEARER * f64::min(before.abs(), after.abs());
@@ -104,7 +106,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
         let inner = middle.filter(|middle| middle.arc_length < to.arc_length);
-        let states = self.apart([from].into_iter().chain(inner).chain([to]).cloned().collect())?;
+        let states = self.with_least_rates([from].into_iter().chain(inner).chain([to]).cloned().collect())?;
         for piece in states.windows(2) {
             found.extend(self.own_marks([from, to], [&piece[0], &piece[1]])?);
         }
@@ -127,9 +129,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(found)
     }
 
-    /// States of a step with others in between where a rate is far smaller there, by the cubics through two neighbours,
-    /// than at both: it may turn twice.
-    fn apart(&mut self, mut states: Vec<PathState>) -> Result<Vec<PathState>, PathError> {
+    /// Returns the states of a step, and between two neighbours one where a rate is far smaller than at both, by the cubic
+    /// through them: it may turn on either side of it.
+    fn with_least_rates(&mut self, mut states: Vec<PathState>) -> Result<Vec<PathState>, PathError> {
         let (mut first, mut added) = (0, 0);
         while first + 1 < states.len() {
             let [from, to] = [&states[first], &states[first + 1]];

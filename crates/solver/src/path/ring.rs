@@ -34,13 +34,11 @@ const FIRST_ANGLE: f64 = 0.017;
 /// Largest tangential force on a ring that is wide enough, over the bound on residuals; and that between two zeros.
 const CLEAR: f64 = 1e2;
 const CLEAR_BETWEEN: f64 = 1e1;
-/// Newton steps to a state on a ring, the length relative to the radius of one after which there is none, and the
-/// largest contraction.
+/// Newton steps to a state on a ring, the length relative to the radius of one after which there is none (the next
+/// would be its square, and what is left is in the residual), and the largest contraction.
 const MOST_STEPS: usize = 12;
 const LAST_STEP: f64 = 1e-7;
 const SLOWEST_CONTRACTION: f64 = 0.6;
-/// Largest distance between the first state of a ring and that after a whole turn, relative to the radius.
-const CLOSES: f64 = 1e-3;
 /// Rounds in which a zero is located.
 const MOST_ROUNDS: usize = 40;
 /// Distance of an equilibrium from the zero of the tangential force that led to it, relative to the radius.
@@ -63,14 +61,14 @@ struct OnRing {
     residual: f64,
 }
 
-/// What a ring tells of half branches.
-enum Round {
+/// The half branches that pass a ring, or why they are not known.
+enum Passing {
     /// Their number, and the first states of those that are found.
-    Told(usize, Vec<PathState>),
-    /// Tangential forces are rounding errors: the ring is too narrow.
-    Unclear,
-    /// There is no state at some angle: the ring is too wide.
-    Without,
+    Known(usize, Vec<PathState>),
+    /// The tangential forces are rounding errors.
+    TooNarrow,
+    /// Newton's method finds no state at some angle.
+    TooWide,
 }
 
 impl Ring<'_> {
@@ -98,26 +96,26 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     ) -> Result<Option<(usize, Vec<PathState>)>, PathError> {
         let unit = self.bordered.unit();
         let planes = [0, 1].map(|k| Plane { x: nulls[k].x.clone(), parameter: nulls[k].parameter / unit });
-        let (mut rung, mut unclear, mut without) = (0, -NARROWER_RINGS - 1, WIDER_RINGS + 1);
-        while unclear + 1 < without {
+        let (mut rung, mut narrow, mut wide) = (0, -NARROWER_RINGS - 1, WIDER_RINGS + 1);
+        while narrow + 1 < wide {
             let radius = FIRST_RADIUS * WIDER.powi(rung) * self.bordered.length();
             let ring = Ring { point, nulls, planes: planes.clone(), radius };
-            match self.on_round(&ring)? {
-                Round::Told(zeros, states) => return Ok(Some((zeros, states))),
-                Round::Unclear => (rung, unclear) = (rung + 1, rung),
-                Round::Without => (rung, without) = (rung - 1, rung),
+            match self.passing(&ring)? {
+                Passing::Known(number, firsts) => return Ok(Some((number, firsts))),
+                Passing::TooNarrow => (rung, narrow) = (rung + 1, rung),
+                Passing::TooWide => (rung, wide) = (rung - 1, rung),
             }
         }
         Ok(None)
     }
 
-    /// What one ring tells.
-    fn on_round(&mut self, ring: &Ring<'_>) -> Result<Round, PathError> {
-        let Some(tried) = self.round(ring, TRIED)? else { return Ok(Round::Without) };
+    /// Seeks the half branches that pass a ring, at the zeros of the tangential force round it.
+    fn passing(&mut self, ring: &Ring<'_>) -> Result<Passing, PathError> {
+        let Some(tried) = self.round(ring, TRIED)? else { return Ok(Passing::TooWide) };
         if !self.is_clear(&tried, CLEAR) {
-            return Ok(Round::Unclear);
+            return Ok(Passing::TooNarrow);
         }
-        let Some(states) = self.round(ring, STATES)? else { return Ok(Round::Without) };
+        let Some(states) = self.round(ring, STATES)? else { return Ok(Passing::TooWide) };
         let zeros: Vec<usize> = (0..STATES).filter(|&k| crosses(&states, k)).collect();
         let lobe = |k: usize| {
             let (from, to) = (zeros[k] + 1, zeros[(k + 1) % zeros.len()] + 1);
@@ -125,9 +123,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             (0..count).map(|step| states[(from + step) % STATES].clone()).collect::<Vec<_>>()
         };
         if !(0..zeros.len()).all(|k| self.is_clear(&lobe(k), CLEAR_BETWEEN)) {
-            return Ok(Round::Unclear);
+            return Ok(Passing::TooNarrow);
         }
-        Ok(Round::Told(zeros.len(), self.equilibria(ring, &states, &zeros)?))
+        Ok(Passing::Known(zeros.len(), self.equilibria(ring, &states, &zeros)?))
     }
 
     /// Whether the largest tangential force of these states is clearly not rounding error.
@@ -137,12 +135,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         largest >= times * residual
     }
 
-    /// States at evenly spaced angles of a ring; `None` where one is not found, or another one than the first after a
-    /// whole turn.
+    /// States at evenly spaced angles of a ring; `None` where one is not found.
     fn round(&mut self, ring: &Ring<'_>, count: usize) -> Result<Option<Vec<OnRing>>, PathError> {
         let mut states: Vec<OnRing> = vec![];
-        for k in 0..=count {
-            let angle = FIRST_ANGLE + TAU * (k % count) as f64 / count as f64;
+        for k in 0..count {
+            let angle = FIRST_ANGLE + TAU * k as f64 / count as f64;
             let guess = match states.last() {
                 None => ring.turned(ring.point.place(), [[0.0; 2], ring.place(angle)]),
                 Some(last) => ring.turned(last.at.clone(), [last.angle, angle].map(|angle| ring.place(angle))),
@@ -150,11 +147,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let Some(state) = self.on_ring(ring, angle, guess)? else { return Ok(None) };
             states.push(state);
         }
-        let closes = states.pop().is_some_and(|last| {
-            let turns = last.at.x.iter().zip(&states[0].at.x).all(|(x, y)| (x - y).abs() <= CLOSES * ring.radius);
-            turns && (last.at.parameter - states[0].at.parameter).abs() <= CLOSES * ring.radius * self.bordered.unit()
-        });
-        Ok(closes.then_some(states))
+        Ok(Some(states))
     }
 
     /// The state on a ring at this angle, by Newton's method from a guess.

@@ -35,6 +35,21 @@ impl Textbook {
         (0..measures).for_each(|_| stiff.push(0..unknowns as u32));
         Layout::new(vec![0; unknowns], soft, stiff)
     }
+
+    /// A problem of an energy alone, without a conjugate.
+    fn of_energy(unknowns: usize, soft: fn(&[f64], f64) -> Value, rates: fn(&[f64]) -> [Vec<f64>; 2]) -> Self {
+        Self {
+            layout: Self::layout(unknowns, 0),
+            compliance: vec![],
+            scale: vec![],
+            parameter: 0.0,
+            way: 1.0,
+            soft,
+            stiff: |_, _| vec![],
+            rates,
+            conjugate: |_, _| 0.0,
+        }
+    }
 }
 
 impl Problem for Textbook {
@@ -243,20 +258,14 @@ fn a_truss_behind_a_soft_spring_snaps_back() {
 /// E = angle^2/2 - load (1 - cos(angle)). Tolerance: rounding; next to the branch point the angle is known to its root.
 #[test]
 fn a_column_buckles() {
-    let mut column = Textbook {
-        layout: Textbook::layout(1, 0),
-        compliance: vec![],
-        scale: vec![],
-        parameter: 0.0,
-        way: 1.0,
-        soft: |x, load| {
+    let mut column = Textbook::of_energy(
+        1,
+        |x, load| {
             let (sin, cos) = x[0].sin_cos();
             (0.5 * x[0] * x[0] - load * (1.0 - cos), vec![x[0] - load * sin], vec![1.0 - load * cos])
         },
-        stiff: |_, _| vec![],
-        rates: |x| [vec![-x[0].sin()], vec![]],
-        conjugate: |_, _| 0.0,
-    };
+        |x| [vec![-x[0].sin()], vec![]],
+    );
     let settings = PathSettings { target: 1.5, switch: true, ..PathSettings::default() };
     let branches = follow(&mut column, vec![0.0], &settings);
     let points = marked(&branches[0], PathMark::BranchPoint(1));
@@ -287,21 +296,15 @@ const WAVES: f64 = 6.0;
 #[test]
 fn close_pairs_of_limit_points_are_found() {
     for max_step in [0.02, 0.05, 0.1, 0.2] {
-        let mut staircase = Textbook {
-            layout: Textbook::layout(1, 0),
-            compliance: vec![],
-            scale: vec![],
-            parameter: 0.0,
-            way: 1.0,
-            soft: |x, load| {
+        let mut staircase = Textbook::of_energy(
+            1,
+            |x, load| {
                 let ((sin, cos), x) = ((WAVES * x[0]).sin_cos(), x[0]);
                 let energy = 0.5 * x * x + (1.0 + FALL) * cos / (WAVES * WAVES) - load * x;
                 (energy, vec![x - (1.0 + FALL) * sin / WAVES - load], vec![1.0 - (1.0 + FALL) * cos])
             },
-            stiff: |_, _| vec![],
-            rates: |_| [vec![-1.0], vec![]],
-            conjugate: |x, _| x[0],
-        };
+            |_| [vec![-1.0], vec![]],
+        );
         let start = std::f64::consts::PI / WAVES;
         staircase.parameter = start;
         let settings = PathSettings { target: 4.0 + start, max_step, ..PathSettings::default() };
@@ -322,13 +325,9 @@ fn close_pairs_of_limit_points_are_found() {
 #[test]
 fn neighbouring_branches_are_told_apart() {
     const APART: f64 = 5e-5;
-    let mut pair = Textbook {
-        layout: Textbook::layout(2, 0),
-        compliance: vec![],
-        scale: vec![],
-        parameter: 0.0,
-        way: 1.0,
-        soft: |x, load| {
+    let mut pair = Textbook::of_energy(
+        2,
+        |x, load| {
             let (sin, cos) = (3.0 * x[1]).sin_cos();
             let (off, along) = (x[0] - sin, x[1] - load);
             let slope = off * off - APART * APART;
@@ -336,10 +335,8 @@ fn neighbouring_branches_are_told_apart() {
             let bend = 1.0 + 9.0 * sin * slope + 18.0 * cos * cos * off;
             (energy, vec![slope, along - 3.0 * cos * slope], vec![2.0 * off, -6.0 * cos * off, bend])
         },
-        stiff: |_, _| vec![],
-        rates: |_| [vec![0.0, -1.0], vec![]],
-        conjugate: |_, _| 0.0,
-    };
+        |_| [vec![0.0, -1.0], vec![]],
+    );
     let mut follower = follower::Follower::new(&mut pair, PathSettings::default()).unwrap();
     let mut states = vec![];
     for (load, side) in [(0.0, 1.0), (0.04, 1.0), (0.1, 1.0), (0.06, 1.0), (0.06, -1.0)] {
