@@ -8,7 +8,7 @@ use super::own_term::OwnTerm;
 use super::problem::{Gauge, Model};
 use super::roll::Roll;
 use super::stiffness::Stiffness;
-use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
+use super::terms::{Hinges, RIGID, RestLengths, Terms};
 use crate::sheet::cell::is_folded_flat;
 use crate::sheet::{EdgeKind, Sheet, TiledEdge, Tiling, tile};
 use std::collections::HashSet;
@@ -146,12 +146,9 @@ impl Assembly {
         Self { terms: Arc::new(terms), ..self.clone() }
     }
 
-    /// Returns the same assembly with no bar stiffer than this `EA` (a force): softer ones keep their stiffness, and
-    /// all their rest lengths.
+    /// Returns the same assembly with no bar stiffer than this; see [`Terms::with_bars_at_most`].
     pub fn with_bars_at_most(&self, stiffness: f64) -> Self {
-        let Some(bars) = &self.terms().bars else { return self.clone() };
-        let bars = Bars { stiffness: bars.stiffness.at_most(stiffness), rest: bars.rest.clone() };
-        self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
+        self.with_terms(self.terms().with_bars_at_most(stiffness))
     }
 
     /// Returns the same assembly with a term of one's own beside the others.

@@ -21,6 +21,9 @@ use crate::math::Vec3;
 use nalgebra::{SVector, Vector2};
 use std::sync::Arc;
 
+/// The name of the term.
+pub(super) const MEMBRANE: &str = "membrane";
+
 /// A part of the strain of a triangle times the root of its drawn area, a length: a sum over its sides, from each corner
 /// to the next, of a weight times what the square of the length is more than that of the drawn one.
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +119,7 @@ impl OwnTerm {
             elements.extend(parts.map(|part| (part, sites)));
             springs.extend(moduli.map(|stiffness| Spring { stiffness, rest: 0.0 }));
         }
-        let elements = Arc::new(Term::of_each((TermKind::Own, "membrane"), elements));
+        let elements = Arc::new(Term::of_each((TermKind::Own, MEMBRANE), elements));
         Self { has_tensions: true, ..Self::of(elements, springs) }
     }
 }

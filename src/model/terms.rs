@@ -2,6 +2,7 @@
 
 use super::law::Laws;
 use super::mass::Mass;
+use super::membrane::MEMBRANE;
 use super::own_term::OwnTerm;
 use super::part::Part;
 use super::stiffness::Stiffness;
@@ -151,6 +152,25 @@ impl Terms {
     pub fn unloaded(&self) -> Self {
         let own = self.own.iter().filter(|term| !term.is_load()).cloned().collect();
         Self { loads: vec![], own, ..self.clone() }
+    }
+
+    /// Returns the same terms with no bar stiffer than this `EA` (a force): softer ones keep their stiffness, and all
+    /// their rest lengths. Such bars take the place of membranes.
+    pub fn with_bars_at_most(&self, stiffness: f64) -> Self {
+        let mut terms = self.clone();
+        if self.has_membranes() {
+            terms.own.retain(|term| term.name() != MEMBRANE);
+            terms.bars.get_or_insert(stiffness.into());
+        }
+        if let Some(bars) = &mut terms.bars {
+            bars.stiffness = bars.stiffness.at_most(stiffness);
+        }
+        terms
+    }
+
+    /// Whether triangles are stretched and sheared as [membranes](OwnTerm::membrane).
+    pub fn has_membranes(&self) -> bool {
+        self.own.iter().any(|term| term.name() == MEMBRANE)
     }
 
     /// Whether there is any bar, crease, facet, lock or load. Pins and mass give no energy.

@@ -40,12 +40,12 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
     }
     let terms = context.assembly.terms();
     let elastic = match (&terms.bars, &terms.creases) {
-        (Some(_), Some(creases)) => !creases.stiffness.is_rigid(),
+        (bars, Some(creases)) if bars.is_some() || terms.has_membranes() => !creases.stiffness.is_rigid(),
         (Some(bars), None) => !bars.stiffness.is_rigid() && *context.assembly.domain() == Domain::Patch,
         _ => false,
     };
     if !elastic {
-        let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite; bars of a patch may do without creases";
+        let help = "give bars (inf: rigid, or a membrane) and creases a stiffness, that of creases finite; bars of a patch may do without creases";
         return refuse("wells are those of the energy of bars and creases", help);
     }
     if terms.creases.is_none() && (spec.rigid || !spec.barriers.is_empty()) {

@@ -3,10 +3,10 @@
 //! Every crease that is not rigid is given a rest angle at random around the drawn one, every coordinate is moved at
 //! random (flat sheets have to leave the flat state), rigid parts by as much as their vertices are in the mean, a screw
 //! gets an axis at random, and the sheet relaxes with bars of at most a thousand times the stiffness of its median
-//! crease, so that no folded state is out of reach; on pins that hold its shape, and with rigid parts, of a thousand, a
-//! hundred and ten times by turns. From there it relaxes with its own bars and rest angles. Where that ends in no well
-//! the start is made anew, a few times. Its random numbers depend on the seed and its own number alone. Trusses, which
-//! have no creases, start from coordinates that are moved farther.
+//! crease, in the place of membranes too, so that no folded state is out of reach; on pins that hold its shape, and with
+//! rigid parts, of a thousand, a hundred and ten times by turns. From there it relaxes with its own terms and rest
+//! angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the seed and its
+//! own number alone. Trusses, which have no creases, start from coordinates that are moved farther.
 //!
 //! One more start is no random one: the drawn patch turned inside out, which a stiff dome snaps to and crumpled sheets miss.
 //! It counts where it leads to a well.
@@ -233,9 +233,8 @@ fn crumpled(
         let rest =
             random.zip(&creases.rest).enumerate().map(|(edge, (random, own))| if rigid(edge) { *own } else { random });
         creases.rest = rest.collect();
-        if let Some(bars) = &mut terms.bars {
-            bars.stiffness = bars.stiffness.at_most(softness * creases.stiffness.median());
-        }
+        let most = softness * creases.stiffness.median();
+        terms = terms.with_bars_at_most(most);
     }
     let settler = MinimumTracker::new(&assembly.with_terms(terms), 1.0);
     let mut from = match centre {

@@ -130,13 +130,36 @@ fn membranes_of_every_stiffness_relax() {
     }
 }
 
+/// Claim: the wells of a sheet of membranes are those of the sheet with rigid bars but for a part of their energies that
+/// falls as the stiffness grows. Tolerance: a tenth of the ratio, which the next order changes (0.4 per cent here).
+#[test]
+fn wells_of_stiff_membranes_are_those_of_rigid_bars() {
+    let lowest = |bars: &str| {
+        let energy = format!(
+            "{bars}\ncreases = {{ stiffness = 1.0, rest = {{ file = \"near-cross-rest.csv\" }} }}\n\
+             [[study]]\nname = \"a\"\nkind = \"wells\"\nstarts = 40\ndraw = []"
+        );
+        let wells = Scene::on("mesh = \"near-cross.fold\"", &energy).converged().wells("a").wells.clone();
+        [wells[0].energy, wells[1].energy]
+    };
+    let rigid = lowest("[energy]\nbars = { stiffness = inf }");
+    let [thin, thick] = [1.0, 10.0].map(|thickness| {
+        let plate = format!("[material]\nyoung = 1e6\npoisson = 0.3\nthickness = {thickness:?}");
+        lowest(&format!("{plate}\n[energy]\nmembrane = true"))
+    });
+    for well in 0..2 {
+        let [thin, thick] = [thin, thick].map(|found| rigid[well] - found[well]);
+        assert!(thick > 0.0 && (thin / thick - 10.0).abs() < 1.0, "{well}: {thin} {thick}");
+    }
+}
+
 /// Claim: a membrane without a material, and studies that need bars, are refused by name.
 #[test]
 fn membranes_are_refused_by_name() {
     for (study, said) in [
         ("kind = \"trace\"", "do not know the term `membrane`"),
         ("kind = \"landscape\"\nmodes = [[1.0, 0.0, 0.0]]\namplitudes = [0.1]", "do not know the term `membrane`"),
-        ("kind = \"wells\"\nstarts = 4", "wells are those of the energy of bars and creases"),
+        ("kind = \"wells\"\nbarriers = [[0, 1]]", "barriers and rigid wells need linear bars and hinges"),
     ] {
         scene(1.0, "membrane = true", &format!("[[study]]\nname = \"a\"\n{study}\n")).refused(said);
     }
