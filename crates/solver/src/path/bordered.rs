@@ -36,9 +36,8 @@ const SEED: u64 = 1;
 const SINGULAR_SHIFT: f64 = 1e-6;
 /// Pivots up to this, relative to the largest one, are rounding errors of zero, as of motions that cost nothing.
 const ZERO_PIVOT: f64 = 1e-15;
-/// Rounds of inverse iteration, and the relative residual to which their systems are solved.
+/// Rounds of inverse iteration.
 const SOFTEST_ROUNDS: usize = 5;
-const SOFTEST_RESIDUAL: f64 = 1e-8;
 /// Rate of a quantity, relative to that of a motion of unit arc length along all of the rates by the parameter, that is
 /// an error of the linear system from which tangents come.
 const RATE_ERROR: f64 = 1e-11;
@@ -191,17 +190,17 @@ impl Bordered {
         self.pull(&forces) <= NO_FORCE * self.at.largest_force
     }
 
-    /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates
-    /// of unknowns and tensions, the former of length 1, and its stiffness. Where the system is singular it is a null
-    /// vector.
-    pub fn softest(&mut self, guess: &[f64], others: &[Rates]) -> (Rates, f64) {
+    /// The softest motion in a plane, and across the motions in `others`, by inverse iteration from `guess`: rates whose
+    /// part of the unknowns has length 1, and its stiffness. Where the system is singular it is a null vector. Across a
+    /// path only branch points have one: where the parameter turns, the motion without stiffness is the path's own.
+    pub fn softest(&mut self, guess: &[f64], plane: &Plane, others: &[Rates]) -> (Rates, f64) {
         let nothing = vec![0.0; self.compliance.len()];
         let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
         let mut stiffness = f64::NAN;
         for _ in 0..SOFTEST_ROUNDS {
-            let answer = self.system.solve(&self.at, &found.x, &nothing, SOFTEST_RESIDUAL);
-            stiffness = dot(&answer.dx, &found.x) / dot(&answer.dx, &answer.dx);
-            found = Rates { x: answer.dx, tension: answer.dt, parameter: 0.0 };
+            let (answer, _) = self.solve(&found.x, &nothing, 0.0, plane);
+            stiffness = dot(&answer.x, &found.x) / dot(&answer.x, &answer.x);
+            found = answer;
             for other in others {
                 let part = dot(&found.x, &other.x);
                 found.add(-part, other);

@@ -77,9 +77,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.problem.set_parameter(point.parameter);
         self.bordered.linearize(self.problem, &point.x, &point.tension);
         self.bordered.factor()?;
+        let plane = Plane::across(&point.tangent, self.bordered.unit());
         let mut found: Vec<Rates> = vec![];
         for guess in guesses(point.x.len()).take(multiplicity) {
-            let (null, _) = self.bordered.softest(&guess, &found);
+            let (null, _) = self.bordered.softest(&guess, &plane, &found);
             found.push(null);
         }
         let mut across: Vec<Rates> = vec![point.tangent.clone().scaled(1.0 / self.bordered.length())];

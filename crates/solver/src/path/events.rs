@@ -1,5 +1,6 @@
 //! Special states between two states of a path: where a function of the states changes its sign.
 
+use super::bordered::Plane;
 use super::branching::guesses;
 use super::exits::SAME_STATE;
 use super::follower::{Follower, LEAST_TANGENT_COSINE};
@@ -76,7 +77,7 @@ impl Level {
     }
 }
 
-/// The verdict on a supposed branch point by the stiffness of its softest motion, which vanishes at a true one.
+/// The verdict on a supposed branch point by the stiffness of its softest motion across the path, which vanishes at a true one.
 enum Crossing {
     /// It vanishes at this part of the way, in this state.
     At(f64, Box<PathState>),
@@ -199,9 +200,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
             let point = match crossing {
                 Crossing::At(at, state) => Some((at, *state)),
-                // where the parameter turns as well another motion may be the softest
-                Crossing::Nowhere if after == before || level.turn.is_none() => None,
-                Crossing::Nowhere | Crossing::Unknown => Some((at, state)),
+                Crossing::Nowhere => None,
+                Crossing::Unknown => Some((at, state)),
             };
             if let Some((at, mut state)) = point {
                 // Newton's system is singular there, and its own tangent any mixture with the null vectors
@@ -213,21 +213,22 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(found)
     }
 
-    /// Locates a branch point near this part of the way where the stiffness of the softest motion vanishes, by inverse
-    /// interpolation between states around it. At the point itself neither Newton's method nor a count of signs is
+    /// Locates a branch point near this part of the way where the stiffness of the softest motion across the path
+    /// vanishes, by inverse interpolation between states around it. At the point itself neither Newton's method nor a count of signs is
     /// exact: rounding errors move a state along the null vector, and stiffnesses that are rounding errors count as
     /// positive.
     fn refined(&mut self, [from, to]: [&PathState; 2], mut at: f64) -> Result<Crossing, PathError> {
-        let mut guess = guesses(from.x.len()).next().unwrap_or_default();
+        let (cubic, mut guess) = (Cubic::new(from, to), guesses(from.x.len()).next().unwrap_or_default());
         for _ in 0..MOST_SHIFTS {
             let apart = f64::min(AROUND / (to.arc_length - from.arc_length), 0.4 * f64::min(at, 1.0 - at));
             let mut around: Vec<[f64; 2]> = vec![];
             for place in [-2.0, -1.0, 1.0, 2.0] {
                 let part = at + place * apart;
+                let plane = Plane::across(&cubic.tangent(part).0, self.bordered.unit());
                 if self.between(from, to, part)?.is_none() {
                     return Ok(Crossing::Unknown);
                 }
-                let (softest, stiffness) = self.bordered.softest(&guess, &[]);
+                let (softest, stiffness) = self.bordered.softest(&guess, &plane, &[]);
                 guess = softest.x;
                 around.push([part, stiffness]);
             }

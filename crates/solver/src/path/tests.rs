@@ -318,6 +318,36 @@ fn close_pairs_of_limit_points_are_found() {
     }
 }
 
+/// Claim: branch points just behind and before limit points are located where a motion of their own has no stiffness, and
+/// not where that of the path has none. Source: the path `y = z = 0` of `x^4/4 - 3 x^2/2 - load x + 10 (x + 1 - b) y^2 +
+/// 10 (x - 1 + b) z^2` turns at `x = -1` and `x = 1`, and `y` and `z` have no stiffness at `b - 1` and `1 - b`.
+/// Tolerance: a thousandth of `b`; located at the limit points they are off by all of it.
+#[test]
+fn branch_points_beside_limit_points_are_located() {
+    const B: f64 = 1e-5;
+    for max_step in [0.02, 0.05, 0.1, 0.2] {
+        let mut wings = Textbook::of_energy(
+            3,
+            |at, load| {
+                let ([x, y, z], [a, b]) = ([at[0], at[1], at[2]], [20.0 * (at[0] + 1.0 - B), 20.0 * (at[0] - 1.0 + B)]);
+                let energy = 0.25 * x.powi(4) - 1.5 * x * x - load * x + 0.5 * (a * y * y + b * z * z);
+                let force = x.powi(3) - 3.0 * x - load + 10.0 * (y * y + z * z);
+                let hessian = vec![3.0 * x * x - 3.0, 20.0 * y, a, 20.0 * z, 0.0, b];
+                (energy, vec![force, a * y, b * z], hessian)
+            },
+            |_| [vec![-1.0, 0.0, 0.0], vec![]],
+        );
+        wings.parameter = -2.0;
+        let settings = PathSettings { target: 3.0, max_step, ..PathSettings::default() };
+        let branches = follow(&mut wings, vec![-2.0, 0.0, 0.0], &settings);
+        let found = marked(&branches[0], PathMark::BranchPoint(1));
+        let places: Vec<f64> = found.iter().map(|state| state.x[0]).collect();
+        assert_eq!(places.len(), 2, "{max_step}: {places:?}");
+        let off = places.iter().map(|x| (x.abs() - 1.0 + B).abs()).fold(0.0, f64::max);
+        assert!(off <= 1e-3 * B, "{max_step}: {places:?}");
+    }
+}
+
 /// Claim: a state is found on its branch, and not on another one at a distance of a thousandth of a step. Tolerance:
 /// the interpolant between states 0.1 apart is off by a fifth of that distance, so that Newton's method leads to the
 /// nearer branch. Source: branches `y = sin(3 u) +- d`, `u = load`, of the energy `(u - load)^2/2 + z^3/3 - d^2 z` with
