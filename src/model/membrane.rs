@@ -16,13 +16,10 @@ use super::element::{Term, TermKind};
 use super::law::Spring;
 use super::material::Material;
 use super::measure::Measure;
-use super::own_term::OwnTerm;
+use super::own_term::{MEMBRANE, OwnTerm};
 use crate::math::Vec3;
 use nalgebra::{SVector, Vector2};
 use std::sync::Arc;
-
-/// The name of the term.
-pub(super) const MEMBRANE: &str = "membrane";
 
 /// A part of the strain of a triangle times the root of its drawn area, a length: a sum over its sides, from each corner
 /// to the next, of a weight times what the square of the length is more than that of the drawn one.

@@ -7,6 +7,9 @@ use super::measure::Measure;
 use std::fmt;
 use std::sync::Arc;
 
+/// The name of the term of [membranes](OwnTerm::membrane).
+pub(super) const MEMBRANE: &str = "membrane";
+
 /// A term of one's own: elements with a measure and a law of one's own, and a name under which their energy is listed.
 ///
 /// Its energy must not change where the whole sheet moves as a rigid body, unless pins prevent that: coordinates are

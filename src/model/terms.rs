@@ -2,8 +2,7 @@
 
 use super::law::Laws;
 use super::mass::Mass;
-use super::membrane::MEMBRANE;
-use super::own_term::OwnTerm;
+use super::own_term::{MEMBRANE, OwnTerm};
 use super::part::Part;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;

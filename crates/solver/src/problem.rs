@@ -8,7 +8,7 @@ use thiserror::Error;
 
 /// A soft energy with stiff measures: minimise `E(x) + sum_r m_r(x)^2 / (2 c_r)`.
 pub trait Problem {
-    /// Unknowns and couplings; the same at every state.
+    /// Unknowns and couplings; the same at every state until [`Problem::choose_anew`] chooses others.
     fn layout(&self) -> &Arc<Layout>;
     /// Compliance `c = 1/k >= 0` of each stiff measure; zero makes it the constraint `m(x) = 0`.
     fn compliance(&self) -> &[f64];
@@ -54,6 +54,11 @@ pub trait Problem {
     /// by how much the energy fell.
     fn relieve(&mut self, _x: &mut [f64]) -> f64 {
         0.0
+    }
+    /// Chooses anew how states are written as unknowns where the present choice would soon be singular. Returns then the
+    /// unknowns of the accepted state `x`, and these rates of them.
+    fn choose_anew(&mut self, _x: &[f64], _rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        None
     }
 }
 

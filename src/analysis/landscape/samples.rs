@@ -8,10 +8,11 @@
 use super::settling::{Settling, TermValues};
 use super::taylor_path::HeldState;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
-use crate::analysis::relax::{Relaxed, relax_model};
+use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
 use crate::solver::{Failure, HessianKind, Options, Start, Step};
 use nalgebra::DVector;
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// Most rounds of rest angles.
@@ -29,6 +30,13 @@ const JOINT: usize = 3;
 const CLOSE: f64 = 1e-3;
 /// Longest change of a rest angle in a step, in radians.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
+
+/// Exponents of the energy between the drawn state and the first sample, about 4 or 6 where the sheet stays in its
+/// minimum; what the energy may be off a power of the amplitude between two others, as its logarithm: other minima are
+/// off by 3 and more; and the largest number of amplitudes tried on the way to a sample.
+const EXPONENTS: RangeInclusive<f64> = 3.0..=7.0;
+const OFF_POWER: f64 = 0.2;
+const MOST_BETWEEN: usize = 16;
 
 /// Rounding errors of an angle or a length in its evaluation.
 const ROUNDINGS: f64 = 4.0;
@@ -78,23 +86,69 @@ pub enum SampleError {
 pub struct Samples<'a> {
     held: &'a mut HeldSheet,
     course: TaylorPath,
-    /// Amplitude and place of the last one.
-    last: (f64, HeldState),
+    last: Place,
+}
+
+/// Where a sheet settles at an amplitude.
+#[derive(Clone)]
+struct Place {
+    amplitude: f64,
+    at: HeldState,
+    /// The energy, not a number where it may be rounding, and its rate by the amplitude: the torque on the mode.
+    energy: f64,
+    rate: f64,
+}
+
+impl Place {
+    /// Whether the energy can have grown as a power of the amplitude from that at another place on: the sheet has then
+    /// not gone over to another minimum. From the drawn state on it grows about as the fourth power, or the sixth.
+    fn continues(&self, from: &Self) -> bool {
+        let exponent = |place: &Self| place.amplitude * place.rate / place.energy;
+        if self.energy.is_nan() || from.energy.is_nan() {
+            return true;
+        }
+        if from.amplitude == 0.0 {
+            return EXPONENTS.contains(&exponent(self));
+        }
+        let growth = 0.5 * (exponent(from) + exponent(self)) * (self.amplitude / from.amplitude).ln();
+        ((self.energy / from.energy).ln() - growth).abs() <= OFF_POWER
+    }
 }
 
 impl<'a> Samples<'a> {
     /// Along this course, from the drawn state.
     pub fn new(held: &'a mut HeldSheet, course: TaylorPath) -> Self {
-        let place = HeldState { x: held.drawn(), ..held.still() };
-        Self { held, course, last: (0.0, place) }
+        let at = HeldState { x: held.drawn(), ..held.still() };
+        Self { held, course, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0 } }
     }
 
-    /// The sample at an amplitude, from the last one.
+    /// The sample at an amplitude, from the last one; by way of amplitudes in between where one step leads to another
+    /// minimum than the one that the sheet is in, or to none.
     ///
     /// # Errors
     /// [`SampleError`] where the relaxation does not converge.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
-        let (from, mut place) = self.last.clone();
+        let (mut next, mut left, mut iterations) = (amplitude, MOST_BETWEEN, 0);
+        loop {
+            let (model, from) = (self.held.model.clone(), self.last.clone());
+            let found = self.from_last(next, observe);
+            let is_interrupted = matches!(found, Err(SampleError::Relaxation(Failure::Interrupted)));
+            let continues = found.is_ok() && self.last.continues(&from);
+            iterations += found.as_ref().map_or(0, |sample| sample.iterations);
+            if !continues && left > 0 && !is_interrupted {
+                next = if from.amplitude > 0.0 { (from.amplitude * next).sqrt() } else { 0.5 * next };
+                (self.held.model, self.last, left) = (model, from, left - 1);
+            } else if next == amplitude || found.is_err() {
+                return found.map(|sample| Sample { iterations, ..sample });
+            } else {
+                next = amplitude;
+            }
+        }
+    }
+
+    /// The sample at an amplitude, in one step from the last one.
+    fn from_last(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
+        let Place { amplitude: from, at: mut place, .. } = self.last.clone();
         self.course.advance(&mut place, from, amplitude);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
@@ -107,20 +161,32 @@ impl<'a> Samples<'a> {
             let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
             let start = Start { x: place.x, tension: Some(place.tension) };
-            let (relaxed, model, x) = relax_model(self.held.model.clone(), start, OPTIONS, observe)
+            let relaxed = relax_from(&self.held.model, start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
-            self.held.model = model;
             iterations += relaxed.iterations;
-            let tension = relaxed.configuration.tension.clone().unwrap_or_default();
-            place = HeldState { x, tension, rest: place.rest };
+            // in the unknowns of the course, whatever the relaxation held
+            let Start { x, tension } = self.held.model.enter(&relaxed.configuration);
+            place = HeldState { x, tension: tension.unwrap_or_default(), rest: place.rest };
             torque = unbalanced(self.held, &directions, &place);
             if torque <= BALANCED {
                 let (rest, rounding) = (rest.as_slice().to_vec(), rounding(self.held, &place));
-                self.last = (amplitude, place);
-                return Ok(Sample { amplitude, relaxed, rest, iterations, rounds, rounding });
+                let sample = Sample { amplitude, relaxed, rest, iterations, rounds, rounding };
+                let energy = if sample.below_rounding() { f64::NAN } else { sample.relaxed.state.total() };
+                let rate = self.rate(&place);
+                self.last = Place { amplitude, at: place, energy, rate };
+                return Ok(sample);
             }
         }
         Err(SampleError::Restless { torque })
+    }
+
+    /// Rate of the energy by the amplitude: what the hinges exert on rest angles that move along the mode.
+    fn rate(&self, place: &HeldState) -> f64 {
+        let (model, (soft, stiff)) = (&self.held.model, self.held.spread(&self.course.rates));
+        let springs = model.soft().map(|element| element.spring.stiffness).zip(model.off_rest(&place.x));
+        let of_soft = springs.zip(&soft).map(|((stiffness, off), along)| stiffness * off * along).sum::<f64>();
+        let of_stiff = place.tension.iter().zip(&stiff).map(|(tension, along)| tension * along).sum::<f64>();
+        -of_soft - of_stiff
     }
 
     /// Uniform rest angles less those drawn.

@@ -6,7 +6,6 @@
 
 mod bent_screw;
 pub(super) mod fold_angles;
-mod other_gauge;
 mod other_tensions;
 mod rest_path;
 mod saddle;
@@ -27,16 +26,15 @@ pub(super) struct Route {
     pub(super) go: fn(&mut Run<'_>, Ending) -> Ending,
 }
 
-/// All routes, in order: first those for relaxations that failed, then those that look for a lower energy, then those
-/// that settle what is held and the tensions.
-pub(super) const ROUTES: [Route; 10] = [
+/// All routes, in order: first those for relaxations that failed, then those that look for a lower energy, then the one
+/// that settles the tensions.
+pub(super) const ROUTES: [Route; 9] = [
     Route { name: "soft bars", wanted: soft_bars::is_singular, go: soft_bars::leave },
     Route { name: "fold angles", wanted: fold_angles::may_help, go: fold_angles::from_the_start },
     Route { name: "straight screw", wanted: straight_screw::is_nearly_straight, go: straight_screw::relaxed },
     Route { name: "rest path", wanted: has_failed, go: rest_path::follow },
     Route { name: "stiffer bars", wanted: has_failed, go: stiffer_bars::relaxed },
     Route { name: "soft bars", wanted: soft_bars::is_in_doubt, go: soft_bars::leave_if_better },
-    Route { name: "other gauge", wanted: other_gauge::is_needed, go: other_gauge::relaxed },
     Route { name: "saddle", wanted: saddle::is_reached, go: saddle::leave },
     Route { name: "bent screw", wanted: bent_screw::is_at_apex, go: bent_screw::lowest },
     Route { name: "other tensions", wanted: other_tensions::are_needed, go: other_tensions::relaxed },

@@ -236,10 +236,6 @@ impl ParametrizedProblem for DrivenModel {
         }
     }
 
-    fn choose_anew(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
-        self.model.still_held(x, rates)
-    }
-
     fn set_parameter(&mut self, value: f64) {
         self.parameter = value;
         let model = &mut self.model;
@@ -389,5 +385,9 @@ impl Problem for DrivenModel {
     fn accept(&mut self, x: &mut [f64]) {
         let all = self.model.generalised(x);
         self.model.accept_angles(&all[..self.model.points()]);
+    }
+
+    fn choose_anew(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        self.model.choose_anew(x, rates)
     }
 }

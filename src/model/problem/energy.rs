@@ -140,6 +140,10 @@ impl Problem for Model {
     fn relieve(&mut self, x: &mut [f64]) -> f64 {
         self.turn_along_loads(x)
     }
+
+    fn choose_anew(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        self.still_held(x, rates)
+    }
 }
 
 impl Model {

@@ -64,7 +64,7 @@ pub struct RelaxSummary {
 pub struct RouteSummary {
     /// Its name.
     #[schemars(extend("enum" = [
-        "positions", "fold angles", "soft bars", "straight screw", "rest path", "stiffer bars", "other gauge", "saddle", "bent screw", "other tensions"
+        "positions", "fold angles", "soft bars", "straight screw", "rest path", "stiffer bars", "saddle", "bent screw", "other tensions"
     ]))]
     pub name: String,
     /// Accepted steps that it added to the history; 0 where it did not help.

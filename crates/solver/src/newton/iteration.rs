@@ -93,6 +93,17 @@ impl<'a, P: Problem> Newton<'a, P> {
         self.problem.hold(&self.tension, &mut self.tangent.at);
     }
 
+    /// Goes on in other unknowns where the problem chooses them anew.
+    pub(super) fn choose_anew(&mut self) -> Result<(), Failure> {
+        let no_rates = vec![0.0; self.x.len()];
+        let Some([x, _]) = self.problem.choose_anew(&self.x, &no_rates) else { return Ok(()) };
+        let made = (self.tangent.system.factorizations, self.tangent.system.solves);
+        self.tangent = Tangent::new(self.problem)?;
+        (self.tangent.system.factorizations, self.tangent.system.solves) = made;
+        (self.x, self.certified) = (x, None);
+        Ok(())
+    }
+
     /// The record of the present state, reached by this fraction of a Newton step.
     pub(super) fn record(&self, fraction: f64) -> Step {
         let residuals = Residuals::new(self.problem, &self.tangent.at, &self.tension);

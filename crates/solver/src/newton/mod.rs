@@ -98,6 +98,7 @@ fn run<P: Problem>(
             }
             taken => taken?,
         };
+        newton.choose_anew()?;
         newton.linearize();
     }
 }

@@ -23,13 +23,9 @@ pub trait ParametrizedProblem: Problem {
     fn choice(&self) -> Vec<f64> {
         vec![]
     }
-    /// Restores what [`ParametrizedProblem::choice`] returned; the layout may be another one then.
+    /// Restores what [`ParametrizedProblem::choice`] returned; the layout may be another one then, as after
+    /// [`Problem::choose_anew`].
     fn set_choice(&mut self, _choice: &[f64]) {}
-    /// Chooses anew how states are written where the present choice would soon be singular. Returns then the unknowns
-    /// of the state `x`, and these rates of them.
-    fn choose_anew(&mut self, _x: &[f64], _rates: &[f64]) -> Option<[Vec<f64>; 2]> {
-        None
-    }
     /// Whether stiffness jumps along paths, as where elements yield: no interpolation between states is good there.
     fn has_kinks(&self) -> bool {
         false

@@ -27,7 +27,7 @@ const DAMPED: f64 = 0.25;
 const LARGEST_ANGLE_RAD: f64 = 1.01 * std::f64::consts::PI;
 
 /// Begins a relaxation: in fold angles where the method says so, and in positions elsewhere or where they fail.
-pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
+pub(crate) fn begin(run: &mut Run<'_>, mut start: Start) -> Ending {
     let failure = match form(run, &start) {
         Ok(None) => return run.minimize(start),
         Ok(Some(intrinsic)) => {
@@ -35,7 +35,7 @@ pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
                 if let Some(ending) = minimize_unless_damped(run, &start) {
                     return ending;
                 }
-                run.begin_anew();
+                start.x = run.begin_anew();
             }
             match solved_and_confirmed(&intrinsic, run, &start) {
                 Ok(ending) => return ending,
@@ -45,6 +45,7 @@ pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
         Err(reason) => reason.into(),
     };
     run.intrinsic_failure = Some(failure);
+    start.x = run.begin_anew();
     run.minimize(start)
 }
 
@@ -57,14 +58,14 @@ pub(super) fn may_help(run: &Run<'_>, ending: &Ending) -> bool {
 /// The equilibrium that fold angles reach from the same start; the failure in positions where they reach none.
 pub(super) fn from_the_start(run: &mut Run<'_>, ending: Ending) -> Ending {
     let Ok(intrinsic) = IntrinsicModel::new(&run.model) else { return ending };
-    let x = run.begin_anew();
-    solved_and_confirmed(&intrinsic, run, &Start { x, tension: None }).unwrap_or_else(|failure| {
-        run.intrinsic_failure = Some(failure);
-        ending
-    })
+    let in_angles = |run: &mut Run<'_>| {
+        let start = Start::from(run.begin_anew());
+        solved_and_confirmed(&intrinsic, run, &start).map_err(|failure| run.intrinsic_failure = Some(failure)).ok()
+    };
+    run.prefer(ending, in_angles, |_, _| true)
 }
 
-/// Minimises in fold angles, and confirms the result in positions. Where there is none the model is again as it was.
+/// Minimises in fold angles, and confirms the result in positions.
 fn solved_and_confirmed(
     intrinsic: &IntrinsicModel,
     run: &mut Run<'_>,
@@ -90,7 +91,6 @@ fn solved_and_confirmed(
             failure
         }
     };
-    run.begin_anew();
     Err(failure)
 }
 

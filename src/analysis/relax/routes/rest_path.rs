@@ -101,10 +101,10 @@ fn follow_minima(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, mut st
         if end == StretchEnd::Interrupted {
             return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
         }
-        let known = if end == StretchEnd::Lost { None } else { Some(tension) };
+        let (known, place) = (if end == StretchEnd::Lost { None } else { Some(tension) }, run.model.clone());
         let found =
             known.and_then(|tension| minimum(run, drive, reached, Start { x: x.clone(), tension: Some(tension) }));
-        let found = found.map(|found| (reached, found)).or_else(|| farther(run, drive, reached, &x));
+        let found = found.map(|found| (reached, found)).or_else(|| farther(run, drive, reached, (&place, &x)));
         match found? {
             (_, Err(interrupted)) => return Some(Err(interrupted)),
             (next, Ok(found)) if next == target => return Some(Ok(found)),
@@ -128,13 +128,18 @@ fn minimum(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: f
 
 /// Minimises a little farther on the way from a state at which no step of the path leads on: as far as that succeeds.
 /// Returns the parameter there with the ending; `None` where it succeeds nowhere.
-fn farther(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, from: f64, x: &[f64]) -> Option<(f64, Ending)> {
-    let (place, driven) = (run.model.clone(), drive(run.model.clone()));
+fn farther(
+    run: &mut Run<'_>,
+    drive: &dyn Fn(Model) -> DrivenModel,
+    from: f64,
+    (place, x): (&Model, &[f64]),
+) -> Option<(f64, Ending)> {
+    let driven = drive(place.clone());
     let target = driven.target();
     let way = driven.parameter_scale() * (target - from).signum();
     PARTS_OF_THE_WAY.into_iter().find_map(|part| {
         let next = if (target - from).abs() <= (part * way).abs() { target } else { from + part * way };
-        run.model.clone_from(&place);
+        run.model.clone_from(place);
         minimum(run, drive, next, x.to_vec().into()).map(|ending| (next, ending))
     })
 }
