@@ -18,7 +18,6 @@ use nalgebra::{DVector, Matrix3};
 
 mod edge;
 mod opening;
-mod products;
 mod second_derivative;
 
 pub(crate) use edge::HingedEdge;

@@ -110,8 +110,8 @@ mod tests {
 
         /// Returns the rates of all fold angles, from the velocities of the vertices and of the lattice alone; zero on
         /// the rim.
-        fn fold_rates(&self, embedding: &Embedding) -> Vec<f64> {
-            let spins: Vec<Vec3> = embedding.faces.iter().map(|face| self.spin(&face.corners)).collect();
+        fn fold_rates(&self, sheet: &Sheet, embedding: &Embedding) -> Vec<f64> {
+            let spins: Vec<Vec3> = (0..sheet.triangles.len()).map(|face| self.spin(sheet, embedding, face)).collect();
             let mut rates = vec![0.0; embedding.edges()];
             let steps = embedding.walk.steps.iter().map(|step| (step, [0, 0]));
             let loops = embedding.walk.loops.iter().map(|closing| (&closing.crossing, closing.cell));
@@ -124,8 +124,9 @@ mod tests {
             rates
         }
 
-        fn spin(&self, corners: &[Corner; 3]) -> Vec3 {
-            let [a, b, c] = corners.map(|corner| self.corner(corner));
+        fn spin(&self, sheet: &Sheet, embedding: &Embedding, face: usize) -> Vec3 {
+            let home = embedding.walk.cells[face];
+            let [a, b, c] = sheet.triangles[face].corners.map(|corner| self.corner(corner.translated(home)));
             angular_velocity([b.0 - a.0, c.0 - a.0], [b.1 - a.1, c.1 - a.1])
         }
     }
@@ -165,7 +166,7 @@ mod tests {
             let embedding = Embedding::new(&sheet).unwrap();
             let displacement = Displacement::new(&embedding, &angles, &rates);
             assert!(displacement.disagreement <= 1e-13);
-            let back = displacement.fold_rates(&embedding);
+            let back = displacement.fold_rates(&sheet, &embedding);
             assert!(rates.iter().any(|rate| rate.abs() > 0.1));
             assert!(rates.iter().zip(&back).all(|(a, b)| (a - b).abs() <= 1e-13), "{}", sheet.title);
         }
@@ -223,7 +224,7 @@ mod tests {
                 for far in [b, c] {
                     assert!((far.1 - a.1 - turning.cross(&(far.0 - a.0))).norm() <= 1e-11);
                 }
-                let spin = displacement.spin(&embedding.faces[face].corners);
+                let spin = displacement.spin(&sheet, &embedding, face);
                 assert!((spin - displacement.walked.faces[face].twist.angular).norm() <= 1e-12);
             }
         }

@@ -18,9 +18,10 @@ use crate::sheet::{Corner, Sheet};
 pub struct Embedding {
     pub(super) walk: FaceWalk,
     pub(super) seats: Vec<Seat>,
-    pub(super) faces: Vec<DrawnFace>,
     /// Lattice vectors as drawn, or chords of the screw motions that repeat the drawn cell.
     pub(super) lattice: Option<[Vec3; 2]>,
+    /// Sum of the drawn areas of the faces times their normals.
+    pub(super) drawn_area: Vec3,
     drawn_angles: Vec<f64>,
     longest: f64,
 }
@@ -35,14 +36,6 @@ pub(super) struct Seat {
     pub(super) cell: [i32; 2],
 }
 
-/// A face as drawn, in the cell in which the walk reaches it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DrawnFace {
-    pub(super) corners: [Corner; 3],
-    /// Area times unit normal.
-    pub(super) area: Vec3,
-}
-
 /// A sheet at some fold angles, in the frame defined on the [module](self)'s page.
 #[derive(Clone, Debug)]
 pub struct Placement {
@@ -52,7 +45,6 @@ pub struct Placement {
     pub lattice: Option<[Motion; 2]>,
     /// The errors of closure of the angles.
     pub compatibility: Compatibility,
-    pub(super) walked: Walked<Motion>,
 }
 
 /// The largest differences between different paths over the faces; all are zero except for rounding if the angles
@@ -85,11 +77,17 @@ impl Embedding {
     /// not both directions of the lattice.
     pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let walk = FaceWalk::new(sheet)?;
-        let faces: Vec<DrawnFace> = (0..walk.cells.len()).map(|face| DrawnFace::new(sheet, &walk, face)).collect();
+        let corners = |face: usize| sheet.triangles[face].corners.map(|corner| corner.translated(walk.cells[face]));
+        let faces: Vec<[Corner; 3]> = (0..walk.cells.len()).map(corners).collect();
+        let area = |corners: &[Corner; 3]| {
+            let [a, b, c] = corners.map(|corner| relative(sheet, corner));
+            0.5 * (b - a).cross(&(c - a))
+        };
+        let drawn_area = faces.iter().map(area).sum();
         let seats = seats(sheet, &faces).ok_or(KinematicsError::Disconnected { faces: faces.len() })?;
         let longest = sheet.edges.iter().map(|edge| sheet.length(edge.key)).fold(0.0, f64::max);
         let drawn_angles = drawn_fold_angles(sheet);
-        Ok(Self { walk, seats, faces, lattice: sheet.chords(), drawn_angles, longest })
+        Ok(Self { walk, seats, lattice: sheet.chords(), drawn_area, drawn_angles, longest })
     }
 
     /// Number of edges, which is the number of fold angles.
@@ -110,23 +108,9 @@ impl Embedding {
     /// # Panics
     /// If the length of `angles` is not the number of edges.
     pub fn place(&self, angles: &[f64]) -> Placement {
-        let walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
-        let compatibility = Compatibility::default();
-        let mut placement = Placement { positions: Vec::new(), lattice: None, compatibility, walked };
-        self.place_into(angles, &mut placement);
-        placement
-    }
-
-    /// Does the same as [`place`](Self::place), but overwrites an earlier placement, without allocation.
-    /// # Panics
-    /// As [`place`](Self::place).
-    pub fn place_into(&self, angles: &[f64], placement: &mut Placement) {
         assert_eq!(angles.len(), self.edges(), "one fold angle for every edge");
-        let walked = &mut placement.walked;
-        self.walk.walk_into(|step| Motion::about(&step.line, self.turn(step.edge, angles)), walked);
-        placement.lattice = walked.lattice;
-        placement.positions.clear();
-        placement.positions.extend(self.seats.iter().map(|seat| {
+        let walked = self.walk.walk(|step| Motion::about(&step.line, self.turn(step.edge, angles)));
+        let position = |seat: &Seat| {
             let there = walked.faces[seat.face].apply(&seat.drawn);
             match &walked.lattice {
                 Some(lattice) if seat.cell != [0, 0] => {
@@ -134,13 +118,9 @@ impl Embedding {
                 }
                 _ => there,
             }
-        }));
-        placement.compatibility = self.compatibility(walked);
-    }
-
-    /// Returns the sum of the drawn areas of the faces times their normals.
-    pub(super) fn drawn_area(&self) -> Vec3 {
-        self.faces.iter().map(|face| face.area).sum()
+        };
+        let positions = self.seats.iter().map(position).collect();
+        Placement { positions, lattice: walked.lattice, compatibility: self.compatibility(&walked) }
     }
 
     /// Returns the difference of the fold angle of an edge from the drawn one, in radians.
@@ -174,21 +154,13 @@ impl Placement {
     }
 }
 
-impl DrawnFace {
-    fn new(sheet: &Sheet, walk: &FaceWalk, face: usize) -> Self {
-        let corners = sheet.triangles[face].corners.map(|corner| corner.translated(walk.cells[face]));
-        let [a, b, c] = corners.map(|corner| relative(sheet, corner));
-        Self { corners, area: 0.5 * (b - a).cross(&(c - a)) }
-    }
-}
-
 /// Returns a corner of a face for every vertex, in cell (0, 0) if the walk has it there; `None` if a vertex has no
 /// face.
-fn seats(sheet: &Sheet, faces: &[DrawnFace]) -> Option<Vec<Seat>> {
+fn seats(sheet: &Sheet, faces: &[[Corner; 3]]) -> Option<Vec<Seat>> {
     let far = |cell: [i32; 2]| cell.map(i32::abs).iter().sum::<i32>();
     let mut seats: Vec<Option<Seat>> = vec![None; sheet.vertices.len()];
-    for (face, drawn) in faces.iter().enumerate() {
-        for &corner in &drawn.corners {
+    for (face, corners) in faces.iter().enumerate() {
+        for &corner in corners {
             let nearer = seats[corner.vertex].is_none_or(|seat| far(corner.shift) < far(seat.cell));
             if nearer {
                 seats[corner.vertex] = Some(Seat { face, drawn: relative(sheet, corner), cell: corner.shift });
@@ -331,8 +303,7 @@ mod tests {
     }
 
     /// Claim: every entry of the derivative of positions, lattice rotations and chords by the fold angles is that of
-    /// the displacement with that rate, also if the angles do not close; an overwritten placement is equal to a new
-    /// one.
+    /// the displacement with that rate, also if the angles do not close.
     #[test]
     fn displacements_are_the_derivative() {
         for (sheet, angles) in folded() {
@@ -340,8 +311,7 @@ mod tests {
             let numbers = random_numbers(8, angles.len());
             let point: Vec<f64> = angles.iter().zip(numbers).map(|(angle, r)| angle + 0.2 * r).collect();
             let place = |angles: &[f64]| {
-                let mut placement = embedding.place(embedding.drawn_angles());
-                embedding.place_into(angles, &mut placement);
+                let placement = embedding.place(angles);
                 let lattice = placement.lattice.iter().flatten();
                 let motions = lattice.flat_map(|m| m.rotation.iter().chain(m.translation.iter()).copied());
                 placement.positions.iter().flat_map(|x| x.iter().copied()).chain(motions).collect::<Vec<f64>>()

@@ -114,7 +114,7 @@ fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
 
 /// Returns the curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
 fn curvatures(embedding: &Embedding, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
-    let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area());
+    let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area);
     let normal = upwards.normalize() * area.dot(&upwards).signum();
     let frame = LatticeFrame::new(lattice);
     let tensor = |omega: &[Vec3; 2]| frame.tensor(&Matrix2::from_fn(|a, b| omega[a].cross(&lattice[b]).dot(&normal)));
