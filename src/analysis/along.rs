@@ -43,8 +43,6 @@ pub struct StateAlong {
     pub relaxed: Relaxed,
     /// Fold angles of all edges, continuous along the trajectory; zero where there is no hinge.
     pub angles: Vec<f64>,
-    /// The crease that was locked.
-    pub crease: usize,
     /// Largest difference of a fold angle to the rigid state.
     pub error: f64,
 }
@@ -247,7 +245,7 @@ impl Track<'_> {
         self.angles = self.continued(&relaxed.state.coordinates);
         let off = |(a, b): (&f64, &f64)| (a - b).abs();
         let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, larger);
-        Ok(StateAlong { relaxed, angles: self.angles.clone(), crease, error })
+        Ok(StateAlong { relaxed, angles: self.angles.clone(), error })
     }
 
     /// Coordinates if all goes on as between the last two states.

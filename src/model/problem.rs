@@ -361,12 +361,6 @@ impl Model {
         self.supports.iter_mut().zip(self.springs.len()..).for_each(|(support, k)| support.rest = between(k));
     }
 
-    /// Multiplies the stiffness of each soft element by its factor.
-    pub fn scale_soft(&mut self, factors: &[f64]) {
-        let count = self.soft_elements();
-        self.springs[..count].iter_mut().zip(factors).for_each(|(spring, factor)| spring.stiffness *= factor);
-    }
-
     /// Returns the angles of the last accepted state, from which angles continue: those of hinges, soft ones first.
     pub fn angles(&self) -> Vec<f64> {
         self.elements().filter(Element::is_angle).map(|element| element.last).collect()

@@ -106,11 +106,6 @@ impl ZeroLines {
         }
         self
     }
-
-    /// How many lines leave `q = 0`: half the number of ends there.
-    pub fn through_origin(&self) -> usize {
-        self.lines.iter().map(|line| line.passes).sum()
-    }
 }
 
 /// Where a piece ends.
