@@ -5,9 +5,9 @@
 //! `centroid + displacement + R(w) r`. The *generalised coordinates* of a model are the coordinates of all vertices,
 //! followed by six for each part; those of the vertices of a part follow from its pose.
 
-use crate::math::{Vec3, point, rotation};
+use crate::math::{Vec3, in_lower_triangle, point, rotation};
 use crate::model::element::Local;
-use crate::model::part::Part;
+use crate::model::terms::Part;
 use crate::numerics::dense::small::nearest_rotation;
 use crate::sheet::tiling::Site;
 use nalgebra::{DMatrix, Matrix3};
@@ -160,10 +160,7 @@ impl Bodies {
             .flat_map(|k| (maps[k].transpose() * point(&local.gradient, k)).as_slice().to_vec())
             .collect();
         if !local.hessian.is_empty() {
-            let entry = |row: usize, column: usize| {
-                let (high, low) = (row.max(column), row.min(column));
-                local.hessian[high * (high + 1) / 2 + low]
-            };
+            let entry = |row: usize, column: usize| local.hessian[in_lower_triangle(row, column)];
             let mut pulled = DMatrix::zeros(size, size);
             for (k, left) in maps.iter().enumerate() {
                 for (l, right) in maps.iter().enumerate() {
