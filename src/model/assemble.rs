@@ -9,10 +9,9 @@ use super::boundary::Drawn;
 use super::element::{Elements, Term, TermKind};
 use super::law::{Law, Spring, Stored, TermLaw};
 use super::measure::{FoldAngle, Length};
-use super::part::Part;
-use super::problem::{Bodies, Conditions, Equations, Gauge, Model, Support};
+use super::problem::{Bodies, Equations, Gauge, Model, Support};
 use super::stiffness::Stiffness;
-use super::terms::{Bars, Hinges, Terms};
+use super::terms::{Bars, Hinges, Part, Terms};
 use crate::math::Vec3;
 use crate::sheet::EdgeKind;
 use crate::sheet::tiling::{Site, TiledEdge, Tiling};
@@ -54,7 +53,7 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         gauge,
     };
     let supports = terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect();
-    Model::new(equations, [soft.springs, stiff.springs].concat(), Conditions { pinned, supports, loads })
+    Model::new(equations, [soft.springs, stiff.springs].concat(), pinned, supports, loads)
 }
 
 /// Returns the terms whose elements enter with their energy, and those whose elements have tensions.

@@ -23,7 +23,6 @@ use std::sync::Arc;
 pub struct DrivenModel {
     /// The model, with the supports that the drive moves.
     pub model: Model,
-    quantity: Driven,
     parameter: f64,
     target: f64,
     way: f64,
@@ -45,10 +44,9 @@ impl DrivenModel {
     /// [`DriveError`] if the drive has no effect on this model.
     pub fn new(mut model: Model, drive: &Drive, drawn: Vec<f64>, loaded: bool) -> Result<Self, DriveError> {
         let first = model.compliance.len();
-        let quantity = drive.quantity.clone();
         let begin = f64::from(u8::from(loaded));
         let (mut unit, mut added) = (1.0, first..first);
-        let (effect, parameter, target) = match &quantity {
+        let (effect, parameter, target) = match &drive.quantity {
             Driven::Part { part, axis } => {
                 let pose = model.points() + POSE * part + axis;
                 model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3);
@@ -91,25 +89,24 @@ impl DrivenModel {
         if !((target - parameter).abs() > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
-        Ok(Self { unit, added, ..Self::driven(model, quantity, [parameter, target], effect) })
+        Ok(Self { unit, added, ..Self::driven(model, [parameter, target], effect) })
     }
 
     /// Makes a model whose rest values, those of locks and supports included, go from some at 0 to others at 1: one of
     /// each measure, as [`Model::values`] gives them.
     pub(crate) fn by_rests(model: Model, [from, to]: [Vec<f64>; 2]) -> Self {
-        let effect = Effect::Rest { drawn: from, given: to };
-        Self::driven(model, Driven::Rest, [0.0, 1.0], effect)
+        Self::driven(model, [0.0, 1.0], Effect::Rest { drawn: from, given: to })
     }
 
     /// Makes a model whose compliances of these bars, of the numbers among the stiff measures, go from one multiple of
     /// those given to another: of [`Model::rigid_bars`] to 0, of [`Model::soft_bars`] to 1.
     pub(crate) fn by_compliance(model: Model, bars: Vec<(usize, f64)>, multiples: [f64; 2]) -> Self {
-        Self::driven(model, Driven::Stiffness(TermKind::Bars), multiples, Effect::Compliance(bars))
+        Self::driven(model, multiples, Effect::Compliance(bars))
     }
 
-    fn driven(model: Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {
+    fn driven(model: Model, [parameter, target]: [f64; 2], effect: Effect) -> Self {
         let (first, way) = (model.base.clone(), (target - parameter).abs());
-        let mut driven = Self { model, quantity, parameter, target, way, effect, unit: 1.0, added: 0..0, first };
+        let mut driven = Self { model, parameter, target, way, effect, unit: 1.0, added: 0..0, first };
         driven.set_parameter(parameter);
         driven
     }
@@ -160,12 +157,12 @@ impl DrivenModel {
 
     /// Whether the parameter is a load and its conjugate a displacement, instead of the other way round.
     pub fn is_load(&self) -> bool {
-        matches!(self.quantity, Driven::Loads | Driven::Pressure(_) | Driven::Rest | Driven::Stiffness(_))
+        !matches!(self.effect, Effect::Prescribed(_))
     }
 
     /// Whether the parameter is a stiffness, or the reciprocal of one, which should not become negative.
     pub fn is_stiffness(&self) -> bool {
-        matches!(self.quantity, Driven::Stiffness(_))
+        matches!(self.effect, Effect::Compliance(_) | Effect::Stiffness(_))
     }
 
     /// Whether extrema of the conjugate mean anything to a user: those of forces, torques and displacements do, where
@@ -173,7 +170,7 @@ impl DrivenModel {
     pub fn has_conjugate_limits(&self) -> bool {
         let model = &self.model;
         let stores = model.soft_elements() > 0 || model.compliance().iter().any(|compliance| *compliance > 0.0);
-        (stores || !model.loads.is_empty()) && !matches!(self.quantity, Driven::Rest | Driven::Stiffness(_))
+        (stores || !model.loads.is_empty()) && matches!(self.effect, Effect::Prescribed(_) | Effect::Loads { .. })
     }
 }
 
