@@ -181,10 +181,8 @@ fn between(from: &Folded, to: &Folded) -> Folded {
         arc_length: from.arc_length + 0.5 * length,
         angles: ends().map(|((a, b), (u, v))| 0.5 * (a + b) + 0.125 * length * (u - v)).collect(),
         rates: ends().map(|((a, b), (u, v))| 1.5 * (b - a) / length - 0.25 * (u + v)).collect(),
-        shape: None,
-        seam: None,
-        positions: Vec::new(),
         residual: f64::NAN,
+        ..Folded::default()
     }
 }
 

@@ -83,7 +83,8 @@ pub fn trace(
     }
     let closure = Closure::of_cell(assembly.sheet())?.with_locked(&assembly.locked_edges());
     let embedding = Embedding::new(assembly.sheet())?;
-    let condition = found.tube.as_ref().map(|(tube, kept)| tube.keeping(*kept));
+    let tube = found.tube.as_ref();
+    let condition = tube.map(|(tube, kept)| tube.keeping(*kept));
     let closing = Closing::new(&closure, found.angles.clone());
     let planar = SpatiallyPeriodic(&embedding);
     let mut closing = match &condition {
@@ -95,11 +96,8 @@ pub fn trace(
         embedding: &embedding,
         periodic: assembly.domain().is_one_cell(),
         starts_straight: condition.is_none(),
-        tube: found.tube.as_ref().map(|(tube, kept)| (tube.seam(), *kept)),
-        drawn: found
-            .tube
-            .as_ref()
-            .and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam()))),
+        tube: tube.map(|(tube, kept)| (tube.seam(), *kept)),
+        drawn: tube.and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam()))),
         known: Vec::new(),
         stop: options.stop,
         intersects,

@@ -4,7 +4,7 @@
 //! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
 //! descending from it on both sides.
 
-use super::merge::SAME_WELL_ANGLE_RAD;
+use super::merge::{SAME_WELL_ANGLE_RAD, are_close};
 use super::settle::{MinimumTracker, Settled};
 use super::string::STRENGTH;
 use super::work::Work;
@@ -107,7 +107,8 @@ pub(crate) fn sides(
             descent(assembly, pass, &push, strength, options)
         };
         let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
-        let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
+        let sound =
+            matches!(&ends, Ok(((a, true), (b, true))) if !are_close(&a.end.rho, &b.end.rho, SAME_WELL_ANGLE_RAD));
         last = ends.map(|(one, other)| [one.0, other.0]);
         if sound {
             return last;
@@ -118,7 +119,7 @@ pub(crate) fn sides(
         careful_descent(assembly, pass, &push, options)
     };
     match (careful(1.0), careful(-1.0)) {
-        (Ok(one), Ok(other)) if !same(&one, &other) => Ok([one, other]),
+        (Ok(one), Ok(other)) if !are_close(&one.end.rho, &other.end.rho, SAME_WELL_ANGLE_RAD) => Ok([one, other]),
         _ => last,
     }
 }
@@ -152,11 +153,6 @@ fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Opti
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-/// Whether two descents end with the same fold angles.
-fn same(a: &Descent, b: &Descent) -> bool {
-    a.end.rho.iter().zip(&b.end.rho).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
 }
 
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step

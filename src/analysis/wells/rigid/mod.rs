@@ -15,6 +15,7 @@ mod extent;
 mod flood;
 mod surface;
 
+use super::merge::are_close;
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
@@ -73,7 +74,7 @@ pub struct RigidPass {
 }
 
 /// Wells and passes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct RigidLandscape {
     /// Dimension of the folded states: 1 or 2.
     pub dimension: usize,
@@ -159,8 +160,7 @@ impl Sampled<'_> {
         let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
         let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
         let (dimension, states) = (net.dimension, net.angles.len());
-        let (wells, contacts, passes) = (Vec::new(), Vec::new(), Vec::new());
-        let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost: 0, open: net.open };
+        let mut landscape = RigidLandscape { dimension, states, open: net.open, ..RigidLandscape::default() };
         // the well of each minimum; none where the landscape ends there, or where it is no well
         let mut well = vec![None; states];
         for &at in &minima {
@@ -185,8 +185,11 @@ impl Sampled<'_> {
             if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum])
                 && a != b
             {
-                let pass = |(angles, singular): (Vec<f64>, bool)| {
-                    RigidPass { joins: [a, b], energy: springs.energy(&angles), angles, singular }
+                let pass = |(angles, singular): (Vec<f64>, bool)| RigidPass {
+                    joins: [a, b],
+                    energy: springs.energy(&angles),
+                    angles,
+                    singular,
                 };
                 match self.pass(at) {
                     Some(found) => landscape.passes.push(pass(found)),
@@ -203,9 +206,7 @@ impl Sampled<'_> {
         let net = self.net;
         self.well_on_seam(at).or_else(|| match net.seam {
             0 => None,
-            _ if net.border[at] || net.singular[at] => {
-                net.beside(at).find_map(|other| self.between([at, other]))
-            }
+            _ if net.border[at] || net.singular[at] => net.beside(at).find_map(|other| self.between([at, other])),
             _ => self.exact(at, 0),
         })
     }
@@ -260,8 +261,7 @@ impl Net {
 
 /// The number of a well, which is added where it is new.
 fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
-    let same =
-        |well: &Stationary| well.angles.iter().zip(&found.angles).all(|(a, b)| (a - b).abs() <= SAME_STATE_ANGLE_RAD);
+    let same = |well: &Stationary| are_close(&well.angles, &found.angles, SAME_STATE_ANGLE_RAD);
     wells.iter().position(same).unwrap_or_else(|| {
         wells.push(found);
         wells.len() - 1
