@@ -71,7 +71,7 @@ impl Surface {
             stops: vec![0],
             ..CurveOptions::default()
         };
-        let (start, tangent) = (folding.drawn(), closing.folding(&ray.direction));
+        let (start, tangent) = (folding.drawn.clone(), closing.folding(&ray.direction));
         let mut count = before;
         let mut observe = |_: &_| {
             count += 1;

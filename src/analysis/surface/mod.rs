@@ -180,7 +180,7 @@ fn put_together(
     surface.truncate(surface.points.len());
     let from: Vec<usize> = atlas.charts.iter().take(surface.points.len()).map(|chart| chart.start).collect();
     let sides = surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    sign::carry(folding.embedding(), &mut surface.points, sides, &from);
+    sign::carry(folding.embedding, &mut surface.points, sides, &from);
     if starts.crossing {
         surface.seam = crossing::seam(folding, &surface.points, &surface.triangles);
         // charts go over the curve along which surfaces cross, to the other sign

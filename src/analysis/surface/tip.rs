@@ -95,7 +95,7 @@ fn tip(folding: &SurfaceClosure<'_>, charts: &[Chart], rim: &[usize]) -> Option<
         limit: f64::NEG_INFINITY,
         start: beside.start,
     };
-    let drawn: Vec<f64> = folding.drawn().iter().zip(&beside.x).map(image).collect();
+    let drawn: Vec<f64> = folding.drawn.iter().zip(&beside.x).map(image).collect();
     if near(&drawn) {
         return Some(chart(drawn));
     }
