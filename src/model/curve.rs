@@ -287,18 +287,8 @@ fn monotone_slopes(points: &[[f64; 2]]) -> Vec<f64> {
         }
         3.0 * (left + right) / ((2.0 * right + left) / before + (right + 2.0 * left) / after)
     };
-    let last = secants.len();
-    (0..=last)
-        .map(|k| {
-            if k == 0 {
-                secants[0]
-            } else if k == last {
-                secants[last - 1]
-            } else {
-                inner(k)
-            }
-        })
-        .collect()
+    let inner = (1..secants.len()).map(inner);
+    secants.first().copied().into_iter().chain(inner).chain(secants.last().copied()).collect()
 }
 
 #[cfg(test)]

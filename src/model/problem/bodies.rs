@@ -61,6 +61,12 @@ impl Bodies {
         self.part_of.get(vertex).copied().flatten()
     }
 
+    /// Whether one part has all these sites, so that their measure keeps its value.
+    pub(crate) fn hold(&self, sites: &[Site]) -> bool {
+        let part = |site: &Site| self.part_of(site.vertex);
+        sites.first().and_then(part).is_some_and(|first| sites.iter().all(|site| part(site) == Some(first)))
+    }
+
     /// Whether one of these points belongs to a part.
     pub(super) fn touch(&self, sites: &[Site]) -> bool {
         !self.is_empty() && sites.iter().any(|site| self.part_of(site.vertex).is_some())

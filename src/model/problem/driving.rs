@@ -260,34 +260,28 @@ impl ParametrizedProblem for DrivenModel {
 
     fn parameter_rates(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> [Vec<f64>; 2] {
         let (mut force, mut gap) = (vec![0.0; at.gradient.len()], vec![0.0; tension.len()]);
+        let mut of_soft = vec![0.0; at.soft_stiffness.len()];
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, _)| gap[*k] = -1.0),
             Effect::Loads { forces, pressures, .. } => {
                 if *forces {
                     force = self.model.load_rates(x);
                 }
-                let mut of_faces = vec![0.0; at.soft_stiffness.len()];
-                pressures.iter().for_each(|(k, unit)| of_faces[*k] = -unit);
-                at.soft_rows().add_transpose_product(&of_faces, &mut force);
+                pressures.iter().for_each(|(k, unit)| of_soft[*k] = -unit);
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
-                let count = self.model.soft_elements();
                 let by_rest = self.model.soft_by_rest(x);
-                let mut torques: Vec<f64> =
-                    by_rest.iter().zip(&moved).map(|([_, force, _], moved)| force * moved).collect();
-                torques.resize(at.soft_stiffness.len(), 0.0);
-                at.soft_rows().add_transpose_product(&torques, &mut force);
-                gap.iter_mut().zip(&moved[count..]).for_each(|(gap, moved)| *gap = -moved);
+                by_rest.iter().enumerate().for_each(|(k, [_, force, _])| of_soft[k] = force * moved[k]);
+                gap.iter_mut().zip(&moved[by_rest.len()..]).for_each(|(gap, moved)| *gap = -moved);
             }
             Effect::Compliance(units) => units.iter().for_each(|(k, unit)| gap[*k] = -unit * tension[*k]),
             Effect::Stiffness(units) => {
-                let mut torques = vec![0.0; at.soft_stiffness.len()];
                 let found = self.model.soft_responses(x);
-                units.iter().for_each(|(k, _)| torques[*k] = found[*k][1] / self.parameter);
-                at.soft_rows().add_transpose_product(&torques, &mut force);
+                units.iter().for_each(|(k, _)| of_soft[*k] = found[*k][1] / self.parameter);
             }
         }
+        at.soft_rows().add_transpose_product(&of_soft, &mut force);
         [force, gap]
     }
 
