@@ -1,5 +1,6 @@
 //! The closure of a cell as a surface.
 
+use super::covered::SurfacePoint;
 use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, SecondOrder, Shape, SpatiallyPeriodic};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
@@ -51,6 +52,16 @@ impl<'a> SurfaceClosure<'a> {
     /// The cylinder at the angles of the folding edges.
     pub(crate) fn shape(&self, x: &[f64]) -> Result<Shape, KinematicsError> {
         Shape::at(self.embedding, &self.all(x))
+    }
+
+    /// The state at the angles of the folding edges, on this branch, and the radius of its chart.
+    pub(crate) fn point(
+        &self,
+        x: &[f64],
+        branch: (usize, i8),
+        [residual, radius]: [f64; 2],
+    ) -> Result<SurfacePoint, KinematicsError> {
+        Ok(SurfacePoint { branch, angles: self.all(x), shape: self.shape(x)?, residual, radius })
     }
 
     /// The largest component of the closure residual.

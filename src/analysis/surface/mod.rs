@@ -169,13 +169,7 @@ fn put_together(
         if k >= atlas::KEPT && surface.coverage == Coverage::Interrupted {
             break;
         }
-        surface.points.push(SurfacePoint {
-            branch: branch[chart.start],
-            angles: folding.all(&chart.x),
-            shape: folding.shape(&chart.x)?,
-            residual: chart.residual,
-            radius: chart.radius,
-        });
+        surface.points.push(folding.point(&chart.x, branch[chart.start], [chart.residual, chart.radius])?);
     }
     surface.truncate(surface.points.len());
     let from: Vec<usize> = atlas.charts.iter().take(surface.points.len()).map(|chart| chart.start).collect();

@@ -65,7 +65,7 @@ impl DrivenModel {
             Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
             Driven::Loads => (Effect::loads(&model, true, model.pressures()), begin, drive.to),
             Driven::Pressure(name) => {
-                let faces = model.pressure_of(name).ok_or(DriveError::NoPressure)?;
+                let (faces, _) = model.pressure_of(name).ok_or(DriveError::NoPressure)?;
                 let value = begin * model.springs[faces.start].stiffness;
                 (Effect::loads(&model, false, faces.map(|k| (k, 1.0)).collect()), value, drive.to)
             }
