@@ -157,7 +157,8 @@ fn along(
         _ => None,
     };
     let ends_at_start = matches!(end, End::Closed(_));
-    let first_self_intersection = match (&end, points.last(), crossing(&events)) {
+    let crossing = events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length);
+    let first_self_intersection = match (&end, points.last(), crossing) {
         (End::Stopped { indicator: INTERSECTION }, Some(last), None) => Some(last.arc_length),
         (_, _, found) => found.filter(|_| !watched.crosses).or(watched.crosses.then_some(0.0)),
     };
@@ -177,9 +178,4 @@ fn along(
         states,
         end,
     }
-}
-
-/// Where faces first pass through each other.
-fn crossing(events: &[Event]) -> Option<f64> {
-    events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length)
 }

@@ -99,27 +99,22 @@ pub(crate) fn sides(
     along: &[f64],
     options: Options,
 ) -> Result<[Descent; 2], Failure> {
+    let [one_way, other_way] = [1.0, -1.0].map(|sign| along.iter().map(|turn| sign * turn).collect::<Vec<f64>>());
+    let differ = |a: &Descent, b: &Descent| !are_close(&a.end.rho, &b.end.rho, SAME_WELL_ANGLE_RAD);
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);
-        let side = |sign: f64| -> Result<(Descent, bool), Failure> {
-            let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-            descent(assembly, pass, &push, strength, options)
-        };
-        let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
-        let sound =
-            matches!(&ends, Ok(((a, true), (b, true))) if !are_close(&a.end.rho, &b.end.rho, SAME_WELL_ANGLE_RAD));
+        let side = |push: &[f64]| descent(assembly, pass, push, strength, options);
+        let ends = side(&one_way).and_then(|one| Ok((one, side(&other_way)?)));
+        let sound = matches!(&ends, Ok(((a, true), (b, true))) if differ(a, b));
         last = ends.map(|(one, other)| [one.0, other.0]);
         if sound {
             return last;
         }
     }
-    let careful = |sign: f64| {
-        let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-        careful_descent(assembly, pass, &push, options)
-    };
-    match (careful(1.0), careful(-1.0)) {
-        (Ok(one), Ok(other)) if !are_close(&one.end.rho, &other.end.rho, SAME_WELL_ANGLE_RAD) => Ok([one, other]),
+    let careful = |push: &[f64]| careful_descent(assembly, pass, push, options);
+    match (careful(&one_way), careful(&other_way)) {
+        (Ok(one), Ok(other)) if differ(&one, &other) => Ok([one, other]),
         _ => last,
     }
 }

@@ -54,7 +54,7 @@ fn roll_at(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, angles: &[f64]) -> Rol
     let each = if kept.rise { screw.theta } else { screw.rise() };
     let free = (!kept.is_closed()).then(|| of(strand, each));
     let coordinates = placed.chain([of(row, screw.theta), of(row, screw.rise())]).chain(free).collect();
-    Roll { seam, kept, coordinates, angles: angles.to_vec(), frame: Matrix3::identity(), origin: Vec3::zeros() }
+    Roll { seam, kept, coordinates, angles: angles.to_vec() }
 }
 
 /// Claim: with the turn of the seam kept there are two trajectories. Every state closes, its seam turns by `2 pi`, and

@@ -165,7 +165,7 @@ fn hinges_have_the_torque_of_their_law() {
 #[should_panic(expected = "a rigid element has no law")]
 fn rigid_elements_have_no_law() {
     let ends = [0, 1].map(|vertex| Site { vertex, shift: [0, 0] });
-    OwnTerm::with_law("rod", Length, [(ends, Spring { stiffness: RIGID, rest: 1.0 })], GreenLagrange);
+    OwnTerm::with_law("rod", Length, [(ends, Spring { stiffness: RIGID, rest: 1.0 })], OfStrain(GreenLagrange));
 }
 
 /// Claim: on a path of rest angles the work of the drive is the energy, with laws too: the derivatives by rest values
