@@ -43,30 +43,12 @@ pub struct Placement {
     pub positions: Vec<Vec3>,
     /// The lattice motions; `None` for a finite sheet.
     pub lattice: Option<[Motion; 2]>,
-    /// The errors of closure of the angles.
-    pub compatibility: Compatibility,
-}
-
-/// The largest differences between different paths over the faces; all are zero except for rounding if the angles
-/// close.
-///
-/// Lengths are in units of the longest edge; the difference of rotations is that of their largest matrix entry.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Compatibility {
-    /// Size of `S1 S2 - S2 S1`.
-    pub rotations: f64,
-    /// Size of `S1 l2 + l1 - S2 l1 - l2`.
-    pub positions: f64,
-    /// Largest difference, over the edges that the walk does not cross, between the motion of the path across the edge
-    /// and the one that the lattice motions give.
-    pub ways: f64,
-}
-
-impl Compatibility {
-    /// Returns the largest of the three; NaN if one of them is NaN.
-    pub fn largest(&self) -> f64 {
-        [self.rotations, self.positions, self.ways].into_iter().fold(0.0, larger)
-    }
+    /// The error of closure of the angles: the largest difference between different paths over the faces, zero except for
+    /// rounding if the angles close. It is that of `S1 S2` and `S2 S1`, of `S1 l2 + l1` and `S2 l1 + l2`, and, over the
+    /// edges that the walk does not cross, of the motion of the path across the edge and the one that the lattice motions
+    /// give. Lengths are in units of the longest edge; the difference of rotations is that of their largest matrix entry.
+    /// NaN if one of them is NaN.
+    pub compatibility: f64,
 }
 
 impl Embedding {
@@ -128,17 +110,17 @@ impl Embedding {
         angles[edge] - self.drawn_angles[edge]
     }
 
-    fn compatibility(&self, walked: &Walked<Motion>) -> Compatibility {
+    fn compatibility(&self, walked: &Walked<Motion>) -> f64 {
         let still = [Motion::identity(); 2];
         let lattice @ [first, second] = walked.lattice.as_ref().unwrap_or(&still);
         let apart = |a: &Motion, b: &Motion| {
             let turned = (a.rotation - b.rotation).iter().map(|entry| entry.abs()).fold(0.0, larger);
             [turned, (a.translation - b.translation).norm() / self.longest]
         };
-        let [rotations, positions] = apart(&(*first * *second), &(*second * *first));
+        let orders = apart(&(*first * *second), &(*second * *first));
         let ways = self.walk.loops.iter().zip(&walked.loops);
         let ways = ways.flat_map(|(closing, motion)| apart(motion, &Motion::lattice_power(lattice, closing.cell)));
-        Compatibility { rotations, positions, ways: ways.fold(0.0, larger) }
+        orders.into_iter().chain(ways).fold(0.0, larger)
     }
 }
 
@@ -199,7 +181,7 @@ mod tests {
             let placement = embedding.place(embedding.drawn_angles());
             let drawn = sheet.vertices.iter().map(|x| x - sheet.vertices[0]);
             assert!(drawn.zip(&placement.positions).all(|(drawn, x)| (drawn - x).norm() <= 1e-15));
-            assert!(placement.compatibility.largest() <= 1e-15);
+            assert!(placement.compatibility <= 1e-15);
             assert!(bar_error(&sheet, &placement) <= 2e-15);
             let lattice = placement.lattice.map(|lattice| lattice.map(|motion| motion.translation));
             assert_eq!(lattice.is_some(), sheet.lattice.is_some());
@@ -235,7 +217,7 @@ mod tests {
         for (sheet, angles) in folded() {
             let embedding = Embedding::new(&sheet).unwrap();
             let placement = embedding.place(&angles);
-            assert!(placement.compatibility.largest() <= 1e-13, "{:?}", placement.compatibility);
+            assert!(placement.compatibility <= 1e-13, "{:?}", placement.compatibility);
             assert!(bar_error(&sheet, &placement) <= 1e-13);
             for (edge, angle) in sheet.edges.iter().zip(&angles) {
                 let (Some(left), Some(right)) = (edge.wings[0], edge.wings[1]) else { continue };
@@ -297,7 +279,7 @@ mod tests {
             let edge = embedding.walk.loops[0].crossing.edge;
             let mut wrong = angles.clone();
             wrong[edge] += 1e-6;
-            let (found, residual) = (embedding.place(&wrong).compatibility.largest(), closure.residual(&wrong).amax());
+            let (found, residual) = (embedding.place(&wrong).compatibility, closure.residual(&wrong).amax());
             assert!(found > 0.1 * residual && found < 1e-4 && residual > 1e-8, "{found:e} {residual:e}");
         }
     }

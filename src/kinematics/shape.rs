@@ -12,7 +12,7 @@
 //! of the face normals.
 
 use super::KinematicsError;
-use super::embedding::{Compatibility, Embedding, Placement};
+use super::embedding::{Embedding, Placement};
 use super::metric::LatticeFrame;
 use super::motion::Moving;
 use super::screw::Screw;
@@ -42,8 +42,8 @@ pub struct Shape {
     pub curvature: f64,
     /// Strain `[strain11, strain22, strain12]` of the chords from vertex 0 relative to the drawn lattice.
     pub strain: [f64; 3],
-    /// The errors of closure of the angles.
-    pub compatibility: Compatibility,
+    /// The error of closure of the angles; see [`Placement::compatibility`].
+    pub compatibility: f64,
 }
 
 impl Shape {
@@ -84,7 +84,7 @@ impl Shape {
     /// Whether the angles close well enough for the axis to be defined. Near a state without curvature, angles halfway
     /// between two states have closure errors that are larger than the effect of the curvature.
     fn closes(&self) -> bool {
-        self.compatibility.largest() <= OPEN * self.screw.towards_axis().norm() * self.cell()
+        self.compatibility <= OPEN * self.screw.towards_axis().norm() * self.cell()
     }
 
     /// Returns the length of the longer chord from vertex 0 to its copies.

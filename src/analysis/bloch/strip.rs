@@ -85,14 +85,8 @@ impl Strip {
     /// [`BlochError`] where the matrix of a cell is not square.
     pub fn new(rigidity: &Rigidity, cells: usize) -> Result<Self, BlochError> {
         rigidity.require_square()?;
-        Ok(Self {
-            cells,
-            half: cells,
-            clamped: false,
-            below: rigidity.clone(),
-            above: rigidity.clone(),
-            across: Vec::new(),
-        })
+        let own = rigidity.clone();
+        Ok(Self { cells, half: cells, clamped: false, below: own.clone(), above: own, across: Vec::new() })
     }
 
     /// A strip whose lower half (rounded down) is of one sheet and whose upper half of another, as drawn; `rigid` says
