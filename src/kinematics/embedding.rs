@@ -43,11 +43,11 @@ pub struct Placement {
     pub positions: Vec<Vec3>,
     /// The lattice motions; `None` for a finite sheet.
     pub lattice: Option<[Motion; 2]>,
-    /// The error of closure of the angles: the largest difference between different paths over the faces, zero except for
-    /// rounding if the angles close. It is that of `S1 S2` and `S2 S1`, of `S1 l2 + l1` and `S2 l1 + l2`, and, over the
-    /// edges that the walk does not cross, of the motion of the path across the edge and the one that the lattice motions
-    /// give. Lengths are in units of the longest edge; the difference of rotations is that of their largest matrix entry.
-    /// NaN if one of them is NaN.
+    /// The error of closure of the angles: the largest difference between different paths over the faces, zero except
+    /// for rounding if the angles close. It is that of `S1 S2` and `S2 S1`, of `S1 l2 + l1` and `S2 l1 + l2`, and, over
+    /// the edges that the walk does not cross, of the motion of the path across the edge and the one that the lattice
+    /// motions give. Lengths are in units of the longest edge; the difference of rotations is that of their largest
+    /// matrix entry. NaN if one of them is NaN.
     pub compatibility: f64,
 }
 

@@ -110,8 +110,8 @@ impl Hinge {
         gradient
     }
 
-    /// Writes the second derivatives, which are blocks in `(e, a, b)`, by the twelve coordinates: `e = j - i`, `a = left - i`,
-    /// `b = right - i`.
+    /// Writes the second derivatives, which are blocks in `(e, a, b)`, by the twelve coordinates, where
+    /// `e = j - i`, `a = left - i` and `b = right - i`.
     #[inline(always)]
     fn hessian(&self, lower: &mut [f64]) {
         let ([aa, ae, left], [bb, be, right]) = (self.curvature(&self.left, 1.0), self.curvature(&self.right, -1.0));
@@ -130,8 +130,8 @@ impl Hinge {
         put::<3, 3>(&bb, lower);
     }
 
-    /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`: twice by its wing, by its wing and
-    /// `e`, and this side's part of those twice by `e`.
+    /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`: twice by its wing, by its
+    /// wing and `e`, and this side's part of those twice by `e`.
     #[inline(always)]
     fn curvature(&self, side: &Side, turn: f64) -> [Matrix3<f64>; 3] {
         let Side { wing, inverse, foot, .. } = side;

@@ -99,8 +99,9 @@ pub enum Gauge {
 }
 
 impl Model {
-    /// Makes a model with the springs of all elements, soft ones first, in the drawn state. `pinned` are the coordinates
-    /// held by pins and by the boundary conditions, `loads` the force on each coordinate, empty without loads.
+    /// Makes a model with the springs of all elements, soft ones first, in the drawn state. `pinned` are the
+    /// coordinates held by pins and by the boundary conditions, `loads` the force on each coordinate, empty without
+    /// loads.
     pub(super) fn new(
         equations: Equations,
         springs: Vec<Spring>,

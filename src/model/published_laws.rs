@@ -48,7 +48,7 @@ pub struct Ogden {
 }
 
 impl ForceCurve for Ogden {
-    // computed from the strain: from the stretch, which is near 1, small strains of stiff bars would have lost their digits
+    // of the strain: of the stretch, which is near 1, small strains of stiff bars would have lost their digits
     fn at(&self, strain: f64) -> [f64; 3] {
         let ([a, b], log) = (self.exponents, strain.ln_1p());
         let power = |a: f64| if a == 0.0 { log } else { (a * log).exp_m1() / a };

@@ -122,8 +122,8 @@ fn shifted(coefficients: &ComplexMatrix, lowest: [i32; 2]) -> DenseMatrix {
     })
 }
 
-/// The middle about which the coefficients are symmetric, or that of their box, in half rows and columns, and whether they
-/// are symmetric.
+/// The middle about which the coefficients are symmetric, or that of their box, in half rows and columns, and whether
+/// they are symmetric.
 fn center(c: &DenseMatrix) -> ([usize; 2], bool) {
     let boxed = [extent(c), extent(&c.transpose())];
     let middles =

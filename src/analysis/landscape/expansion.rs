@@ -2,8 +2,8 @@
 //!
 //! The sheet moves by `a x1 + a^2 x2 + a^3 x3 + ...` and its rest angles by `a phi + a^2 p2 + ...`, so hinges are off
 //! by `a^2 h2 + a^3 h3 + ...` and bars have the tensions `a^2 t2 + a^3 t3 + ...`. With `m3`, `m4` the third and fourth
-//! powers of all measures along `x0 + a x1 + a^2 x2`, `f2` the forces of `h2` and `t2`, which balance, and `p2` the same
-//! in every cell and orthogonal to the modes,
+//! powers of all measures along `x0 + a x1 + a^2 x2`, `f2` the forces of `h2` and `t2`, which balance, and `p2` the
+//! same in every cell and orthogonal to the modes,
 //!
 //! `E4 = sum (K/2) h2^2 + sum t2^2 / 2k`,  `E5 = f2 . m3`,
 //! `E6 = f2 . m4 + min over x3, p3 of  sum (K/2) h3^2 + sum t3^2 / 2k + f2 . D^2 m [x1, x3]`.

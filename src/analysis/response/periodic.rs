@@ -36,7 +36,8 @@ pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Respo
     Ok(Response { lattice, stresses, symmetries, ..modes })
 }
 
-/// Computes the part of the response that is modes of a cell and their Poisson's ratios; `assembly` is the one of the cell, with rigid terms alone.
+/// Computes the part of the response that is modes of a cell and their Poisson's ratios; `assembly` is the one of the
+/// cell, with rigid terms alone.
 pub(super) fn modes_of(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
     let basis = Basis::new(assembly, cell)?;
     let raw = basis.table();

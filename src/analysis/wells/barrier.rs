@@ -188,8 +188,8 @@ fn lower(found: Barrier, other: Option<Barrier>) -> Barrier {
     other.filter(|other| other.pass.energy <= found.pass.energy).unwrap_or(found)
 }
 
-/// The barrier by way of a path in bars of a stiffness, which begins with the bend of a number, and whose states are held
-/// so strongly.
+/// The barrier by way of a path in bars of a stiffness, which begins with the bend of a number, and whose states are
+/// held so strongly.
 fn from_softness(
     assembly: &Assembly,
     wells: &[Well],

@@ -174,8 +174,8 @@ impl ConstrainedProblem for IntrinsicModel {
     }
 }
 
-/// Collects the springs of all bars and hinges by their edges, and the topology that follows from their vertices. A lock
-/// comes before a crease on the same edge.
+/// Collects the springs of all bars and hinges by their edges, and the topology that follows from their vertices. A
+/// lock comes before a crease on the same edge.
 fn collected(model: &Model) -> Result<(Vec<Spring>, Vec<Option<Spring>>, Topology), Unsupported> {
     let edges = model.edges();
     let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);

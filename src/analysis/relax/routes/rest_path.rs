@@ -138,8 +138,8 @@ fn farther(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, from: f64, x
     })
 }
 
-/// Follows a path from an equilibrium at a parameter as far as it is stable. Returns the parameter from which to go on, and
-/// the last state, without tensions where no step leads on; an error where the observer asks to stop.
+/// Follows a path from an equilibrium at a parameter as far as it is stable. Returns the parameter from which to go on,
+/// and the last state, without tensions where no step leads on; an error where the observer asks to stop.
 fn stretch(
     run: &mut Run<'_>,
     drive: &dyn Fn(Model) -> DrivenModel,
@@ -170,7 +170,7 @@ fn stretch(
         Err(_) => (from, unstable, start.x, start.tension),
         Ok((state, arrived)) => {
             let turned = (interrupted || unstable) && state.tangent.parameter * (target - from) < 0.0;
-            // beyond a limit point, where the path turns back, no equilibrium is near: the next one is sought farther on
+            // where the path turns back at a limit point, the next equilibrium is sought beyond it
             let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
             interrupted &= !arrived;
             run.model = driven.model;

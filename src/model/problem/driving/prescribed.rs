@@ -21,8 +21,8 @@ impl Model {
         self.choose_unknowns();
     }
 
-    /// Returns the faces under the pressure of this name, and their numbers, which are soft elements; `None` if there are
-    /// none.
+    /// Returns the faces under the pressure of this name, and their numbers, which are soft elements; `None` if there
+    /// are none.
     pub(super) fn pressure_of(&self, name: &str) -> Option<(Range<usize>, &Arc<dyn Elements>)> {
         let soft = &self.equations.soft;
         let is_wanted = |term: &Arc<dyn Elements>| term.head().kind == TermKind::Pressure && term.head().name == name;
