@@ -43,8 +43,6 @@ pub struct StateAlong {
     pub relaxed: Relaxed,
     /// Fold angles of all edges, continuous along the trajectory; zero where there is no hinge.
     pub angles: Vec<f64>,
-    /// The crease that was locked.
-    pub crease: usize,
     /// Largest difference of a fold angle to the rigid state.
     pub error: f64,
 }
@@ -183,10 +181,8 @@ fn between(from: &Folded, to: &Folded) -> Folded {
         arc_length: from.arc_length + 0.5 * length,
         angles: ends().map(|((a, b), (u, v))| 0.5 * (a + b) + 0.125 * length * (u - v)).collect(),
         rates: ends().map(|((a, b), (u, v))| 1.5 * (b - a) / length - 0.25 * (u + v)).collect(),
-        shape: None,
-        seam: None,
-        positions: Vec::new(),
         residual: f64::NAN,
+        ..Folded::default()
     }
 }
 
@@ -247,7 +243,7 @@ impl Track<'_> {
         self.angles = self.continued(&relaxed.state.coordinates);
         let off = |(a, b): (&f64, &f64)| (a - b).abs();
         let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, larger);
-        Ok(StateAlong { relaxed, angles: self.angles.clone(), crease, error })
+        Ok(StateAlong { relaxed, angles: self.angles.clone(), error })
     }
 
     /// Coordinates if all goes on as between the last two states.

@@ -12,7 +12,6 @@ use crate::numerics::dense::{NullSpace, least_squares, least_squares_of_sums, sy
 use crate::numerics::root::Search;
 use crate::numerics::{DenseMatrix, worst};
 use crate::sheet::{Sheet, Tiling};
-use crate::solver::Implicit;
 use nalgebra::DVector;
 
 /// Larger sheets are not compared: the matrices here are dense.
@@ -203,12 +202,7 @@ impl Along {
 /// angle by more than `reach`.
 fn close(closing: &mut Closing<'_>, x: Vec<f64>, reach: f64) -> Option<Vec<f64>> {
     let search = Search { most_steps: CORRECTIONS, residual: CLOSURE_RESIDUAL, terms: DIRECTION };
-    let closed = search.root(x.clone(), |x| {
-        let mut residual = DVector::zeros(closing.equations());
-        let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
-        closing.linearize(x, residual.as_mut_slice(), &mut jacobian);
-        (residual, jacobian)
-    })?;
+    let closed = search.root(x.clone(), |x| closing.linearized(x))?;
     let is_near = closed.iter().zip(&x).all(|(closed, x)| (closed - x).abs() <= reach);
     is_near.then_some(closed)
 }

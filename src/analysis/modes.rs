@@ -91,7 +91,8 @@ pub fn modes_at(
         agree(assembly, closure, [zero_modes.saturating_sub(rigid_motions), self_stresses])?;
     }
     // rigid bars leave their zero modes free, and no more
-    let free = match rigid_bars(terms) {
+    // rigid bars alone, where others are springs
+    let free = match terms.bar_stiffness().and_then(Stiffness::rigid_part).map(Bars::from) {
         None => columns,
         Some(Bars { stiffness: Stiffness::Uniform(_), .. }) => zero_modes,
         Some(some) => {
@@ -137,11 +138,6 @@ fn agree(assembly: &Assembly, closure: usize, [motions, stresses]: [usize; 2]) -
         Some(bars) if bars != closure => Err(ModesError::ClosureDisagrees { bars, closure }),
         _ => Ok(()),
     }
-}
-
-/// The bars that are rigid; `None` if there are none.
-fn rigid_bars(terms: &Terms) -> Option<Bars> {
-    terms.bar_stiffness()?.rigid_part().map(Bars::from)
 }
 
 /// Rigid motions of the sheet, of a patch of each of its pieces with faces, or of those that parts join.

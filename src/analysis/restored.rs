@@ -47,9 +47,8 @@ pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
     let gaps = model.gaps(x);
     let by_law = by_law(model, &gaps);
     let known = match known {
-        Forces::Unknown => return by_law,
         Forces::OfMeasures(tension) if tension.len() == by_law.len() => tension.clone(),
-        Forces::OfMeasures(_) => return by_law,
+        Forces::Unknown | Forces::OfMeasures(_) => return by_law,
         Forces::OfEdges { tension, torque } => of_edges(model, x, (tension, torque), &by_law),
     };
     let scales = model.compliance().iter().zip(model.gap_scale());

@@ -33,7 +33,7 @@ pub(crate) const REMEMBERED: [[&str; 2]; 2] =
 /// assert_eq!(state.fold_angle.len(), assembly.tiling().edges.len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// All coordinates in the domain's frame, shared ones last.
     pub coordinates: Vec<f64>,
@@ -72,18 +72,13 @@ impl State {
         let unknown = || vec![f64::NAN; edges];
         Self {
             coordinates,
-            energy_bars: 0.0,
-            energy_creases: 0.0,
-            energy_facets: 0.0,
-            energy_own: vec![],
             fold_angle: unknown(),
             rest_angle: unknown(),
             strain: unknown(),
             energy: vec![0.0; edges],
             tension: unknown(),
             torque: unknown(),
-            dissipated: 0.0,
-            memory: BTreeMap::new(),
+            ..Self::default()
         }
     }
 

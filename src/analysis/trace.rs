@@ -83,7 +83,8 @@ pub fn trace(
     }
     let closure = Closure::of_cell(assembly.sheet())?.with_locked(&assembly.locked_edges());
     let embedding = Embedding::new(assembly.sheet())?;
-    let condition = found.tube.as_ref().map(|(tube, kept)| tube.keeping(*kept));
+    let tube = found.tube.as_ref();
+    let condition = tube.map(|(tube, kept)| tube.keeping(*kept));
     let closing = Closing::new(&closure, found.angles.clone());
     let planar = SpatiallyPeriodic(&embedding);
     let mut closing = match &condition {
@@ -95,11 +96,8 @@ pub fn trace(
         embedding: &embedding,
         periodic: assembly.domain().is_one_cell(),
         starts_straight: condition.is_none(),
-        tube: found.tube.as_ref().map(|(tube, kept)| (tube.seam(), *kept)),
-        drawn: found
-            .tube
-            .as_ref()
-            .and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam()))),
+        tube: tube.map(|(tube, kept)| (tube.seam(), *kept)),
+        drawn: tube.and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam()))),
         known: Vec::new(),
         stop: options.stop,
         intersects,
@@ -159,7 +157,8 @@ fn along(
         _ => None,
     };
     let ends_at_start = matches!(end, End::Closed(_));
-    let first_self_intersection = match (&end, points.last(), crossing(&events)) {
+    let crossing = events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length);
+    let first_self_intersection = match (&end, points.last(), crossing) {
         (End::Stopped { indicator: INTERSECTION }, Some(last), None) => Some(last.arc_length),
         (_, _, found) => found.filter(|_| !watched.crosses).or(watched.crosses.then_some(0.0)),
     };
@@ -179,9 +178,4 @@ fn along(
         states,
         end,
     }
-}
-
-/// Where faces first pass through each other.
-fn crossing(events: &[Event]) -> Option<f64> {
-    events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length)
 }

@@ -34,7 +34,7 @@ pub fn rolled_up(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, inwards: bool) -
     let coordinates = coordinates(&shape, &axis, &number, kept);
     let hinge = |edge: usize| sheet.drawn_angle(&sheet.edges[edge]).map_or(f64::NAN, |_| angles[edge]);
     let angles = (0..sheet.edges.len()).map(hinge).collect();
-    Ok(Roll { seam: number, kept, coordinates, angles, frame: Matrix3::identity(), origin: Vec3::zeros() })
+    Ok(Roll { seam: number, kept, coordinates, angles })
 }
 
 /// The seam of a tube on a trajectory, along which all this is continuous.

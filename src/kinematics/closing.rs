@@ -4,6 +4,7 @@ use super::{Closure, Displacement, Embedding};
 use crate::math::rotation;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
+use nalgebra::DVector;
 
 /// Further equations on fold angles, such as one of the conditions on a [tube](super::tube).
 pub trait AngleConditions {
@@ -81,6 +82,14 @@ impl<'a> Closing<'a> {
         let mut all = others.to_vec();
         self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &number)| all[edge] = number);
         all
+    }
+
+    /// Returns the equations at the angles of the folding edges, and their Jacobian.
+    pub(crate) fn linearized(&mut self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
+        let mut residual = DVector::zeros(self.equations());
+        let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
+        self.linearize(x, residual.as_mut_slice(), &mut jacobian);
+        (residual, jacobian)
     }
 }
 

@@ -18,7 +18,6 @@ use nalgebra::{DVector, Matrix3};
 
 mod edge;
 mod opening;
-mod products;
 mod second_derivative;
 
 pub(crate) use edge::HingedEdge;
@@ -146,12 +145,6 @@ impl Closure {
     /// Returns the edge of every column of the Jacobian: those with two faces that are not locked, in increasing order.
     pub fn folding_edges(&self) -> &[usize] {
         &self.folding
-    }
-
-    /// Returns the interior vertices, in the order of their rows.
-    #[cfg(test)]
-    fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
-        self.rounds.iter().map(|round| round.vertex)
     }
 
     /// Number of conditions.
@@ -398,7 +391,7 @@ mod tests {
     fn finite_sheet_counts_its_rim() {
         let sheet = finite_grid(4, 5, 0.3);
         let closure = Closure::of_cell(&sheet).unwrap();
-        assert_eq!(closure.vertices().len(), 3 * 4);
+        assert_eq!(closure.rounds.len(), 3 * 4);
         assert_eq!(closure.folding_edges().len(), sheet.edges.len() - 18);
         assert_eq!(nullity(&closure, &drawn_fold_angles(&sheet)), 18 - 3);
     }
@@ -415,7 +408,7 @@ mod tests {
             let closure = Closure::of_tiling(&sheet, &tiling).unwrap();
             let angles: Vec<f64> = tiling.edges.iter().map(|edge| drawn[edge.edge]).collect();
             assert!(closure.residual(&angles).amax() <= 5e-15);
-            let (interior, folding) = (closure.vertices().len(), closure.folding_edges().len());
+            let (interior, folding) = (closure.rounds.len(), closure.folding_edges().len());
             assert_eq!(interior == 4 * n * n, periodic);
             assert_eq!(nullity(&closure, &angles), if periodic { 3 } else { folding - 3 * interior });
         }
@@ -480,6 +473,6 @@ mod tests {
         let error = Closure::of_edges(&edges, position).unwrap_err();
         assert_eq!(error, KinematicsError::BrokenRound { vertex: 4 });
         let ring = Closure::of_cell(&ring()).unwrap();
-        assert_eq!((ring.unchecked_loops(), ring.vertices().len(), ring.rows()), (0, 0, 6));
+        assert_eq!((ring.unchecked_loops(), ring.rounds.len(), ring.rows()), (0, 0, 6));
     }
 }

@@ -27,8 +27,6 @@ pub struct Displacement {
     /// Largest difference, over the edges that the walk does not cross, between the angular velocity along the path
     /// across the edge and the one that the lattice motions give: zero except for rounding if the rates close.
     pub disagreement: f64,
-    #[cfg(test)]
-    walked: Walked<Moving>,
 }
 
 impl Displacement {
@@ -52,14 +50,7 @@ impl Displacement {
         let spin = |closing: &Loop| Moving::lattice_power(lattice, closing.cell).twist.angular;
         let apart = ways.map(|(closing, way)| (way.twist.angular - spin(closing)).amax());
         let disagreement = apart.fold(0.0, larger);
-        Self {
-            positions,
-            velocities,
-            lattice: walked.lattice,
-            disagreement,
-            #[cfg(test)]
-            walked,
-        }
+        Self { positions, velocities, lattice: walked.lattice, disagreement }
     }
 
     /// Calls `visit` with every edge and the lattice motions, with their rates if this edge alone folds at rate 1.
@@ -102,32 +93,39 @@ mod tests {
     impl Displacement {
         /// Returns the angular velocity of a triangle of the sheet, translated by `cell` from the position in the
         /// sheet's list.
-        fn angular_velocity(&self, embedding: &Embedding, face: usize, cell: [i32; 2]) -> Vec3 {
+        fn angular_velocity(&self, embedding: &Embedding, (face, moving): (usize, &Moving), cell: [i32; 2]) -> Vec3 {
             let home = embedding.walk.cells[face];
             let there = self.to_cell([cell[0] - home[0], cell[1] - home[1]]);
-            (there * self.walked.faces[face]).twist.angular
+            (there * *moving).twist.angular
         }
 
         /// Returns the rates of all fold angles, from the velocities of the vertices and of the lattice alone; zero on
         /// the rim.
-        fn fold_rates(&self, embedding: &Embedding) -> Vec<f64> {
-            let spins: Vec<Vec3> = embedding.faces.iter().map(|face| self.spin(&face.corners)).collect();
+        fn fold_rates(&self, sheet: &Sheet, embedding: &Embedding, faces: &[Moving]) -> Vec<f64> {
+            let spins: Vec<Vec3> = (0..sheet.triangles.len()).map(|face| self.spin(sheet, embedding, face)).collect();
             let mut rates = vec![0.0; embedding.edges()];
             let steps = embedding.walk.steps.iter().map(|step| (step, [0, 0]));
             let loops = embedding.walk.loops.iter().map(|closing| (&closing.crossing, closing.cell));
             for (step, cell) in steps.chain(loops) {
                 let ([from, to], there) = (step.faces, self.to_cell(cell));
                 let behind = there.twist.angular + there.motion.rotation * spins[to];
-                let edge = self.walked.faces[from].motion.rotation * step.line.direction;
+                let edge = faces[from].motion.rotation * step.line.direction;
                 rates[step.edge] = edge.dot(&(behind - spins[from]));
             }
             rates
         }
 
-        fn spin(&self, corners: &[Corner; 3]) -> Vec3 {
-            let [a, b, c] = corners.map(|corner| self.corner(corner));
+        fn spin(&self, sheet: &Sheet, embedding: &Embedding, face: usize) -> Vec3 {
+            let home = embedding.walk.cells[face];
+            let [a, b, c] = sheet.triangles[face].corners.map(|corner| self.corner(corner.translated(home)));
             angular_velocity([b.0 - a.0, c.0 - a.0], [b.1 - a.1, c.1 - a.1])
         }
+    }
+
+    /// Returns the motions of the faces along the walk.
+    fn faces(embedding: &Embedding, angles: &[f64], rates: &[f64]) -> Vec<Moving> {
+        let turn = |step: &Crossing| Moving::about(&step.line, embedding.turn(step.edge, angles), rates[step.edge]);
+        embedding.walk.walk(turn).faces
     }
 
     /// Returns the `w` with `w x p = dp` and `w x q = dq`, for two sides of a triangle and their rates.
@@ -165,7 +163,7 @@ mod tests {
             let embedding = Embedding::new(&sheet).unwrap();
             let displacement = Displacement::new(&embedding, &angles, &rates);
             assert!(displacement.disagreement <= 1e-13);
-            let back = displacement.fold_rates(&embedding);
+            let back = displacement.fold_rates(&sheet, &embedding, &faces(&embedding, &angles, &rates));
             assert!(rates.iter().any(|rate| rate.abs() > 0.1));
             assert!(rates.iter().zip(&back).all(|(a, b)| (a - b).abs() <= 1e-13), "{}", sheet.title);
         }
@@ -216,15 +214,16 @@ mod tests {
         for (sheet, angles, rates) in moving().into_iter().filter(|(sheet, ..)| sheet.lattice.is_some()) {
             let embedding = Embedding::new(&sheet).unwrap();
             let displacement = Displacement::new(&embedding, &angles, &rates);
+            let faces = faces(&embedding, &angles, &rates);
             for (face, triangle) in sheet.triangles.iter().enumerate() {
                 let cell = [2, -3];
                 let [a, b, c] = triangle.corners.map(|corner| displacement.corner(corner.translated(cell)));
-                let turning = displacement.angular_velocity(&embedding, face, cell);
+                let turning = displacement.angular_velocity(&embedding, (face, &faces[face]), cell);
                 for far in [b, c] {
                     assert!((far.1 - a.1 - turning.cross(&(far.0 - a.0))).norm() <= 1e-11);
                 }
-                let spin = displacement.spin(&embedding.faces[face].corners);
-                assert!((spin - displacement.walked.faces[face].twist.angular).norm() <= 1e-12);
+                let spin = displacement.spin(&sheet, &embedding, face);
+                assert!((spin - faces[face].twist.angular).norm() <= 1e-12);
             }
         }
     }

@@ -18,9 +18,10 @@ use crate::sheet::{Corner, Sheet};
 pub struct Embedding {
     pub(super) walk: FaceWalk,
     pub(super) seats: Vec<Seat>,
-    pub(super) faces: Vec<DrawnFace>,
     /// Lattice vectors as drawn, or chords of the screw motions that repeat the drawn cell.
     pub(super) lattice: Option<[Vec3; 2]>,
+    /// Sum of the drawn areas of the faces times their normals.
+    pub(super) drawn_area: Vec3,
     drawn_angles: Vec<f64>,
     longest: f64,
 }
@@ -35,14 +36,6 @@ pub(super) struct Seat {
     pub(super) cell: [i32; 2],
 }
 
-/// A face as drawn, in the cell in which the walk reaches it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct DrawnFace {
-    pub(super) corners: [Corner; 3],
-    /// Area times unit normal.
-    pub(super) area: Vec3,
-}
-
 /// A sheet at some fold angles, in the frame defined on the [module](self)'s page.
 #[derive(Clone, Debug)]
 pub struct Placement {
@@ -50,31 +43,12 @@ pub struct Placement {
     pub positions: Vec<Vec3>,
     /// The lattice motions; `None` for a finite sheet.
     pub lattice: Option<[Motion; 2]>,
-    /// The errors of closure of the angles.
-    pub compatibility: Compatibility,
-    pub(super) walked: Walked<Motion>,
-}
-
-/// The largest differences between different paths over the faces; all are zero except for rounding if the angles
-/// close.
-///
-/// Lengths are in units of the longest edge; the difference of rotations is that of their largest matrix entry.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Compatibility {
-    /// Size of `S1 S2 - S2 S1`.
-    pub rotations: f64,
-    /// Size of `S1 l2 + l1 - S2 l1 - l2`.
-    pub positions: f64,
-    /// Largest difference, over the edges that the walk does not cross, between the motion of the path across the edge
-    /// and the one that the lattice motions give.
-    pub ways: f64,
-}
-
-impl Compatibility {
-    /// Returns the largest of the three; NaN if one of them is NaN.
-    pub fn largest(&self) -> f64 {
-        [self.rotations, self.positions, self.ways].into_iter().fold(0.0, larger)
-    }
+    /// The error of closure of the angles: the largest difference between different paths over the faces, zero except
+    /// for rounding if the angles close. It is that of `S1 S2` and `S2 S1`, of `S1 l2 + l1` and `S2 l1 + l2`, and, over
+    /// the edges that the walk does not cross, of the motion of the path across the edge and the one that the lattice
+    /// motions give. Lengths are in units of the longest edge; the difference of rotations is that of their largest
+    /// matrix entry. NaN if one of them is NaN.
+    pub compatibility: f64,
 }
 
 impl Embedding {
@@ -85,11 +59,17 @@ impl Embedding {
     /// not both directions of the lattice.
     pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let walk = FaceWalk::new(sheet)?;
-        let faces: Vec<DrawnFace> = (0..walk.cells.len()).map(|face| DrawnFace::new(sheet, &walk, face)).collect();
+        let corners = |face: usize| sheet.triangles[face].corners.map(|corner| corner.translated(walk.cells[face]));
+        let faces: Vec<[Corner; 3]> = (0..walk.cells.len()).map(corners).collect();
+        let area = |corners: &[Corner; 3]| {
+            let [a, b, c] = corners.map(|corner| relative(sheet, corner));
+            0.5 * (b - a).cross(&(c - a))
+        };
+        let drawn_area = faces.iter().map(area).sum();
         let seats = seats(sheet, &faces).ok_or(KinematicsError::Disconnected { faces: faces.len() })?;
         let longest = sheet.edges.iter().map(|edge| sheet.length(edge.key)).fold(0.0, f64::max);
         let drawn_angles = drawn_fold_angles(sheet);
-        Ok(Self { walk, seats, faces, lattice: sheet.chords(), drawn_angles, longest })
+        Ok(Self { walk, seats, lattice: sheet.chords(), drawn_area, drawn_angles, longest })
     }
 
     /// Number of edges, which is the number of fold angles.
@@ -110,23 +90,9 @@ impl Embedding {
     /// # Panics
     /// If the length of `angles` is not the number of edges.
     pub fn place(&self, angles: &[f64]) -> Placement {
-        let walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
-        let compatibility = Compatibility::default();
-        let mut placement = Placement { positions: Vec::new(), lattice: None, compatibility, walked };
-        self.place_into(angles, &mut placement);
-        placement
-    }
-
-    /// Does the same as [`place`](Self::place), but overwrites an earlier placement, without allocation.
-    /// # Panics
-    /// As [`place`](Self::place).
-    pub fn place_into(&self, angles: &[f64], placement: &mut Placement) {
         assert_eq!(angles.len(), self.edges(), "one fold angle for every edge");
-        let walked = &mut placement.walked;
-        self.walk.walk_into(|step| Motion::about(&step.line, self.turn(step.edge, angles)), walked);
-        placement.lattice = walked.lattice;
-        placement.positions.clear();
-        placement.positions.extend(self.seats.iter().map(|seat| {
+        let walked = self.walk.walk(|step| Motion::about(&step.line, self.turn(step.edge, angles)));
+        let position = |seat: &Seat| {
             let there = walked.faces[seat.face].apply(&seat.drawn);
             match &walked.lattice {
                 Some(lattice) if seat.cell != [0, 0] => {
@@ -134,13 +100,9 @@ impl Embedding {
                 }
                 _ => there,
             }
-        }));
-        placement.compatibility = self.compatibility(walked);
-    }
-
-    /// Returns the sum of the drawn areas of the faces times their normals.
-    pub(super) fn drawn_area(&self) -> Vec3 {
-        self.faces.iter().map(|face| face.area).sum()
+        };
+        let positions = self.seats.iter().map(position).collect();
+        Placement { positions, lattice: walked.lattice, compatibility: self.compatibility(&walked) }
     }
 
     /// Returns the difference of the fold angle of an edge from the drawn one, in radians.
@@ -148,17 +110,17 @@ impl Embedding {
         angles[edge] - self.drawn_angles[edge]
     }
 
-    fn compatibility(&self, walked: &Walked<Motion>) -> Compatibility {
+    fn compatibility(&self, walked: &Walked<Motion>) -> f64 {
         let still = [Motion::identity(); 2];
         let lattice @ [first, second] = walked.lattice.as_ref().unwrap_or(&still);
         let apart = |a: &Motion, b: &Motion| {
             let turned = (a.rotation - b.rotation).iter().map(|entry| entry.abs()).fold(0.0, larger);
             [turned, (a.translation - b.translation).norm() / self.longest]
         };
-        let [rotations, positions] = apart(&(*first * *second), &(*second * *first));
+        let orders = apart(&(*first * *second), &(*second * *first));
         let ways = self.walk.loops.iter().zip(&walked.loops);
         let ways = ways.flat_map(|(closing, motion)| apart(motion, &Motion::lattice_power(lattice, closing.cell)));
-        Compatibility { rotations, positions, ways: ways.fold(0.0, larger) }
+        orders.into_iter().chain(ways).fold(0.0, larger)
     }
 }
 
@@ -174,21 +136,13 @@ impl Placement {
     }
 }
 
-impl DrawnFace {
-    fn new(sheet: &Sheet, walk: &FaceWalk, face: usize) -> Self {
-        let corners = sheet.triangles[face].corners.map(|corner| corner.translated(walk.cells[face]));
-        let [a, b, c] = corners.map(|corner| relative(sheet, corner));
-        Self { corners, area: 0.5 * (b - a).cross(&(c - a)) }
-    }
-}
-
 /// Returns a corner of a face for every vertex, in cell (0, 0) if the walk has it there; `None` if a vertex has no
 /// face.
-fn seats(sheet: &Sheet, faces: &[DrawnFace]) -> Option<Vec<Seat>> {
+fn seats(sheet: &Sheet, faces: &[[Corner; 3]]) -> Option<Vec<Seat>> {
     let far = |cell: [i32; 2]| cell.map(i32::abs).iter().sum::<i32>();
     let mut seats: Vec<Option<Seat>> = vec![None; sheet.vertices.len()];
-    for (face, drawn) in faces.iter().enumerate() {
-        for &corner in &drawn.corners {
+    for (face, corners) in faces.iter().enumerate() {
+        for &corner in corners {
             let nearer = seats[corner.vertex].is_none_or(|seat| far(corner.shift) < far(seat.cell));
             if nearer {
                 seats[corner.vertex] = Some(Seat { face, drawn: relative(sheet, corner), cell: corner.shift });
@@ -227,7 +181,7 @@ mod tests {
             let placement = embedding.place(embedding.drawn_angles());
             let drawn = sheet.vertices.iter().map(|x| x - sheet.vertices[0]);
             assert!(drawn.zip(&placement.positions).all(|(drawn, x)| (drawn - x).norm() <= 1e-15));
-            assert!(placement.compatibility.largest() <= 1e-15);
+            assert!(placement.compatibility <= 1e-15);
             assert!(bar_error(&sheet, &placement) <= 2e-15);
             let lattice = placement.lattice.map(|lattice| lattice.map(|motion| motion.translation));
             assert_eq!(lattice.is_some(), sheet.lattice.is_some());
@@ -263,7 +217,7 @@ mod tests {
         for (sheet, angles) in folded() {
             let embedding = Embedding::new(&sheet).unwrap();
             let placement = embedding.place(&angles);
-            assert!(placement.compatibility.largest() <= 1e-13, "{:?}", placement.compatibility);
+            assert!(placement.compatibility <= 1e-13, "{:?}", placement.compatibility);
             assert!(bar_error(&sheet, &placement) <= 1e-13);
             for (edge, angle) in sheet.edges.iter().zip(&angles) {
                 let (Some(left), Some(right)) = (edge.wings[0], edge.wings[1]) else { continue };
@@ -325,14 +279,13 @@ mod tests {
             let edge = embedding.walk.loops[0].crossing.edge;
             let mut wrong = angles.clone();
             wrong[edge] += 1e-6;
-            let (found, residual) = (embedding.place(&wrong).compatibility.largest(), closure.residual(&wrong).amax());
+            let (found, residual) = (embedding.place(&wrong).compatibility, closure.residual(&wrong).amax());
             assert!(found > 0.1 * residual && found < 1e-4 && residual > 1e-8, "{found:e} {residual:e}");
         }
     }
 
     /// Claim: every entry of the derivative of positions, lattice rotations and chords by the fold angles is that of
-    /// the displacement with that rate, also if the angles do not close; an overwritten placement is equal to a new
-    /// one.
+    /// the displacement with that rate, also if the angles do not close.
     #[test]
     fn displacements_are_the_derivative() {
         for (sheet, angles) in folded() {
@@ -340,8 +293,7 @@ mod tests {
             let numbers = random_numbers(8, angles.len());
             let point: Vec<f64> = angles.iter().zip(numbers).map(|(angle, r)| angle + 0.2 * r).collect();
             let place = |angles: &[f64]| {
-                let mut placement = embedding.place(embedding.drawn_angles());
-                embedding.place_into(angles, &mut placement);
+                let placement = embedding.place(angles);
                 let lattice = placement.lattice.iter().flatten();
                 let motions = lattice.flat_map(|m| m.rotation.iter().chain(m.translation.iter()).copied());
                 placement.positions.iter().flat_map(|x| x.iter().copied()).chain(motions).collect::<Vec<f64>>()

@@ -55,8 +55,6 @@ pub enum KinematicsError {
         /// Largest angle by which the seam turned, in radians.
         turn: f64,
     },
-    #[error("a tube whose seam slips has one motion, this one has {motions}")]
-    NotOneMotion { motions: usize },
 }
 
 /// Returns the message about the second-order conditions of folding; if there are too many, with what can be done.

@@ -15,8 +15,8 @@ use super::metric::LatticeFrame;
 use super::{Closure, Displacement, Embedding, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::singular_values;
 use crate::numerics::dense::small::solve_3;
-use crate::numerics::dense::{NullSpace, singular_values};
 use crate::sheet::Sheet;
 use nalgebra::{DVector, Matrix2, Matrix3};
 
@@ -37,9 +37,6 @@ pub struct FoldingModes {
     /// Angular velocities of the faces relative to those of the previous cell, along the two lattice vectors, for each
     /// mode.
     pub lattice_rotations: Vec<[Vec3; 2]>,
-    /// Ratio of the smallest singular value of the closure Jacobian that counts as nonzero to the largest one that
-    /// counts as zero.
-    pub gap: f64,
 }
 
 /// Computes the linear folding modes of a sheet with a lattice, without locked edges.
@@ -67,13 +64,13 @@ pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<Fold
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
     }
     let embedding = Embedding::new(sheet)?;
-    let NullSpace { basis: folding, gap, .. } = closure.motions(embedding.drawn_angles())?;
+    let folding = closure.motions(embedding.drawn_angles())?.basis;
     let basis = with_zero_rates(sheet.edges.len(), closure.folding_edges(), &folding);
     let modes = basis.column_iter().map(|mode| lattice_rotations(&embedding, mode.as_slice()));
     let lattice_rotations = modes.collect::<Result<Vec<_>, _>>()?;
     let tensors = curvatures(&embedding, &lattice, &lattice_rotations);
     let curvatures = DenseMatrix::from_fn(3, tensors.len(), |row, mode| tensors[mode][row]);
-    Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
+    Ok(FoldingModes { basis, curvatures, lattice_rotations })
 }
 
 /// Returns the rates of all edges, from a row for each edge in `folding`; zero for the others.
@@ -114,7 +111,7 @@ fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
 
 /// Returns the curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
 fn curvatures(embedding: &Embedding, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
-    let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area());
+    let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area);
     let normal = upwards.normalize() * area.dot(&upwards).signum();
     let frame = LatticeFrame::new(lattice);
     let tensor = |omega: &[Vec3; 2]| frame.tensor(&Matrix2::from_fn(|a, b| omega[a].cross(&lattice[b]).dot(&normal)));

@@ -25,7 +25,7 @@ pub use closing::{AngleConditions, Closing};
 pub use closure::Closure;
 pub use closure::drawn_fold_angles;
 pub use displacement::Displacement;
-pub use embedding::{Compatibility, Embedding, Placement};
+pub use embedding::{Embedding, Placement};
 pub use error::KinematicsError;
 pub use folding_modes::{FoldingModes, folding_modes, folding_modes_with_locked};
 pub use motion::{Motion, Moving, Twist};

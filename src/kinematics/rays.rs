@@ -85,7 +85,11 @@ impl Rays {
         let section = solve_any(quadrics, second_order.count())?;
         let directions = established(quadrics, second_order.count(), &section)?;
         let Section { dimension, expected, solutions, extraneous } = section;
-        let real: Vec<Line> = solutions.isolated.iter().filter(|solution| solution.real).map(Line::from).collect();
+        let line = |Solution { point, multiplicity, error, .. }: &Solution| {
+            let x = DVector::from_iterator(point.len(), point.iter().map(|entry| entry.re));
+            Line { x, multiplicity: *multiplicity, error: *error }
+        };
+        let real: Vec<Line> = solutions.isolated.iter().filter(|solution| solution.real).map(line).collect();
         let (real, singular) = match dimension {
             0 => (real, None),
             _ => among_continua(quadrics, dimension)?,
@@ -137,13 +141,6 @@ struct Line {
     x: DVector<f64>,
     multiplicity: usize,
     error: f64,
-}
-
-impl From<&Solution> for Line {
-    fn from(solution: &Solution) -> Self {
-        let x = DVector::from_iterator(solution.point.len(), solution.point.iter().map(|entry| entry.re));
-        Self { x, multiplicity: solution.multiplicity, error: solution.error }
-    }
 }
 
 /// Returns the real solutions that are isolated among the complex solutions on a curve or larger set, and the number of

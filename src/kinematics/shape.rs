@@ -12,9 +12,9 @@
 //! of the face normals.
 
 use super::KinematicsError;
-use super::embedding::{Compatibility, Embedding, Placement};
+use super::embedding::{Embedding, Placement};
 use super::metric::LatticeFrame;
-use super::motion::{Motion, Moving};
+use super::motion::Moving;
 use super::screw::Screw;
 use crate::math::Vec3;
 use std::f64::consts::TAU;
@@ -32,8 +32,6 @@ const OPEN: f64 = 0.1;
 pub struct Shape {
     /// Positions of the vertices of cell (0, 0).
     pub positions: Vec<Vec3>,
-    /// The lattice motions.
-    pub motions: [Motion; 2],
     /// Axis, angles and chords, from which the motion to any cell follows.
     pub screw: Screw,
     /// Rotation angles from a cell to the next about the common axis, in radians; the axis is directed so that the
@@ -44,8 +42,8 @@ pub struct Shape {
     pub curvature: f64,
     /// Strain `[strain11, strain22, strain12]` of the chords from vertex 0 relative to the drawn lattice.
     pub strain: [f64; 3],
-    /// The errors of closure of the angles.
-    pub compatibility: Compatibility,
+    /// The error of closure of the angles; see [`Placement::compatibility`].
+    pub compatibility: f64,
 }
 
 impl Shape {
@@ -75,7 +73,7 @@ impl Shape {
         let curvature = signed_curvature(embedding, &screw);
         let strain = LatticeFrame::new(drawn).strain(&screw.chords);
         let Placement { positions, compatibility, .. } = placement;
-        Ok(Self { positions, motions, screw, theta: screw.theta, curvature, strain, compatibility })
+        Ok(Self { positions, screw, theta: screw.theta, curvature, strain, compatibility })
     }
 
     /// Whether the rotations of the lattice are so large that curvature and axis are more than rounding errors.
@@ -86,7 +84,7 @@ impl Shape {
     /// Whether the angles close well enough for the axis to be defined. Near a state without curvature, angles halfway
     /// between two states have closure errors that are larger than the effect of the curvature.
     fn closes(&self) -> bool {
-        self.compatibility.largest() <= OPEN * self.screw.towards_axis().norm() * self.cell()
+        self.compatibility <= OPEN * self.screw.towards_axis().norm() * self.cell()
     }
 
     /// Returns the length of the longer chord from vertex 0 to its copies.
@@ -147,7 +145,7 @@ impl Shape {
 /// Returns the curvature of a state that is not connected to another by a known path.
 fn signed_curvature(embedding: &Embedding, screw: &Screw) -> f64 {
     let ([h1, h2], [theta1, theta2]) = (screw.rise(), screw.theta);
-    let side = embedding.lattice.map_or(1.0, |[l1, l2]| l1.cross(&l2).dot(&embedding.drawn_area()));
+    let side = embedding.lattice.map_or(1.0, |[l1, l2]| l1.cross(&l2).dot(&embedding.drawn_area));
     screw.towards_axis().norm().copysign((h1 * theta2 - h2 * theta1) * side)
 }
 

@@ -28,7 +28,7 @@ use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::numerics::root::Search;
 use crate::sheet::{Seam, Sheet};
-use crate::solver::continuation::{CurveOptions, End, Trajectory, follow};
+use crate::solver::continuation::{CurveOptions, End, follow};
 use nalgebra::DVector;
 use std::f64::consts::TAU;
 
@@ -112,8 +112,8 @@ impl<'a> Tube<'a> {
     /// # Panics
     /// If the length of `angles` is not the number of edges.
     pub fn defects(&self, angles: &[f64]) -> [f64; 2] {
-        let SeamMotion { turn, chord } =
-            self.seam_of(&Displacement::new(&self.embedding, angles, &self.still()).lattice).0;
+        let still = vec![0.0; self.embedding.edges()];
+        let SeamMotion { turn, chord } = self.seam_of(&Displacement::new(&self.embedding, angles, &still).lattice).0;
         [turn.norm() - TAU, turn.dot(&chord) / (TAU * self.length)]
     }
 
@@ -196,24 +196,6 @@ impl<'a> Tube<'a> {
         motion.iter().map(|rate| rate * 1f64.copysign(growth * side)).collect()
     }
 
-    /// Follows the one motion of a tube whose seam turns by `2 pi` and may rise, from the tube's angles for a length in
-    /// fold angles, in the direction in which the rise of the seam grows (`rising`) or decreases.
-    ///
-    /// # Errors
-    /// [`KinematicsError::NotOneMotion`] if the tube has no such motion or more than one.
-    pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
-        let motions = self.motions(tube, &[Condition::Turn], &[])?;
-        if motions.ncols() != 1 {
-            return Err(KinematicsError::NotOneMotion { motions: motions.ncols() });
-        }
-        let sign = if rising { 1.0 } else { -1.0 };
-        let growing = self.growing(tube, Condition::Turn, motions.as_slice());
-        let tangent = growing.into_iter().map(|rate| sign * rate).collect();
-        let (options, kept) = (CurveOptions { length, ..CurveOptions::default() }, self.keeping(Condition::Turn));
-        let mut curve = Closing::new(&self.closure, tube.to_vec()).keeping(&kept);
-        Ok(follow(&mut curve, tube.to_vec(), tangent, &options, &mut |_, _, _| {}, &mut |_| true))
-    }
-
     /// Returns one of the conditions as an equation.
     pub fn keeping(&self, kept: Condition) -> TubeCondition<'_, 'a> {
         TubeCondition { tube: self, kept }
@@ -245,10 +227,6 @@ impl<'a> Tube<'a> {
             (DVector::from_vec(defects), jacobian.select_columns(&moving))
         })?;
         if found.is_root { Ok(angles) } else { Err(KinematicsError::NotClosed { residual: found.residual }) }
-    }
-
-    fn still(&self) -> Vec<f64> {
-        vec![0.0; self.embedding.edges()]
     }
 
     /// Returns the seam and its rate, from the lattice motions.

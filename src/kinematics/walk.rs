@@ -100,30 +100,22 @@ impl FaceWalk {
 
     /// Walks over the faces; `turn` returns the motion of the rotation about a drawn edge.
     pub(crate) fn walk<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M) -> Walked<M> {
-        let mut walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
-        self.walk_into(turn, &mut walked);
-        walked
-    }
-
-    /// Does the same as [`walk`](Self::walk), but overwrites the result of an earlier walk, without allocation.
-    pub(crate) fn walk_into<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M, walked: &mut Walked<M>) {
-        let Walked { faces, loops, lattice } = walked;
-        faces.clear();
-        faces.resize(self.cells.len(), M::identity());
+        let mut faces = vec![M::identity(); self.cells.len()];
         for step in &self.steps {
             let [from, to] = step.faces;
             faces[to] = faces[from] * turn(step);
         }
-        loops.clear();
-        loops.extend(self.loops.iter().map(|Loop { crossing, drawn, .. }| {
+        let closing = |Loop { crossing, drawn, .. }: &Loop| {
             let [from, to] = crossing.faces.map(|face| faces[face]);
             from * turn(crossing) * M::constant(*drawn) * to.inverse()
-        }));
+        };
+        let loops: Vec<M> = self.loops.iter().map(closing).collect();
         let product = |word: &Vec<(usize, bool)>| {
             let factors = word.iter().map(|&(k, back)| if back { loops[k].inverse() } else { loops[k] });
             factors.reduce(|done, next| done * next).unwrap_or_else(M::identity)
         };
-        *lattice = self.words.as_ref().map(|[first, second]| [product(first), product(second)]);
+        let lattice = self.words.as_ref().map(|[first, second]| [product(first), product(second)]);
+        Walked { faces, loops, lattice }
     }
 }
 

@@ -88,13 +88,6 @@ impl Side {
     }
 }
 
-/// Second derivatives of the fold angle by the wing of one side and by `e`, and this side's part of `ee`.
-struct AngleHessian {
-    ww: Matrix3<f64>,
-    we: Matrix3<f64>,
-    ee: Matrix3<f64>,
-}
-
 impl Hinge {
     fn new([i, j, left, right]: &[Vec3; 4]) -> Self {
         let (e, a, b) = (j - i, left - i, right - i);
@@ -117,24 +110,39 @@ impl Hinge {
         gradient
     }
 
+    /// Writes the second derivatives, which are blocks in `(e, a, b)`, by the twelve coordinates, where
+    /// `e = j - i`, `a = left - i` and `b = right - i`.
     #[inline(always)]
     fn hessian(&self, lower: &mut [f64]) {
-        let (left, right) = (self.curvature(&self.left, 1.0), self.curvature(&self.right, -1.0));
-        spread(&left.ww, &right.ww, &left.we, &right.we, &(left.ee + right.ee), lower);
+        let ([aa, ae, left], [bb, be, right]) = (self.curvature(&self.left, 1.0), self.curvature(&self.right, -1.0));
+        let ee = left + right;
+        let (ei, ai, bi) = (-(ee + ae.transpose() + be.transpose()), -(ae + aa), -(be + bb));
+        let ii = -(ei + ai + bi);
+        put::<0, 0>(&ii, lower);
+        put::<1, 0>(&ei, lower);
+        put::<1, 1>(&ee, lower);
+        put::<2, 0>(&ai, lower);
+        put::<2, 1>(&ae, lower);
+        put::<2, 2>(&aa, lower);
+        put::<3, 0>(&bi, lower);
+        put::<3, 1>(&be, lower);
+        put::<3, 2>(&Matrix3::zeros(), lower);
+        put::<3, 3>(&bb, lower);
     }
 
-    /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`.
+    /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`: twice by its wing, by its
+    /// wing and `e`, and this side's part of those twice by `e`.
     #[inline(always)]
-    fn curvature(&self, side: &Side, turn: f64) -> AngleHessian {
+    fn curvature(&self, side: &Side, turn: f64) -> [Matrix3<f64>; 3] {
         let Side { wing, inverse, foot, .. } = side;
         let (e, turned) = (&self.e, turn * self.length);
         let along = e / self.length + 2.0 * turned * inverse.cross(wing);
         let sliding = (wing - 2.0 * *foot * e) / self.length;
-        AngleHessian {
-            ww: symmetric(inverse, &(turned * e.cross(inverse))),
-            we: inverse * along.transpose() - turned * inverse.norm_squared() * wing.cross_matrix(),
-            ee: -0.5 * symmetric(inverse, &(sliding + *foot * along)),
-        }
+        [
+            symmetric(inverse, &(turned * e.cross(inverse))),
+            inverse * along.transpose() - turned * inverse.norm_squared() * wing.cross_matrix(),
+            -0.5 * symmetric(inverse, &(sliding + *foot * along)),
+        ]
     }
 }
 
@@ -143,30 +151,6 @@ impl Hinge {
 fn symmetric(p: &Vec3, q: &Vec3) -> Matrix3<f64> {
     let product = p * q.transpose();
     product + product.transpose()
-}
-
-/// Writes blocks in `(e, a, b)` by the twelve coordinates: `e = j - i`, `a = left - i`, `b = right - i`.
-#[inline(always)]
-fn spread(
-    aa: &Matrix3<f64>,
-    bb: &Matrix3<f64>,
-    ae: &Matrix3<f64>,
-    be: &Matrix3<f64>,
-    ee: &Matrix3<f64>,
-    lower: &mut [f64],
-) {
-    let (ei, ai, bi) = (-(ee + ae.transpose() + be.transpose()), -(ae + aa), -(be + bb));
-    let ii = -(ei + ai + bi);
-    put::<0, 0>(&ii, lower);
-    put::<1, 0>(&ei, lower);
-    put::<1, 1>(ee, lower);
-    put::<2, 0>(&ai, lower);
-    put::<2, 1>(ae, lower);
-    put::<2, 2>(aa, lower);
-    put::<3, 0>(&bi, lower);
-    put::<3, 1>(be, lower);
-    put::<3, 2>(&Matrix3::zeros(), lower);
-    put::<3, 3>(bb, lower);
 }
 
 /// Puts the block of points `K` and `L <= K` in its place in a lower triangle.

@@ -39,6 +39,13 @@ pub(crate) fn point(coordinates: &[f64], k: usize) -> Vec3 {
     Vec3::from_column_slice(&coordinates[3 * k..3 * k + 3])
 }
 
+/// Returns the place of the entry of a row and a column, or of the column and the row, in a lower triangle that is kept
+/// row by row.
+pub(crate) fn in_lower_triangle(row: usize, column: usize) -> usize {
+    let (high, low) = (row.max(column), row.min(column));
+    high * (high + 1) / 2 + low
+}
+
 /// A point or vector in the plane.
 pub(crate) type Vec2 = nalgebra::Vector2<f64>;
 

@@ -9,13 +9,12 @@ use super::boundary::Drawn;
 use super::element::{Elements, Term, TermKind};
 use super::law::{Law, Spring, Stored, TermLaw};
 use super::measure::{FoldAngle, Length};
-use super::part::Part;
-use super::problem::{Bodies, Conditions, Equations, Gauge, Model, Support};
+use super::problem::{Bodies, Equations, Gauge, Model, Support};
 use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, Terms};
 use crate::math::Vec3;
 use crate::sheet::EdgeKind;
-use crate::sheet::tiling::{Site, TiledEdge, Tiling};
+use crate::sheet::tiling::{TiledEdge, Tiling};
 use std::sync::Arc;
 
 /// Ratio of a hinge's stiffness to the softest stiffness above which the hinge has a tension as unknown.
@@ -39,14 +38,15 @@ impl Listed {
 
 /// Builds the model of a tiling, without the kinds of hinges that `terms` does not have.
 pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
-    let [soft, stiff] = listed(drawn, tiling, terms);
+    let bodies = Bodies::new(&terms.parts, &drawn.coordinates);
+    let [soft, stiff] = listed(drawn, tiling, terms, &bodies);
     let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
     let loads = net_loads(terms, drawn.coordinates.len(), &pinned);
     let equations = Equations {
         domain: drawn.domain.clone(),
         drawn: drawn.coordinates.clone(),
-        bodies: Bodies::new(&terms.parts, &drawn.coordinates),
+        bodies,
         soft: soft.terms,
         stiff: stiff.terms,
         edges: tiling.edges.len(),
@@ -54,24 +54,18 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         gauge,
     };
     let supports = terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect();
-    Model::new(equations, [soft.springs, stiff.springs].concat(), Conditions { pinned, supports, loads })
+    Model::new(equations, [soft.springs, stiff.springs].concat(), pinned, supports, loads)
 }
 
 /// Returns the terms whose elements enter with their energy, and those whose elements have tensions.
-fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
+fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms, bodies: &Bodies) -> [Listed; 2] {
     let (mut soft, mut stiff) = (Listed::default(), Listed::default());
-    let in_part = inside_a_part(&terms.parts, tiling.positions.len());
-    let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
+    let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !bodies.hold(&sites));
     if let Some(given) = &terms.bars {
-        let moves = |edge: usize| !in_part(&tiling.edges[edge].ends);
+        let moves = |edge: usize| !bodies.hold(&tiling.edges[edge].ends);
         let law = |edge| law_of(&terms.laws.bars, edge);
-        stiff.push(bars(
-            drawn,
-            tiling,
-            given,
-            |edge| moves(edge) && !given.stiffness.of(edge).is_nan(),
-            |_| Stored::Spring,
-        ));
+        let there = |edge| moves(edge) && !given.stiffness.of(edge).is_nan();
+        stiff.push(bars(drawn, tiling, given, there, |_| Stored::Spring));
         let beyond = |edge| moves(edge) && given.stiffness.of(edge).is_finite() && law(edge).is_some();
         soft.push(bars(drawn, tiling, given, beyond, |edge| stored(law(edge), Stored::BeyondSpring)));
     }
@@ -97,16 +91,9 @@ fn listed(drawn: &Drawn, tiling: &Tiling, terms: &Terms) -> [Listed; 2] {
     if !terms.locks.is_empty() {
         let mut rest = vec![f64::NAN; tiling.edges.len()];
         terms.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
-        let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
         let rigid = Hinges { stiffness: f64::INFINITY.into(), rest };
-        stiff.push(hinge_term(
-            TermKind::Locks,
-            drawn,
-            tiling,
-            |edge| locked[edge] && moves(edge),
-            &rigid,
-            |_| Stored::Spring,
-        ));
+        let locked = |edge: usize| !rigid.rest[edge].is_nan() && moves(edge);
+        stiff.push(hinge_term(TermKind::Locks, drawn, tiling, locked, &rigid, |_| Stored::Spring));
     }
     for own in &terms.own {
         let list = if own.has_tensions { &mut stiff } else { &mut soft };
@@ -140,19 +127,6 @@ fn guide(drawn: &Drawn, vertex: usize, direction: &Vec3) -> Support {
     let terms: Vec<(usize, f64)> = (0..3).map(|axis| (3 * vertex + axis, direction[axis])).collect();
     let rest = terms.iter().map(|(k, factor)| factor * drawn.coordinates[*k]).sum();
     Support { terms, rest, is_angle: false }
-}
-
-/// Returns a function that says whether all these points belong to one rigid part: then an element of them is left out,
-/// since it never changes.
-fn inside_a_part(parts: &[Part], vertices: usize) -> impl Fn(&[Site]) -> bool {
-    let mut part_of = vec![None; if parts.is_empty() { 0 } else { vertices }];
-    for (number, part) in parts.iter().enumerate() {
-        part.vertices.iter().for_each(|&v| part_of[v] = Some(number));
-    }
-    move |sites| {
-        let part = |site: &Site| part_of.get(site.vertex).copied().flatten();
-        sites.first().and_then(part).is_some_and(|first| sites.iter().all(|site| part(site) == Some(first)))
-    }
 }
 
 /// Returns the smallest stiffness of all terms.

@@ -7,10 +7,9 @@ use super::domain::OwnDomain;
 use super::law::{Laws, TermLaw};
 use super::mass::Mass;
 use super::material::Material;
-use super::part::Part;
 use super::roll::Roll;
 use super::stiffness::Stiffness;
-use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
+use super::terms::{Bars, Hinges, Part, RIGID, RestLengths, Terms};
 use crate::math::Vec3;
 use crate::sheet::{EdgeKey, EdgeKind, Sheet};
 

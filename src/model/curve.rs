@@ -90,12 +90,12 @@ impl<C: ForceCurve + 'static> Law for OfStrain<C> {
 }
 
 /// `phi = rest^2 f(m / rest)` and its derivatives by `m`, from those of `f`.
-pub(super) fn of_stretch(rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
+fn of_stretch(rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
     [rest * rest * f, rest * first, second]
 }
 
 /// The derivatives of the same `phi` and of `phi'` by `rest`, and the second one of `phi`.
-pub(super) fn of_rest(length: f64, rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
+fn of_rest(length: f64, rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
     let stretch = length / rest;
     let twice = 2.0 * f - 2.0 * stretch * first + stretch * stretch * second;
     [2.0 * rest * f - length * first, first - stretch * second, twice]
@@ -287,18 +287,8 @@ fn monotone_slopes(points: &[[f64; 2]]) -> Vec<f64> {
         }
         3.0 * (left + right) / ((2.0 * right + left) / before + (right + 2.0 * left) / after)
     };
-    let last = secants.len();
-    (0..=last)
-        .map(|k| {
-            if k == 0 {
-                secants[0]
-            } else if k == last {
-                secants[last - 1]
-            } else {
-                inner(k)
-            }
-        })
-        .collect()
+    let inner = (1..secants.len()).map(inner);
+    secants.first().copied().into_iter().chain(inner).chain(secants.last().copied()).collect()
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use super::domain::{Domain, Site};
 use super::element::{Elements, Head, Local, TermKind};
 use super::law::Stored;
-use crate::math::point;
 use crate::math::taylor::Taylor;
+use crate::math::{in_lower_triangle, point};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -68,8 +68,7 @@ impl Elements for Enclosed {
             face.gradient.iter().enumerate().for_each(|(row, g)| out.gradient[number(row)] += g / self.area);
             let places = (0..face.gradient.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
             for ((row, column), h) in places.zip(&face.hessian) {
-                let (high, low) = (number(row).max(number(column)), number(row).min(number(column)));
-                out.hessian[high * (high + 1) / 2 + low] += h / self.area;
+                out.hessian[in_lower_triangle(number(row), number(column))] += h / self.area;
             }
         }
     }

@@ -37,16 +37,8 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
     let turns = rotations && matches!(domain, Domain::Patch | Domain::FreeTorus);
     let turn = if turns { 1.0 / size } else { 0.0 };
     let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows_of(1.0, turn * (point(x, k) - centre))).collect();
-    match domain {
-        Domain::FreeTorus => {
-            let lattice = &x[3 * vertices..];
-            for l in [&lattice[..3], &lattice[3..]] {
-                rows.extend(rows_of(0.0, turn * Vec3::from_column_slice(l)));
-            }
-        }
-        Domain::Screw => rows.extend([Motion::zeros(); 6]),
-        Domain::Patch | Domain::FixedTorus(_) | Domain::Tube { .. } | Domain::Own(_) => {}
-    }
+    // of a screw nothing turns
+    rows.extend(x[3 * vertices..].chunks_exact(3).flat_map(|l| rows_of(0.0, turn * Vec3::from_column_slice(l))));
     rows
 }
 

@@ -231,7 +231,10 @@ impl Stored {
         let unit = match self {
             Self::Spring => linear,
             Self::Law(law) => known(&**law),
-            Self::BeyondSpring(law) => beyond(known(&**law), linear),
+            Self::BeyondSpring(law) => {
+                let whole = known(&**law);
+                [0, 1, 2].map(|k| whole[k] - linear[k])
+            }
         };
         unit.map(|part| spring.stiffness * part)
     }
@@ -243,8 +246,4 @@ impl Stored {
         let dissipated = self.remembering(after).map_or(0.0, |law| law.dissipated(spring.rest));
         (after, spring.stiffness * dissipated)
     }
-}
-
-fn beyond(law: [f64; 3], spring: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| law[k] - spring[k])
 }

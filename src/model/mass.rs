@@ -40,11 +40,10 @@ impl Mass {
     /// Returns the mass at every vertex of a cell of a periodic sheet, or of a finite sheet.
     pub fn of_cell(self, sheet: &Sheet) -> Vec<f64> {
         let triangles = sheet.triangles.iter().map(|triangle| triangle.corners);
+        let point = |corner: Corner| sheet.position(corner);
         self.lumped(
             sheet.vertices.len(),
-            triangles.map(|corners: [Corner; 3]| {
-                (corners.map(|corner| corner.vertex), corners.map(|corner| sheet.position(corner)))
-            }),
+            triangles.map(|corners| (corners.map(|corner| corner.vertex), corners.map(point))),
         )
     }
 

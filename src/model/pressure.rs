@@ -13,7 +13,7 @@ use super::element::{Head, Term, TermKind};
 use super::law::{Law, Spring, Stored};
 use super::measure::Measure;
 use super::own_term::OwnTerm;
-use super::part::Part;
+use super::terms::Part;
 use crate::math::Vec3;
 use crate::sheet::sides::open_sides;
 use crate::sheet::tiling::Site;

@@ -57,16 +57,6 @@ pub(super) struct Equations {
     pub gauge: Gauge,
 }
 
-/// The pins, supports and loads of a sheet.
-pub(super) struct Conditions {
-    /// Indices of the coordinates held by pins and by the boundary conditions.
-    pub pinned: Vec<usize>,
-    /// Linear functions of the coordinates that keep their values.
-    pub supports: Vec<Support>,
-    /// Force on each coordinate; empty without loads.
-    pub loads: Vec<f64>,
-}
-
 /// The mechanical model of a sheet: its terms on a domain, with springs, held coordinates and loads. Clones share what
 /// never changes.
 #[derive(Clone)]
@@ -81,6 +71,7 @@ pub struct Model {
     /// Generalised coordinates of the reference state, which is the drawn state or the one that replaced it: those of
     /// all points, then the poses of rigid parts. Held coordinates keep these values.
     base: Vec<f64>,
+    /// Linear functions of the coordinates that keep their values.
     supports: Vec<Support>,
     pinned: Vec<usize>,
     /// Index of the coordinate of each unknown.
@@ -108,9 +99,16 @@ pub enum Gauge {
 }
 
 impl Model {
-    /// Makes a model with the springs of all elements, soft ones first, in the drawn state.
-    pub(super) fn new(equations: Equations, springs: Vec<Spring>, conditions: Conditions) -> Self {
-        let Conditions { pinned, supports, loads } = conditions;
+    /// Makes a model with the springs of all elements, soft ones first, in the drawn state. `pinned` are the
+    /// coordinates held by pins and by the boundary conditions, `loads` the force on each coordinate, empty without
+    /// loads.
+    pub(super) fn new(
+        equations: Equations,
+        springs: Vec<Spring>,
+        pinned: Vec<usize>,
+        supports: Vec<Support>,
+        loads: Vec<f64>,
+    ) -> Self {
         let mut base = equations.drawn.clone();
         base.resize(base.len() + equations.bodies.coordinates(), 0.0);
         let mut model = Self {
@@ -172,9 +170,6 @@ impl Model {
     /// Extracts the unknowns from all coordinates. Without rigid parts they may also be rates, of which it extracts
     /// those of the unknowns.
     pub fn unknowns(&self, coordinates: &[f64]) -> Vec<f64> {
-        if self.equations.bodies.is_empty() {
-            return self.extracted(coordinates);
-        }
         self.extracted(&self.with_poses(coordinates.to_vec()))
     }
 
@@ -359,12 +354,6 @@ impl Model {
         let between = |k: usize| if part == 1.0 { target[k] } else { origin[k] + part * (target[k] - origin[k]) };
         self.springs.iter_mut().zip(0..).for_each(|(spring, k)| spring.rest = between(k));
         self.supports.iter_mut().zip(self.springs.len()..).for_each(|(support, k)| support.rest = between(k));
-    }
-
-    /// Multiplies the stiffness of each soft element by its factor.
-    pub fn scale_soft(&mut self, factors: &[f64]) {
-        let count = self.soft_elements();
-        self.springs[..count].iter_mut().zip(factors).for_each(|(spring, factor)| spring.stiffness *= factor);
     }
 
     /// Returns the angles of the last accepted state, from which angles continue: those of hinges, soft ones first.

@@ -1,6 +1,6 @@
 //! Laws of published programs.
 
-use super::curve::{of_rest, of_stretch};
+use super::curve::ForceCurve;
 use super::law::Law;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -47,20 +47,9 @@ pub struct Ogden {
     pub exponents: [f64; 2],
 }
 
-impl Law for Ogden {
-    fn at(&self, length: f64, rest: f64) -> [f64; 3] {
-        of_stretch(rest, self.by_strain((length - rest) / rest))
-    }
-
-    fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {
-        of_rest(length, rest, self.by_strain((length - rest) / rest))
-    }
-}
-
-impl Ogden {
-    /// The energy, force and stiffness at a strain, over `EA` and the rest length. Computed from the strain: from the stretch,
-    /// which is near 1, small strains of stiff bars would have lost their digits.
-    fn by_strain(&self, strain: f64) -> [f64; 3] {
+impl ForceCurve for Ogden {
+    // of the strain: of the stretch, which is near 1, small strains of stiff bars would have lost their digits
+    fn at(&self, strain: f64) -> [f64; 3] {
         let ([a, b], log) = (self.exponents, strain.ln_1p());
         let power = |a: f64| if a == 0.0 { log } else { (a * log).exp_m1() / a };
         let slope = |a: f64| (a - 1.0) * ((a - 2.0) * log).exp();
@@ -73,21 +62,11 @@ impl Ogden {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GreenLagrange;
 
-impl Law for GreenLagrange {
-    fn at(&self, length: f64, rest: f64) -> [f64; 3] {
-        of_stretch(rest, green_lagrange((length - rest) / rest))
+impl ForceCurve for GreenLagrange {
+    fn at(&self, strain: f64) -> [f64; 3] {
+        let twice = strain * (2.0 + strain); // of Green and Lagrange, from the strain as for `Ogden`
+        [0.125 * twice * twice, 0.5 * (1.0 + strain) * twice, 1.0 + 1.5 * twice]
     }
-
-    fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {
-        of_rest(length, rest, green_lagrange((length - rest) / rest))
-    }
-}
-
-/// The energy, force and stiffness of [`GreenLagrange`] at a strain, over `EA` and the rest length; computed from the strain
-/// as those of [`Ogden`] are. `twice` is twice the strain of Green and Lagrange.
-fn green_lagrange(strain: f64) -> [f64; 3] {
-    let twice = strain * (2.0 + strain);
-    [0.125 * twice * twice, 0.5 * (1.0 + strain) * twice, 1.0 + 1.5 * twice]
 }
 
 #[cfg(test)]
@@ -113,9 +92,9 @@ mod tests {
             (Box::new(OfAngle(bilinear)), ANGLES, 0.3, true),
             (Box::new(OfAngle(measured.clone())), ANGLES, 0.3, true),
             (Box::new(Formula::of_angle(torque).unwrap()), ANGLES, 0.3, true),
-            (Box::new(Ogden { exponents: [5.0, 1.0] }), LENGTHS, 1.2, true),
-            (Box::new(Ogden { exponents: [2.0, 0.0] }), LENGTHS, 1.2, true),
-            (Box::new(GreenLagrange), LENGTHS, 1.2, true),
+            (Box::new(OfStrain(Ogden { exponents: [5.0, 1.0] })), LENGTHS, 1.2, true),
+            (Box::new(OfStrain(Ogden { exponents: [2.0, 0.0] })), LENGTHS, 1.2, true),
+            (Box::new(OfStrain(GreenLagrange)), LENGTHS, 1.2, true),
             (Box::new(OfStrain(bilinear)), LENGTHS, 1.2, true),
             (Box::new(OfStrain(measured)), LENGTHS, 1.2, true),
             (Box::new(Formula::of_length("k*m0*ln(m/m0)").unwrap()), LENGTHS, 1.2, true),
@@ -164,7 +143,7 @@ mod tests {
     #[test]
     fn small_strains_keep_their_digits() {
         let strain = 2f64.powi(-20);
-        let (green_lagrange, ogden) = (GreenLagrange, Ogden { exponents: [5.0, 1.0] });
+        let (green_lagrange, ogden) = (OfStrain(GreenLagrange), OfStrain(Ogden { exponents: [5.0, 1.0] }));
         let square = 1.5 * strain * strain;
         let cases: [(&dyn Law, f64); 2] =
             [(&green_lagrange, 0.5 * strain.powi(3)), (&ogden, strain.powi(3) + 0.25 * strain.powi(4))];

@@ -45,10 +45,6 @@ pub struct Roll {
     pub coordinates: Vec<f64>,
     /// Fold angle of every edge of the sheet in radians, continued through pi; NaN for a boundary edge.
     pub angles: Vec<f64>,
-    /// Rotation from the frame in which the tube is shown to the frame of its axis, about `origin`.
-    pub frame: Matrix3<f64>,
-    /// Point on the axis, in the frame in which the tube is shown.
-    pub origin: Vec3,
 }
 
 impl Roll {
@@ -82,14 +78,14 @@ impl Roll {
         let mut coordinates: Vec<f64> = sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(*p)).collect();
         coordinates.extend(screws.shared(&seam, kept));
         let angles = sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap_or(f64::NAN)).collect();
-        Ok(Self { seam, kept, coordinates, angles, frame: Matrix3::identity(), origin: Vec3::zeros() })
+        Ok(Self { seam, kept, coordinates, angles })
     }
 
     /// Returns the start in the coordinates of the tube's domain.
     pub(super) fn drawn(&self, sheet: &Sheet) -> Drawn {
         let (counterclockwise, chords) = (sheet.is_counterclockwise(), sheet.chords());
         let domain = Domain::Tube { seam: self.seam, kept: self.kept, counterclockwise };
-        let coordinates = self.coordinates.clone();
-        Drawn { domain, coordinates, held: vec![], frame: self.frame, origin: self.origin, chords }
+        let (coordinates, frame, origin) = (self.coordinates.clone(), Matrix3::identity(), Vec3::zeros());
+        Drawn { domain, coordinates, held: vec![], frame, origin, chords }
     }
 }

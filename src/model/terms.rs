@@ -3,7 +3,6 @@
 use super::law::Laws;
 use super::mass::Mass;
 use super::own_term::{MEMBRANE, OwnTerm};
-use super::part::Part;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;
 use std::collections::BTreeSet;
@@ -61,6 +60,18 @@ pub struct Hinges {
     pub stiffness: Stiffness,
     /// Rest angle of every edge of the tiling, in radians; only those of hinges of this kind are used.
     pub rest: Vec<f64>,
+}
+
+/// Vertices of a patch that move as one rigid body, and the motions that the body keeps.
+///
+/// The body turns about the centroid of its vertices in the drawn state. Its rotation is described by the rotation
+/// vector from the drawn state, of which components that are not free stay zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Numbers of the tiling's vertices that belong to the part.
+    pub vertices: Vec<usize>,
+    /// Whether the part can move along x, y, z and turn about x, y, z.
+    pub free: [bool; 6],
 }
 
 /// The terms of the energy of a sheet, the locks, pins and loads on it, and its mass. `None` means that the term is not

@@ -88,8 +88,8 @@ pub(super) fn of_terms(
 /// Returns the law of the bars.
 fn of_bars(file: &SceneFile, (spec, span): (&BarLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
     match spec {
-        BarLawSpec::Ogden { exponents } => Ok(alone(Ogden { exponents: exponents.0 })),
-        BarLawSpec::GreenLagrange {} => Ok(alone(GreenLagrange)),
+        BarLawSpec::Ogden { exponents } => Ok(alone(OfStrain(Ogden { exponents: exponents.0 }))),
+        BarLawSpec::GreenLagrange {} => Ok(alone(OfStrain(GreenLagrange))),
         BarLawSpec::Bilinear { ratio, at } => Ok(alone(OfStrain(Bilinear { ratio: ratio.0, at: at.0 }))),
         BarLawSpec::Table(curve) => table(file, (curve, span), ["strain", "force"], OfStrain),
         BarLawSpec::Formula { force } => formula(file, span, Formula::of_length(force), "length"),

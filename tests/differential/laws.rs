@@ -67,8 +67,8 @@ impl RandomLaws {
             }
         });
         let bars = self.bars.map(|law| match law {
-            BarLaw::Ogden(exponents) => Ogden { exponents }.into(),
-            BarLaw::GreenLagrange => GreenLagrange.into(),
+            BarLaw::Ogden(exponents) => OfStrain(Ogden { exponents }).into(),
+            BarLaw::GreenLagrange => OfStrain(GreenLagrange).into(),
             BarLaw::Bilinear(law) => OfStrain(law).into(),
         });
         Laws { bars, creases: hinges.clone(), facets: hinges }

@@ -13,7 +13,7 @@
 
 use super::BlochError;
 use super::rigidity::power;
-use crate::math::fold_angle::fold_angle_gradient;
+use crate::math::{fold_angle::fold_angle_gradient, in_lower_triangle};
 use crate::model::{Local, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::complex::ComplexMatrix;
@@ -51,10 +51,7 @@ impl Element {
     fn stretched(element: &crate::model::Element<'_>, local: &Local) -> Self {
         let [_, force, stiffness] = element.response(local.value);
         let corners = element.sites().to_vec();
-        let second = |row: usize, column: usize| {
-            let (low, high) = (row.min(column), row.max(column));
-            local.hessian[high * (high + 1) / 2 + low]
-        };
+        let second = |row: usize, column: usize| local.hessian[in_lower_triangle(row, column)];
         let n = local.gradient.len();
         let hessian = DenseMatrix::from_fn(n, n, |row, column| {
             stiffness * (local.gradient[row] * local.gradient[column]) + force * second(row, column)

@@ -53,9 +53,9 @@ impl Determinant {
         let values = samples(rigidity)?;
         let largest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
         let coefficients = shifted(&coefficients(&values), lowest);
-        let center = center(&coefficients);
-        let absolute = [0, 1].map(|a| 0.5 * center.twice[a] as f64 + f64::from(lowest[a]));
-        let polynomial = cropped(&coefficients, center.twice);
+        let (twice, symmetric) = center(&coefficients);
+        let absolute = [0, 1].map(|a| 0.5 * twice[a] as f64 + f64::from(lowest[a]));
+        let polynomial = cropped(&coefficients, twice);
         let error = difference(rigidity, &polynomial, absolute)? / largest;
         if !(error <= UNKNOWN) {
             let at = |turns: [f64; 2]| Counts::at(rigidity, turns.map(|turn| TAU * turn));
@@ -67,7 +67,7 @@ impl Determinant {
         }
         let symmetry_error = asymmetry(&polynomial);
         let imaginary_part = imaginary(&values, absolute) / largest;
-        Ok(Self { polynomial, symmetric: center.symmetric, symmetry_error, imaginary_part, error, magnitude: largest })
+        Ok(Self { polynomial, symmetric, symmetry_error, imaginary_part, error, magnitude: largest })
     }
 
     /// The symmetric part of the polynomial: what is left of the other is rounding where the determinant is symmetric.
@@ -122,22 +122,17 @@ fn shifted(coefficients: &ComplexMatrix, lowest: [i32; 2]) -> DenseMatrix {
     })
 }
 
-/// The middle of the coefficients, in half rows and columns.
-struct Center {
-    twice: [usize; 2],
-    symmetric: bool,
-}
-
-/// The middle about which the coefficients are symmetric, or that of their box.
-fn center(c: &DenseMatrix) -> Center {
+/// The middle about which the coefficients are symmetric, or that of their box, in half rows and columns, and whether
+/// they are symmetric.
+fn center(c: &DenseMatrix) -> ([usize; 2], bool) {
     let boxed = [extent(c), extent(&c.transpose())];
     let middles =
         (boxed[0][0] * 2..=boxed[0][1] * 2).flat_map(|x| (boxed[1][0] * 2..=boxed[1][1] * 2).map(move |y| [x, y]));
     let best = middles.map(|twice| (mismatch(c, twice), twice)).min_by(|a, b| a.0.total_cmp(&b.0));
     let twice = boxed.map(|[low, high]| low + high);
     match best {
-        Some((mismatch, twice)) if mismatch <= SYMMETRIC * c.norm() => Center { twice, symmetric: true },
-        _ => Center { twice, symmetric: false },
+        Some((mismatch, twice)) if mismatch <= SYMMETRIC * c.norm() => (twice, true),
+        _ => (twice, false),
     }
 }
 

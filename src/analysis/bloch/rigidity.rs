@@ -36,6 +36,12 @@ impl Row {
         let rests = vec![Vec3::zeros(); terms.len()];
         Self { terms, rests }
     }
+
+    /// Returns the lowest and the highest shift of the corners along a lattice vector.
+    pub(super) fn span(&self, a: usize) -> [i32; 2] {
+        let shifts = self.terms.iter().map(|(corner, _)| corner.shift[a]);
+        shifts.fold([i32::MAX, i32::MIN], |[low, high], s| [low.min(s), high.max(s)])
+    }
 }
 
 /// The rigidity matrix between two vectors.
@@ -173,11 +179,7 @@ impl Rigidity {
     /// Lowest and highest power of `z1` (`a` = 0) or `z2` (1) that the determinant can have: every row contributes one
     /// of its terms.
     pub(crate) fn powers(&self, a: usize) -> [i32; 2] {
-        let of_row = |row: &Row| {
-            let shifts = row.terms.iter().map(|(corner, _)| corner.shift[a]);
-            shifts.fold([i32::MAX, i32::MIN], |[low, high], s| [low.min(s), high.max(s)])
-        };
-        self.rows.iter().map(of_row).fold([0, 0], |[low, high], [l, h]| [low + l, high + h])
+        self.rows.iter().map(|row| row.span(a)).fold([0, 0], |[low, high], [l, h]| [low + l, high + h])
     }
 
     fn sum_of(&self, factor: impl Fn([i32; 2]) -> Complex<f64>) -> ComplexMatrix {

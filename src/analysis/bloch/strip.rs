@@ -85,14 +85,8 @@ impl Strip {
     /// [`BlochError`] where the matrix of a cell is not square.
     pub fn new(rigidity: &Rigidity, cells: usize) -> Result<Self, BlochError> {
         rigidity.require_square()?;
-        Ok(Self {
-            cells,
-            half: cells,
-            clamped: false,
-            below: rigidity.clone(),
-            above: rigidity.clone(),
-            across: Vec::new(),
-        })
+        let own = rigidity.clone();
+        Ok(Self { cells, half: cells, clamped: false, below: own.clone(), above: own, across: Vec::new() })
     }
 
     /// A strip whose lower half (rounded down) is of one sheet and whose upper half of another, as drawn; `rigid` says
@@ -107,7 +101,7 @@ impl Strip {
         first.require_square()?;
         second.require_square()?;
         let [lowest, highest] =
-            first.rows.iter().map(span).fold([0, 0], |[a, b], [low, high]| [a.min(low), b.max(high)]);
+            first.rows.iter().map(|row| row.span(1)).fold([0, 0], |[a, b], [low, high]| [a.min(low), b.max(high)]);
         let step = below.lattice.ok_or(BlochError::NoLattice)?[1];
         let across = (lowest + 1..=highest).map(|first_above| {
             let place = |corner: Corner| {
@@ -136,7 +130,7 @@ impl Strip {
             return &self.above.rows[number];
         }
         let own = &self.below.rows[number];
-        let [low, high] = span(own);
+        let [low, high] = own.span(1);
         let first_above = half - cell + low;
         let mixed = self.across.iter().find(|(shift, _)| *shift == first_above && first_above <= high);
         mixed.map_or(own, |(_, rigidity)| &rigidity.rows[number])
@@ -144,11 +138,11 @@ impl Strip {
 
     /// The rows of the strip: the cell to which each belongs, and its number there.
     fn rows(&self) -> Vec<(i32, usize)> {
-        let reach = self.below.rows.iter().map(|row| span(row)[1] - span(row)[0]).max().unwrap_or(0);
+        let reach = self.below.rows.iter().map(|row| row.span(1)[1] - row.span(1)[0]).max().unwrap_or(0);
         let cells = self.cells as i32;
         let all = (-reach..cells).flat_map(|cell| (0..self.below.columns()).map(move |number| (cell, number)));
         let wanted = |&(cell, number): &(i32, usize)| {
-            let [low, high] = span(self.row(cell, number));
+            let [low, high] = self.row(cell, number).span(1);
             let last = cell + high - low;
             if self.clamped { last >= 0 } else { cell >= 0 && last < cells }
         };
@@ -162,7 +156,7 @@ impl Strip {
         let mut matrix = ComplexMatrix::zeros(size, size);
         for (at, &(cell, number)) in rows.iter().enumerate() {
             let row = self.row(cell, number);
-            let low = span(row)[0];
+            let low = row.span(1)[0];
             for (corner, direction) in &row.terms {
                 let place = cell + corner.shift[1] - low;
                 if (0..self.cells as i32).contains(&place) {
@@ -243,7 +237,8 @@ impl StripModes {
             found
         };
         let (here, next) = (window(0), window(1));
-        let Svd { u, singular_values, v } = svd_of(&here)?;
+        let size = here.nrows().max(here.ncols());
+        let Svd { u, singular_values, v } = full_svd(&here.clone().resize(size, size, Complex::ZERO))?;
         let seen = singular_values.iter().filter(|value| **value > UNSEEN * singular_values[0]).count();
         let u = u.view((0, 0), (here.nrows(), seen));
         let v = v.view((0, 0), (here.ncols(), seen));
@@ -263,7 +258,7 @@ impl Rigidity {
     /// # Errors
     /// [`BlochError`] where the matrix is not square, and where the determinant comes too near to zero on the circle.
     pub fn roots_inside(&self, q1: f64) -> Result<usize, BlochError> {
-        let lowest: i32 = self.rows.iter().map(|row| span(row)[0]).sum();
+        let lowest: i32 = self.rows.iter().map(|row| row.span(1)[0]).sum();
         let at = |k: usize| {
             let q2 = TAU * k as f64 / TURNS as f64;
             let value = self.determinant([q1, q2].map(|q| Complex::from_polar(1.0, q)))?;
@@ -277,18 +272,6 @@ impl Rigidity {
         }
         Ok(((0..TURNS).map(turn).sum::<f64>() / TAU).round() as usize)
     }
-}
-
-/// Lowest and highest shift along the second lattice vector of the corners of a row.
-pub(crate) fn span(row: &Row) -> [i32; 2] {
-    let shifts = row.terms.iter().map(|(corner, _)| corner.shift[1]);
-    shifts.fold([i32::MAX, i32::MIN], |[low, high], s| [low.min(s), high.max(s)])
-}
-
-/// The singular values and vectors of any matrix, made square by zeros.
-fn svd_of(matrix: &ComplexMatrix) -> Result<Svd<Complex<f64>>, BlochError> {
-    let n = matrix.nrows().max(matrix.ncols());
-    Ok(full_svd(&matrix.clone().resize(n, n, Complex::ZERO))?)
 }
 
 /// The number of directions among orthonormal columns of which these rows hold most of the square.

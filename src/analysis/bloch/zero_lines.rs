@@ -10,7 +10,6 @@
 //! Where the determinant is so flat that its rounding moves a point by more than 1e-12, the point is corrected on the
 //! rigidity matrix itself (see [`singular`](super::singular)).
 
-mod arc;
 mod line;
 mod region;
 
@@ -21,9 +20,8 @@ use super::touching::touched;
 use super::zone::{Zone, reduced};
 use super::{BlochError, Rigidity};
 use crate::numerics::larger;
-use arc::{Arc, joined, line};
 pub use line::ZeroLine;
-use line::{GRID, length, next};
+use line::{Arc, GRID, joined, length, line, next};
 pub use region::Region;
 use region::regions;
 use std::f64::consts::{PI, TAU};
@@ -106,11 +104,6 @@ impl ZeroLines {
         }
         self
     }
-
-    /// How many lines leave `q = 0`: half the number of ends there.
-    pub fn through_origin(&self) -> usize {
-        self.lines.iter().map(|line| line.passes).sum()
-    }
 }
 
 /// Where a piece ends.
@@ -154,9 +147,7 @@ impl<'a> Tracer<'a> {
                     let mut high = low;
                     high[a] += TAU / GRID as f64;
                     let start = self.zero_between([low, high], self.positive[k]);
-                    let arc = self.closed(start, self.longest)?;
-                    self.count(&arc.points);
-                    lines.push(line(arc.points, 0, arc.residual));
+                    lines.push(self.closed_line(start, self.longest)?);
                 }
             }
         }
@@ -164,9 +155,7 @@ impl<'a> Tracer<'a> {
             let start = self.zero_between([hidden.extremum, hidden.outside], hidden.positive);
             if !lines.iter().any(|line| contains(line, start)) {
                 let radius = norm([0, 1].map(|a| start[a] - hidden.extremum[a]));
-                let arc = self.closed(start, self.longest.min(0.3 * radius))?;
-                self.count(&arc.points);
-                lines.push(line(arc.points, 0, arc.residual));
+                lines.push(self.closed_line(start, self.longest.min(0.3 * radius))?);
             }
         }
         let edges = (0..2).flat_map(|a| (0..GRID * GRID).map(move |k| (a, k)));
@@ -222,12 +211,14 @@ impl<'a> Tracer<'a> {
     }
 
     /// A closed curve through a point near it, with a first step of some length.
-    fn closed(&self, start: [f64; 2], first: f64) -> Result<Arc, BlochError> {
+    fn closed_line(&mut self, start: [f64; 2], first: f64) -> Result<ZeroLine, BlochError> {
         let (start, _) = self.corrected(start)?;
         // not on the edge of the grid itself, where rounding would decide whether it is crossed
         let start = self.step(start, 0.3 * first).map_or(start, |(off, _)| off);
         let along = tangent(self.zone.at(start).1);
-        self.follow(start, first, ArcEnd::Start(along))
+        let arc = self.follow(start, first, ArcEnd::Start(along))?;
+        self.count(&arc.points);
+        Ok(line(arc.points, 0, arc.residual))
     }
 
     /// Follows a line from a point on it to its end.

@@ -69,14 +69,13 @@ impl<'a> Cone<'a> {
             (&tensor * DVector::from_fn(unknowns, |k, _| x[k] - drawn[k])).fixed_rows::<3>(0).into_owned()
         };
         let conditions = |x: &[f64]| {
-            let (mut residual, mut jacobian) = (vec![0.0; equations], DenseMatrix::zeros(equations, unknowns));
-            closing.linearize(x, &mut residual, &mut jacobian);
+            let (residual, jacobian) = closing.linearized(x);
             let k = point(x);
-            residual.extend([k.norm() / amplitude - 1.0, along.dot(&k) / amplitude]);
+            let on_ray = [k.norm() / amplitude - 1.0, along.dot(&k) / amplitude];
             let mut all = jacobian.resize_vertically(equations + 2, 0.0);
             all.row_mut(equations).copy_from(&(k.normalize().transpose() * &tensor / amplitude));
             all.row_mut(equations + 1).copy_from(&(along.transpose() * &tensor / amplitude));
-            (DVector::from_vec(residual), all)
+            (DVector::from_iterator(equations + 2, residual.iter().copied().chain(on_ray)), all)
         };
         let search = Search { most_steps: STEPS, residual: CONE_RESIDUAL, terms: 0.0 };
         search.root(start, conditions).map(|x| point(&x).normalize())

@@ -2,7 +2,8 @@
 //!
 //! The sheet moves by `a x1 + a^2 x2 + a^3 x3 + ...` and its rest angles by `a phi + a^2 p2 + ...`, so hinges are off
 //! by `a^2 h2 + a^3 h3 + ...` and bars have the tensions `a^2 t2 + a^3 t3 + ...`. With `m3`, `m4` the third and fourth
-//! powers of all measures along `x0 + a x1 + a^2 x2` and `f2` the forces of `h2` and `t2`, which balance,
+//! powers of all measures along `x0 + a x1 + a^2 x2`, `f2` the forces of `h2` and `t2`, which balance, and `p2` the
+//! same in every cell and orthogonal to the modes,
 //!
 //! `E4 = sum (K/2) h2^2 + sum t2^2 / 2k`,  `E5 = f2 . m3`,
 //! `E6 = f2 . m4 + min over x3, p3 of  sum (K/2) h3^2 + sum t3^2 / 2k + f2 . D^2 m [x1, x3]`.
@@ -10,12 +11,12 @@
 //! A mode that is rigid to second order has `h2 = t2 = 0`: then the sixth power leads, and `E6` tells whether it is
 //! rigid to third order.
 
-use super::prediction::{curvature_forces, drawn};
-use super::settling::{Settling, TermValues};
+use super::settling::{self, Settling, TermValues};
 use super::taylor_path::HeldState;
 use super::{HeldSheet, LandscapeError, TaylorPath};
-use crate::model::{Element, Model};
+use crate::model::{Element, Local, Model};
 use crate::numerics::vector::dot;
+use crate::solver::{HessianKind, Problem};
 
 /// Coefficients of the powers of the amplitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,15 +30,7 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// Of the mode with these rates of the rest angles, in the drawn state.
-    ///
-    /// # Errors
-    /// [`LandscapeError`] where the modes of the sheet are not known, or its linear algebra fails.
-    pub fn new(held: &HeldSheet, rates: &[f64]) -> Result<Self, LandscapeError> {
-        Ok(Self::with_course(held, rates)?.0)
-    }
-
-    /// The same, and where the sheet goes.
+    /// Of the mode with these rates of the rest angles, in the drawn state, and where the sheet goes.
     ///
     /// # Errors
     /// [`LandscapeError`] where the response of the sheet cannot be computed.
@@ -81,4 +74,45 @@ fn powers(model: &Model, path: &[&[f64]; 3]) -> Result<[TermValues; 3], Landscap
     let (soft, stiff) = series.split_at(model.soft_elements());
     let of = |power: usize, series: &[[f64; 5]]| series.iter().map(|series| series[power]).collect();
     Ok([2, 3, 4].map(|power| (of(power, soft), of(power, stiff))))
+}
+
+/// The sheet linearized in the drawn state.
+pub(super) fn drawn(held: &HeldSheet) -> Result<Settling<'_>, LandscapeError> {
+    let model = &held.model;
+    let still = vec![0.0; model.compliance().len()];
+    Settling::new(held, (&model.start(), &still), HessianKind::GaussNewton, settling::FINE)
+}
+
+/// `sum f H v` on all coordinates, `f` the forces of the soft elements and of the stiff measures, `H` their second
+/// derivatives in the drawn state.
+fn curvature_forces(model: &Model, v: &[f64], (soft, stiff): (&[f64], &[f64])) -> Vec<f64> {
+    let x = model.coordinates(&model.start());
+    let shared = x.len() - model.domain().shared()..x.len();
+    let (mut all, mut local) = (vec![0.0; v.len()], Local::default());
+    for element in model.elements() {
+        element.local(&x, true, &mut local);
+        let vertices = element.sites().iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
+        let places: Vec<usize> = vertices.chain(shared.clone()).collect();
+        let moving: Vec<f64> = places.iter().map(|&place| v[place]).collect();
+        let number = element.number;
+        let force = soft.get(number).copied().unwrap_or_else(|| stiff[number - soft.len()]);
+        let product = product(&local.hessian, &moving);
+        places.iter().zip(&product).for_each(|(&place, h)| all[place] += force * h);
+    }
+    all
+}
+
+/// `H v` from the lower triangle of `H`, row by row.
+fn product(lower: &[f64], v: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; v.len()];
+    let mut entries = lower.iter();
+    for row in 0..v.len() {
+        for (column, entry) in (0..=row).zip(entries.by_ref()) {
+            product[row] += entry * v[column];
+            if column < row {
+                product[column] += entry * v[row];
+            }
+        }
+    }
+    product
 }

@@ -2,7 +2,7 @@
 
 use super::{HeldState, LandscapeError};
 use crate::kinematics::FoldingModes;
-use crate::model::{Assembly, Configuration, Domain, Element, Model};
+use crate::model::{Assembly, Configuration, Domain, Element, Gauge, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
 use crate::solver::Problem;
@@ -57,12 +57,14 @@ impl HeldSheet {
 
     /// A model held along these modes, `locked` being the edges of the repeating piece that are rigid. `repeating`
     /// gives the edge of the repeating piece of every edge of the tiling.
-    pub(super) fn of_model(
-        model: Model,
+    pub(super) fn at_drawn_angles(
+        assembly: &Assembly,
         (basis, motions): (DenseMatrix, Vec<Vec<f64>>),
         locked: &[usize],
         repeating: impl Fn(usize) -> usize,
     ) -> Result<Self, LandscapeError> {
+        let terms = assembly.terms().resting_at(assembly.drawn_angles());
+        let model = assembly.with_terms(terms).model(Gauge::Held);
         let floats = |element: Element<'_>| element.edge().filter(|_| element.is_elastic_hinge()).map(&repeating);
         let repeating = model.elements().map(floats).collect();
         let free = across(&basis, locked)?;

@@ -3,7 +3,7 @@
 //! The rest angles of a patch of `n1 x n2` cells are the same in every cell and are themselves unknowns, but for their
 //! components along the linear folding modes, which are held at an amplitude times a mode. What is left is the cost of
 //! not being a rigid folding. It goes as the fourth power of the amplitude for modes with Gaussian curvature, and its
-//! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone.
+//! coefficient knows the mode only through that. `samples` relaxes patches, `expansion` needs linear solves alone.
 
 pub mod cone;
 mod error;
@@ -11,7 +11,6 @@ pub(crate) mod expansion;
 pub mod fit;
 mod held;
 mod patch;
-pub(crate) mod prediction;
 pub mod samples;
 mod settling;
 pub mod sphere;
@@ -22,7 +21,6 @@ mod torus;
 pub use error::LandscapeError;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
-pub use prediction::Prediction;
 pub use samples::{Sample, Samples};
 pub use taylor_path::{HeldState, TaylorPath};
 pub use taylor_paths::TaylorPaths;

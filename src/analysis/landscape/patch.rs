@@ -2,7 +2,7 @@
 
 use super::{HeldSheet, LandscapeError};
 use crate::kinematics::{Displacement, Embedding, FoldingModes, KinematicsError, folding_modes_with_locked};
-use crate::model::{Assembly, Gauge};
+use crate::model::Assembly;
 use crate::sheet::{Corner, Sheet};
 
 impl HeldSheet {
@@ -14,9 +14,8 @@ impl HeldSheet {
         let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
         let locked = assembly.rigid_facets_of_cell();
         let modes = folding_modes_with_locked(sheet, &locked)?;
-        let model = assembly.with_terms(assembly.terms().resting_at(assembly.drawn_angles())).model(Gauge::Held);
         let moving = (modes.basis.clone(), motions(sheet, tiling.cells, &modes)?);
-        let mut held = Self::of_model(model, moving, &locked, |edge| tiling.edges[edge].edge)?;
+        let mut held = Self::at_drawn_angles(assembly, moving, &locked, |edge| tiling.edges[edge].edge)?;
         held.bending = Some(modes);
         Ok(held)
     }

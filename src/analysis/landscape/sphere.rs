@@ -32,11 +32,6 @@ impl Direction {
         let across = point.y.hypot(point.z);
         Self { polar: across.atan2(point.x), azimuth: point.z.atan2(point.y).rem_euclid(TAU) }
     }
-
-    /// The curvature tensor `[k11, k22, k12]`, of norm 1.
-    pub fn curvature(&self) -> [f64; 3] {
-        curvature(&self.point())
-    }
 }
 
 /// The curvature tensor of a point.

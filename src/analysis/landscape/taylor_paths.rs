@@ -4,7 +4,7 @@
 //! degree three are known from their values at `(i, j, k, ...)`, whole numbers of sum three (a unisolvent set), and
 //! those of lower degree too.
 
-use super::prediction::drawn;
+use super::expansion::drawn;
 use super::taylor_path::ORDERS;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
 use crate::numerics::DenseMatrix;

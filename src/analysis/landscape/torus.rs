@@ -34,8 +34,7 @@ impl HeldSheet {
         let motions = zero_modes(&bars.model(Gauge::Held))?;
         let rates: Vec<_> = motions.iter().map(|motion| fold_rates(assembly, motion)).collect();
         let modes = orthonormal(DenseMatrix::from_columns(&rates), &motions)?;
-        let model = assembly.with_terms(assembly.terms().resting_at(angles)).model(Gauge::Held);
-        Self::of_model(model, modes, &locked, |edge| edge)
+        Self::at_drawn_angles(assembly, modes, &locked, |edge| edge)
     }
 
     /// Another sheet of the same topology on the same torus, held along the modes of this one, which cost it energy.
@@ -46,8 +45,7 @@ impl HeldSheet {
     /// [`LandscapeError`] where the linear algebra fails.
     pub fn for_sheet(&self, assembly: &Assembly) -> Result<Self, LandscapeError> {
         let locked = assembly.rigid_facet_edges();
-        let model = assembly.with_terms(assembly.terms().resting_at(assembly.drawn_angles())).model(Gauge::Held);
-        Self::of_model(model, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
+        Self::at_drawn_angles(assembly, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
     }
 
     /// Rates of the mode of a torus that goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2) + phase)` from cell to cell: the

@@ -147,18 +147,14 @@ fn lowest_sparse(
     let mut inverse = |v: &[f64]| tangent.solve(v, &zero, 1e-13).dx;
     let (_, vectors) = eigen::largest(layout.unknowns, count, |v| observe().then(|| inverse(v)))?;
     // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
-    let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
+    let mut vectors: Vec<Vec<f64>> = vectors.iter().map(|v| inverse(v)).collect();
+    vectors.iter_mut().for_each(|v| normalize(v));
     tangent.at.add_identity(-shift);
     let quotient = |v: &[f64]| rayleigh_quotient(model, &tangent.at, v);
     let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (quotient(&v), v)).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (values, vectors) = pairs.into_iter().unzip();
     Ok((values, vectors, diagonal))
-}
-
-fn normalized(mut v: Vec<f64>) -> Vec<f64> {
-    normalize(&mut v);
-    v
 }
 
 /// `v^T H v / v^T v` with the Hessian of the whole energy: its error is that of the vector squared.

@@ -38,8 +38,6 @@ pub struct PathPoint {
     pub work: f64,
     /// The state.
     pub state: State,
-    /// Unknowns.
-    pub x: Vec<f64>,
     /// Tensions of the stiff measures of the assembly's model without drive.
     pub tension: Vec<f64>,
     /// Angles of the elements, from which angles continue; see [`crate::model::Model::angles`].
@@ -120,7 +118,6 @@ pub(super) fn point(driven: &DrivenModel, marked: &MarkedState) -> PathPoint {
         reaction: driven.reaction_of(*conjugate, *parameter),
         work: f64::NAN,
         state: State::new(&driven.model, x, tension),
-        x: x.clone(),
         tension: driven.without_drive(tension),
         angles: angles_at(&driven.model, x),
         memory: driven.model.memory_after(x),

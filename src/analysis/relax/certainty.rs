@@ -1,8 +1,7 @@
 //! Error of a converged state: the change of its fold angles in one more Newton step.
 
-use super::rigid_forces::rigid_over_others;
 use crate::model::{Domain, Element, Model};
-use crate::solver::{Equilibrium, HessianKind, Problem, Tangent};
+use crate::solver::{Equilibrium, HessianKind, Linearization, Problem, Tangent};
 
 /// Largest angle, in radians, by which a converged state may still be off.
 pub(super) const CERTAIN: f64 = 1e-7;
@@ -49,4 +48,16 @@ pub(super) fn off_rest(model: &Model, x: &[f64]) -> f64 {
     let coordinates = model.coordinates(x);
     let off = model.soft().filter(Element::is_hinge).map(|hinge| hinge.value(&coordinates) - hinge.spring.rest);
     off.fold(0.0, |largest, off| largest.max(off.abs()))
+}
+
+/// The largest force of a rigid measure over the largest one of all others.
+pub(super) fn rigid_over_others(model: &Model, found: &Equilibrium) -> f64 {
+    let mut at = Linearization::new(model.layout());
+    let mut largest = |tension: &[f64]| {
+        model.linearize(&found.x, tension, HessianKind::GaussNewton, &mut at);
+        at.largest_force
+    };
+    let of_others: Vec<f64> =
+        found.tension.iter().zip(model.compliance()).map(|(t, c)| if *c == 0.0 { 0.0 } else { *t }).collect();
+    largest(&found.tension) / largest(&of_others)
 }

@@ -3,7 +3,6 @@
 mod certainty;
 mod options;
 pub mod recorder;
-mod rigid_forces;
 mod routes;
 mod run;
 

@@ -17,15 +17,44 @@
 use super::cell::{CellElement, PeriodicCell};
 use super::compatibility::{MACROSCOPIC, rates, units};
 use super::error::ResponseError;
-use super::moduli_matrices::{ModuliMatrices, Principal};
 use crate::numerics::dense::small::{CholeskyFactor, cholesky};
 use crate::numerics::dense::{DenseError, full_svd, null_space_of_sums, symmetric_eigen};
 use crate::numerics::{DenseMatrix, larger};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Singular value that counts as zero, of rates in units of the cell.
 const ZERO: f64 = 1e-10;
 /// Eigenvalue that is rounding, relative to the largest one.
 const ROUNDING: f64 = 1e-14;
+
+/// Second derivatives of the energy per area, by the components 11, 22, 12: force per length, force, and force times
+/// length; in the limit of stiff bars over `EA`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "RigidLimitSummary")]
+pub struct ModuliMatrices {
+    /// Second derivatives of the energy per area by two components of the strain.
+    pub stretching: [[f64; 3]; 3],
+    /// Second derivatives by a component of the strain (row) and one of the curvature (column).
+    pub coupling: [[f64; 3]; 3],
+    /// Second derivatives by two components of the curvature.
+    pub bending: [[f64; 3]; 3],
+}
+
+/// A principal strain and bending, of norm 1 in `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)`, `A` the area
+/// of the cell: an eigenvector of the moduli.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "PrincipalSummary")]
+pub struct Principal {
+    /// Strain `[e11, e22, e12]`.
+    pub strain: [f64; 3],
+    /// Curvature tensor `[k11, k22, k12]`.
+    pub curvature: [f64; 3],
+    /// Its stiffness, twice its energy per area: force per length.
+    pub stiffness: f64,
+    /// Its stiffness over that of the rigid mode of the same number; null where that is 0.
+    pub ratio: Option<f64>,
+}
 
 /// Rates of some elements by the motions of a cell, with their spring constants.
 #[derive(Clone)]

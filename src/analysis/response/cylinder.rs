@@ -36,16 +36,7 @@ pub(super) fn response(assembly: &Assembly, coordinates: &[f64]) -> Result<Respo
     let amplitudes = raw.arranged(error)?.amplitudes;
     let mixed = |mix: DVector<f64>| state.mode(model.velocity((&null.basis * mix).as_slice()));
     let modes = amplitudes.column_iter().map(|mix| mixed(mix.into_owned())).collect();
-    Ok(Response {
-        modes,
-        table: raw.ranks()?,
-        lattice: state.lattice(),
-        self_stresses: 0,
-        stresses: vec![],
-        symmetries: vec![],
-        poisson: None,
-        error,
-    })
+    Ok(Response { modes, table: raw.ranks()?, lattice: state.lattice(), error, ..Response::default() })
 }
 
 /// A rolled up state.
@@ -157,12 +148,8 @@ impl<'a> Rolled<'a> {
         let turned = (self.turns.theta[larger] / TAU).round() * TAU;
         let side = if self.turns.theta[larger] - turned < 0.0 { -1.0 } else { 1.0 };
         let axis = Some((back * self.turns.axis() * side).into());
-        LatticeMotions {
-            chords: self.chords.map(|chord| (back * chord).into()),
-            theta: [theta1, theta2],
-            axis,
-            curvature,
-        }
+        let chords = self.chords.map(|chord| (back * chord).into());
+        LatticeMotions { chords, theta: [theta1, theta2], axis, curvature }
     }
 }
 

@@ -33,7 +33,6 @@ mod cylinder;
 mod error;
 mod mode;
 mod moduli;
-mod moduli_matrices;
 mod periodic;
 mod poisson;
 mod result;
@@ -41,10 +40,10 @@ mod stresses;
 mod symmetry_types;
 mod tensors;
 
+pub use condensed::{ModuliMatrices, Principal};
 pub use error::ResponseError;
 pub use mode::{Field, LinearMode, ModeTable};
 pub use moduli::{Moduli, ModuliOf, moduli_at};
-pub use moduli_matrices::{ModuliMatrices, Principal};
 pub use poisson::{Poisson, Relation};
 pub use result::{LatticeMotions, Response};
 pub use stresses::SelfStress;
@@ -121,11 +120,10 @@ pub(crate) fn ratios_at(
 ) -> Result<[Option<f64>; 2], ResponseError> {
     let locks = if bending { vec![] } else { rigid_terms(assembly).locks };
     let free = assembly.with_terms(Terms { locks, bars: Some(RIGID.into()), ..Terms::default() });
-    let Some(cell) = PeriodicCell::of_state(&free, coordinates, free.model(Gauge::Free))? else {
-        return Ok([None, None]);
-    };
-    let found = periodic::modes_of(&free, &cell)?;
-    Ok([found.poisson.in_plane.ratio(0.0).ok(), found.poisson.bending.ratio(0.0).ok()])
+    let cell = PeriodicCell::of_state(&free, coordinates, free.model(Gauge::Free))?;
+    let modes = cell.map(|cell| periodic::modes_of(&free, &cell)).transpose()?;
+    let poisson = modes.and_then(|modes| modes.poisson);
+    Ok(poisson.map_or([None; 2], |found| [found.in_plane, found.bending].map(|space| space.ratio(0.0).ok())))
 }
 
 /// Finds the effective moduli of the drawn state; see [`moduli_at`].

@@ -137,12 +137,9 @@ impl RawTable {
             let strains = Self::matrix(&self.strains, 1.0) * &sorted;
             for (k, mode) in sorted.column_iter().enumerate() {
                 let strain = strains.column(k);
-                let largest = strain[strain.iamax()];
-                columns.push(if k < strained.rank {
-                    mode / unflat(strain.iamax(), largest)
-                } else {
-                    mode.into_owned()
-                });
+                let largest = strain.iamax();
+                let unit = if k < strained.rank { unflat(largest, strain[largest]) } else { 1.0 };
+                columns.push(mode / unit);
             }
         }
         for target in named(&bends) {

@@ -7,9 +7,8 @@
 //! bend the sheet in two directions, which have none.
 
 use super::cell::{CellElement, PeriodicCell};
-use super::condensed::{Condensed, Springs};
+use super::condensed::{Condensed, ModuliMatrices, Principal, Springs};
 use super::error::ResponseError;
-use super::moduli_matrices::{ModuliMatrices, Principal};
 use crate::model::{Assembly, Configuration, Gauge};
 
 /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to that

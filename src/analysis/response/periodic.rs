@@ -8,7 +8,7 @@ use super::cell::PeriodicCell;
 use super::compatibility::{MACROSCOPIC, lattice_motions, rates, units};
 use super::cylinder::hinges_of;
 use super::error::ResponseError;
-use super::mode::{Field, LinearMode, ModeTable, RawTable};
+use super::mode::{Field, LinearMode, RawTable};
 use super::poisson::{Poisson, is_reciprocal};
 use super::result::{LatticeMotions, Response};
 use super::stresses;
@@ -29,24 +29,16 @@ const FOLDS: f64 = 1e-9;
 
 /// Computes the response of a spatially periodic state; `self_stresses` is left to be counted.
 pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
-    let CellModes { modes, table, poisson, error } = modes_of(assembly, cell)?;
-    let lattice = LatticeMotions { chords: cell.lattice.map(Into::into), theta: [0.0; 2], axis: None, curvature: 0.0 };
+    let modes = modes_of(assembly, cell)?;
+    let lattice = LatticeMotions { chords: cell.lattice.map(Into::into), ..LatticeMotions::default() };
     let stresses = stresses::of_cell(assembly, cell)?;
-    let symmetries = symmetry_types::of_cell(cell, &modes, &stresses);
-    Ok(Response { modes, table, lattice, self_stresses: 0, stresses, symmetries, poisson: Some(poisson), error })
+    let symmetries = symmetry_types::of_cell(cell, &modes.modes, &stresses);
+    Ok(Response { lattice, stresses, symmetries, ..modes })
 }
 
-/// The modes of a cell.
-pub(super) struct CellModes {
-    modes: Vec<LinearMode>,
-    table: ModeTable,
-    /// Poisson's ratios of the modes.
-    pub poisson: Poisson,
-    error: f64,
-}
-
-/// Computes the modes of a cell and their Poisson's ratios; `assembly` is the one of the cell, with rigid terms alone.
-pub(super) fn modes_of(assembly: &Assembly, cell: &PeriodicCell) -> Result<CellModes, ResponseError> {
+/// Computes the part of the response that is modes of a cell and their Poisson's ratios; `assembly` is the one of the
+/// cell, with rigid terms alone.
+pub(super) fn modes_of(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
     let basis = Basis::new(assembly, cell)?;
     let raw = basis.table();
     let mut error = basis.error;
@@ -60,7 +52,7 @@ pub(super) fn modes_of(assembly: &Assembly, cell: &PeriodicCell) -> Result<CellM
     let table = raw.ranks()?;
     let spaces = [arranged.in_plane, arranged.bending];
     let poisson = Poisson::new(&cell.sheet, (&modes, spaces), &table, !cell.locked.is_empty(), raw.length);
-    Ok(CellModes { modes, table, poisson, error })
+    Ok(Response { modes, table, poisson: Some(poisson), error, ..Response::default() })
 }
 
 /// A basis of the modes of a cell, orthonormal in the rates of its fold angles; where motions fold nothing, as those of

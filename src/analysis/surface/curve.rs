@@ -4,7 +4,7 @@
 //! spatially periodic, and closure alone has three null vectors at each: the condition that the lattice does not turn
 //! leaves one.
 
-use super::covered::{Negative, Surface, SurfaceOptions, SurfacePoint};
+use super::covered::{Negative, Surface, SurfaceOptions};
 use super::error::SurfaceError;
 use super::folding::SurfaceClosure;
 use super::{cell, sign};
@@ -71,7 +71,7 @@ impl Surface {
             stops: vec![0],
             ..CurveOptions::default()
         };
-        let (start, tangent) = (folding.drawn(), closing.folding(&ray.direction));
+        let (start, tangent) = (folding.drawn.clone(), closing.folding(&ray.direction));
         let mut count = before;
         let mut observe = |_: &_| {
             count += 1;
@@ -87,13 +87,7 @@ impl Surface {
             let at = self.points.len();
             self.segments.extend((at > 0).then_some([last, at]));
             last = at;
-            self.points.push(SurfacePoint {
-                branch: (ray.branch, ray.sign),
-                angles: folding.all(&point.x),
-                shape: folding.shape(&point.x)?,
-                residual: point.residual,
-                radius: self.radius,
-            });
+            self.points.push(folding.point(&point.x, (ray.branch, ray.sign), [point.residual, self.radius])?);
         }
         self.segments.extend((closed && last > 0).then_some([last, 0]));
         Ok(found.end)

@@ -1,5 +1,6 @@
 //! The closure of a cell as a surface.
 
+use super::covered::SurfacePoint;
 use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, SecondOrder, Shape, SpatiallyPeriodic};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
@@ -11,9 +12,9 @@ use std::f64::consts::TAU;
 pub(super) struct SurfaceClosure<'a> {
     closure: &'a Closure,
     closing: Closing<'a>,
-    embedding: &'a Embedding,
+    pub embedding: &'a Embedding,
     /// Angles of the folding edges at the state from which folding starts.
-    origin: Vec<f64>,
+    pub drawn: Vec<f64>,
     max_curvature: f64,
     /// Whether two surfaces cross at the state from which folding starts.
     pub crossing: bool,
@@ -27,8 +28,8 @@ impl<'a> SurfaceClosure<'a> {
     /// The same cell, at another state than the drawn one.
     pub(crate) fn at(closure: &'a Closure, embedding: &'a Embedding, (angles, max_curvature): (&[f64], f64)) -> Self {
         let closing = Closing::new(closure, angles.to_vec());
-        let origin = closing.folding(angles);
-        Self { closure, closing, embedding, origin, max_curvature, crossing: false }
+        let drawn = closing.folding(angles);
+        Self { closure, closing, embedding, drawn, max_curvature, crossing: false }
     }
 
     /// The same surface with folding that starts from a closed state on it, and what second order says of that.
@@ -36,16 +37,6 @@ impl<'a> SurfaceClosure<'a> {
         let angles = self.all(x);
         let second_order = SecondOrder::new(self.closure, &angles)?;
         Ok((Self::at(self.closure, self.embedding, (&angles, self.max_curvature)), second_order))
-    }
-
-    /// What places the cell.
-    pub(crate) fn embedding(&self) -> &Embedding {
-        self.embedding
-    }
-
-    /// The angles of the folding edges at the state from which folding starts, which is the drawn one mostly.
-    pub(crate) fn drawn(&self) -> Vec<f64> {
-        self.origin.clone()
     }
 
     /// The entries of the folding edges.
@@ -63,6 +54,16 @@ impl<'a> SurfaceClosure<'a> {
         Shape::at(self.embedding, &self.all(x))
     }
 
+    /// The state at the angles of the folding edges, on this branch, and the radius of its chart.
+    pub(crate) fn point(
+        &self,
+        x: &[f64],
+        branch: (usize, i8),
+        [residual, radius]: [f64; 2],
+    ) -> Result<SurfacePoint, KinematicsError> {
+        Ok(SurfacePoint { branch, angles: self.all(x), shape: self.shape(x)?, residual, radius })
+    }
+
     /// The largest component of the closure residual.
     pub(crate) fn residual(&self, x: &[f64]) -> f64 {
         self.closure.residual(&self.all(x)).amax()
@@ -72,11 +73,7 @@ impl<'a> SurfaceClosure<'a> {
     /// Jacobian, right to first order in those vectors.
     pub(crate) fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
         let periodic = SpatiallyPeriodic(self.embedding);
-        let mut closing = Closing::new(self.closure, self.all(x)).keeping(&periodic);
-        let mut residual = DVector::zeros(closing.equations());
-        let mut jacobian = DenseMatrix::zeros(closing.equations(), closing.unknowns());
-        closing.linearize(x, residual.as_mut_slice(), &mut jacobian);
-        (residual, jacobian)
+        Closing::new(self.closure, self.all(x)).keeping(&periodic).linearized(x)
     }
 }
 

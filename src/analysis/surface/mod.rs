@@ -169,18 +169,12 @@ fn put_together(
         if k >= atlas::KEPT && surface.coverage == Coverage::Interrupted {
             break;
         }
-        surface.points.push(SurfacePoint {
-            branch: branch[chart.start],
-            angles: folding.all(&chart.x),
-            shape: folding.shape(&chart.x)?,
-            residual: chart.residual,
-            radius: chart.radius,
-        });
+        surface.points.push(folding.point(&chart.x, branch[chart.start], [chart.residual, chart.radius])?);
     }
     surface.truncate(surface.points.len());
     let from: Vec<usize> = atlas.charts.iter().take(surface.points.len()).map(|chart| chart.start).collect();
     let sides = surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    sign::carry(folding.embedding(), &mut surface.points, sides, &from);
+    sign::carry(folding.embedding, &mut surface.points, sides, &from);
     if starts.crossing {
         surface.seam = crossing::seam(folding, &surface.points, &surface.triangles);
         // charts go over the curve along which surfaces cross, to the other sign

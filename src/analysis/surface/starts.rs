@@ -68,7 +68,7 @@ pub(super) fn starts(
 ) -> Result<Result<Starts, Negative>, SurfaceError> {
     let (directions, unknown) = match &second_order.quadrics[..] {
         [] => {
-            let list = vec![SurfaceStart { x: folding.drawn(), sign: 1, line: 0 }];
+            let list = vec![SurfaceStart { x: folding.drawn.clone(), sign: 1, line: 0 }];
             return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, tips: Vec::new(), crossing: false }));
         }
         [quadric] => match of_one_quadric(quadric)? {
@@ -79,7 +79,7 @@ pub(super) fn starts(
     };
     let crossing = second_order.quadrics.len() == 1 && directions.len() == 2;
     let mut found =
-        Starts { list: Vec::new(), reach: f64::INFINITY, lost: unknown, tips: vec![folding.drawn()], crossing };
+        Starts { list: Vec::new(), reach: f64::INFINITY, lost: unknown, tips: vec![folding.drawn.clone()], crossing };
     for (line, Direction { along, normal }) in directions.iter().enumerate() {
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
@@ -118,7 +118,7 @@ fn follow_out(
         stops: vec![0],
         ..CurveOptions::default()
     };
-    let drawn = folding.drawn();
+    let drawn = folding.drawn.clone();
     let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
     let found = follow(
         &mut section,

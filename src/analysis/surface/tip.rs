@@ -46,8 +46,9 @@ pub(super) fn close(folding: &SurfaceClosure<'_>, atlas: &mut Atlas) -> Left {
         atlas.charts.push(chart);
         atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
     }
-    let border = border(&atlas.triangles);
-    let open = border.iter().filter(|&&k| off_limit(&atlas.charts[k])).count();
+    let rims = uses_of_sides(&atlas.triangles).into_iter().filter(|&(_, uses)| uses == 1);
+    let border: BTreeSet<usize> = rims.flat_map(|(edge, _)| edge).collect();
+    let open = border.iter().filter(|&&k| atlas.charts[k].limit.abs() > BORDER).count();
     Left { border: border.len(), open, nappes: tips.into_iter().map(|(_, nappes)| nappes).collect() }
 }
 
@@ -69,15 +70,6 @@ fn tips_of_rims(folding: &SurfaceClosure<'_>, charts: &[Chart], triangles: &[[us
     rims.filter_map(|rim| tip(folding, charts, &rim).map(|chart| (rim, chart))).collect()
 }
 
-fn off_limit(chart: &Chart) -> bool {
-    chart.limit.abs() > BORDER
-}
-
-/// The corners of edges that have one triangle.
-fn border(triangles: &[[usize; 3]]) -> BTreeSet<usize> {
-    uses_of_sides(triangles).into_iter().filter(|&(_, uses)| uses == 1).flat_map(|(edge, _)| edge).collect()
-}
-
 /// The spatially periodic state within a rim, as a chart without extent.
 fn tip(folding: &SurfaceClosure<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> {
     let beside = &charts[rim[0]];
@@ -95,7 +87,7 @@ fn tip(folding: &SurfaceClosure<'_>, charts: &[Chart], rim: &[usize]) -> Option<
         limit: f64::NEG_INFINITY,
         start: beside.start,
     };
-    let drawn: Vec<f64> = folding.drawn().iter().zip(&beside.x).map(image).collect();
+    let drawn: Vec<f64> = folding.drawn.iter().zip(&beside.x).map(image).collect();
     if near(&drawn) {
         return Some(chart(drawn));
     }

@@ -49,9 +49,8 @@ fn of_tube(assembly: &Assembly, angles: Vec<f64>, (seam, kept): (Seam, SeamKept)
     // a drawing closes to the digits of its file
     let angles = tube.closed(&angles, &conditions, &locked)?;
     let motions = tube.motions(&angles, &conditions, &locked)?;
-    let directions = RealDirections::Listed;
-    match (motions.ncols(), &conditions[..]) {
-        (0, _) => Ok(Start { angles, rays: Vec::new(), directions, planar: false, tube: None }),
+    let (rays, tube) = match (motions.ncols(), &conditions[..]) {
+        (0, _) => (Vec::new(), None),
         (1, &[condition]) => {
             let growing = tube.growing(&angles, condition, motions.as_slice());
             let ray = |sign: i8| Ray {
@@ -61,14 +60,9 @@ fn of_tube(assembly: &Assembly, angles: Vec<f64>, (seam, kept): (Seam, SeamKept)
                 direction: growing.iter().map(|rate| f64::from(sign) * rate).collect(),
                 error: 0.0,
             };
-            Ok(Start {
-                angles,
-                rays: [1, -1].map(ray).to_vec(),
-                directions,
-                planar: false,
-                tube: Some((tube, condition)),
-            })
+            ([1, -1].map(ray).to_vec(), Some((tube, condition)))
         }
-        (motions, _) => Err(TraceError::MotionsOfTube { motions, closed: kept.is_closed() }),
-    }
+        (motions, _) => return Err(TraceError::MotionsOfTube { motions, closed: kept.is_closed() }),
+    };
+    Ok(Start { angles, rays, directions: RealDirections::Listed, planar: false, tube })
 }

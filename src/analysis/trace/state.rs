@@ -21,7 +21,7 @@ pub struct Stop {
 pub(crate) type Intersects<'a> = &'a mut dyn FnMut(&Folded) -> bool;
 
 /// A state on a trajectory.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Folded {
     /// Arc length from the start.
     pub arc_length: f64,

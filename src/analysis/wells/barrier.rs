@@ -16,7 +16,7 @@
 //! reported.
 
 use super::limit::{Height, STIFFER, flat_energy};
-use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
+use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, are_close, which};
 use super::pass::{Descent, Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
@@ -124,12 +124,13 @@ pub fn barrier(
     let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
     let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
     let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::NotTried, None);
-    if same_shape(wells, between) {
+    let [one, other] = between.map(|well| &wells[well].settled.rho);
+    if are_close(one, other, SAME_WELL_ANGLE_RAD) {
         return Err(BarrierError::SameShape);
     }
     for stiffness in tried {
         for bend in 0..=BENDS {
-            let attempt = Attempt { stiffness, bend, strength: string::STRENGTH };
+            let attempt = (stiffness, bend, string::STRENGTH);
             match from_softness(assembly, wells, between, attempt, go_on) {
                 Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
                 // over other wells: the way through softer bars may have been the shorter one only there
@@ -165,8 +166,7 @@ fn held_strongly(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Option<Barrier> {
     for power in 1..=STRONGEST {
-        let strength = string::STRENGTH * STRONGER.powi(power);
-        let attempt = Attempt { stiffness: assembly.bar_stiffness(), bend: 0, strength };
+        let attempt = (assembly.bar_stiffness(), 0, string::STRENGTH * STRONGER.powi(power));
         match from_softness(assembly, wells, between, attempt, go_on) {
             Ok(found) => return Some(found),
             Err(_) if go_on() => {}
@@ -188,23 +188,13 @@ fn lower(found: Barrier, other: Option<Barrier>) -> Barrier {
     other.filter(|other| other.pass.energy <= found.pass.energy).unwrap_or(found)
 }
 
-/// How a path is sought.
-#[derive(Clone, Copy)]
-struct Attempt {
-    /// Stiffness of the bars.
-    stiffness: f64,
-    /// Number of the bend with which the path begins.
-    bend: u64,
-    /// How strongly its states are held.
-    strength: f64,
-}
-
-/// The barrier by way of a path that is sought like this.
+/// The barrier by way of a path in bars of a stiffness, which begins with the bend of a number, and whose states are
+/// held so strongly.
 fn from_softness(
     assembly: &Assembly,
     wells: &[Well],
     between: [usize; 2],
-    Attempt { stiffness, bend, strength }: Attempt,
+    (stiffness, bend, strength): (f64, u64, f64),
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
@@ -228,7 +218,7 @@ fn from_softness(
     let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
     let around = [top - 1, top, top + 1].map(|at| row[at].clone());
     let first = near_top(assembly, stiffness, &settler, around, go_on)?;
-    let Followed { pass, heights, singular } = followed(assembly, first, stiffness)?;
+    let (pass, heights, singular) = followed(assembly, first, stiffness)?;
     let own =
         if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { assembly.bar_stiffness() };
     let ends = sides(&assembly.with_bars_at_most(own), &pass, &along, OPTIONS).map_err(failed)?;
@@ -256,12 +246,6 @@ fn over(settler: &MinimumTracker, pass: &Pass, [one, other]: &[Descent; 2]) -> V
     let row = other.row().rev().chain([(pass.rho.as_slice(), pass.energy)]).chain(one.row());
     let (angles, energies): (Vec<&[f64]>, Vec<f64>) = row.unzip();
     string::stations(settler, &angles).into_iter().zip(energies).collect()
-}
-
-/// Whether two wells have the same fold angles of creases and soft facets.
-fn same_shape(wells: &[Well], between: [usize; 2]) -> bool {
-    let [a, b] = between.map(|well| &wells[well].settled.rho);
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
 }
 
 /// The pass near the middle one of three neighbours in a row of states. Where Newton's method ends in none, or in a
@@ -303,15 +287,8 @@ fn index_one(assembly: &Assembly, stiffness: f64, near: [&Settled; 3]) -> Result
     Err(why.unwrap_or(BarrierError::NotTried))
 }
 
-/// A pass at the sheet's own stiffness, or as near to it as it is regular.
-struct Followed {
-    pass: Pass,
-    heights: Vec<Height>,
-    singular: bool,
-}
-
 /// The pass with ever stiffer bars, up to those of the sheet.
-fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed, BarrierError> {
+fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<(Pass, Vec<Height>, bool), BarrierError> {
     let goal = assembly.bar_stiffness();
     let creases = assembly.crease_stiffness();
     let mut heights = vec![Height { stiffness, energy: first.energy }];
@@ -319,11 +296,14 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
         match equilibrium(&assembly.with_bars_at_most(next), &pass.place, OPTIONS) {
-            Ok(found) if found.negative_eigenvalues == Some(1) && (next.is_finite() || near(&found, &pass)) => {
+            Ok(found)
+                if found.negative_eigenvalues == Some(1)
+                    && (next.is_finite() || are_close(&found.rho, &pass.rho, REGULAR)) =>
+            {
                 heights.push(Height { stiffness: next, energy: found.energy });
                 (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));
             }
-            _ if next.is_infinite() => return Ok(Followed { pass, heights, singular: true }),
+            _ if next.is_infinite() => return Ok((pass, heights, true)),
             Ok(found) if factor < SHORTEST => {
                 return Err(BarrierError::Index { stiffness: next, found: found.negative_eigenvalues });
             }
@@ -331,10 +311,5 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed
             _ => factor = factor.sqrt(),
         }
     }
-    Ok(Followed { pass, heights, singular: false })
-}
-
-/// Whether a pass in rigid bars is regular: no fold angle is farther from the last pass before than that.
-fn near(found: &Pass, before: &Pass) -> bool {
-    found.rho.iter().zip(&before.rho).all(|(a, b)| (a - b).abs() <= REGULAR)
+    Ok((pass, heights, false))
 }

@@ -21,6 +21,11 @@ const NO_TORQUE_RAD: f64 = 1e-11;
 /// Rest angles of copies of a crease that are the same differ by no more, in radians; stiffnesses relative to them.
 const ROUNDING: f64 = 1e-9;
 
+/// Whether angles differ by at most this much, each.
+pub(super) fn are_close(a: &[f64], b: &[f64], most: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= most)
+}
+
 /// A stable state.
 #[derive(Clone, Debug)]
 pub struct Well {

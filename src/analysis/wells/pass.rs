@@ -4,7 +4,7 @@
 //! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
 //! descending from it on both sides.
 
-use super::merge::SAME_WELL_ANGLE_RAD;
+use super::merge::{SAME_WELL_ANGLE_RAD, are_close};
 use super::settle::{MinimumTracker, Settled};
 use super::string::STRENGTH;
 use super::work::Work;
@@ -99,26 +99,22 @@ pub(crate) fn sides(
     along: &[f64],
     options: Options,
 ) -> Result<[Descent; 2], Failure> {
+    let [one_way, other_way] = [1.0, -1.0].map(|sign| along.iter().map(|turn| sign * turn).collect::<Vec<f64>>());
+    let differ = |a: &Descent, b: &Descent| !are_close(&a.end.rho, &b.end.rho, SAME_WELL_ANGLE_RAD);
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);
-        let side = |sign: f64| -> Result<(Descent, bool), Failure> {
-            let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-            descent(assembly, pass, &push, strength, options)
-        };
-        let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
-        let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
+        let side = |push: &[f64]| descent(assembly, pass, push, strength, options);
+        let ends = side(&one_way).and_then(|one| Ok((one, side(&other_way)?)));
+        let sound = matches!(&ends, Ok(((a, true), (b, true))) if differ(a, b));
         last = ends.map(|(one, other)| [one.0, other.0]);
         if sound {
             return last;
         }
     }
-    let careful = |sign: f64| {
-        let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-        careful_descent(assembly, pass, &push, options)
-    };
-    match (careful(1.0), careful(-1.0)) {
-        (Ok(one), Ok(other)) if !same(&one, &other) => Ok([one, other]),
+    let careful = |push: &[f64]| careful_descent(assembly, pass, push, options);
+    match (careful(&one_way), careful(&other_way)) {
+        (Ok(one), Ok(other)) if differ(&one, &other) => Ok([one, other]),
         _ => last,
     }
 }
@@ -152,11 +148,6 @@ fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Opti
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-/// Whether two descents end with the same fold angles.
-fn same(a: &Descent, b: &Descent) -> bool {
-    a.end.rho.iter().zip(&b.end.rho).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
 }
 
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step

@@ -8,7 +8,6 @@
 //! translation by `w_j x u_k`.
 
 use super::edge::HingedEdge;
-use super::products::add_products;
 use crate::kinematics::motion::{Line, Motion, Rigid, Twist};
 use crate::math::fold_angle::fold_angle;
 use crate::math::{Vec3, rotation};
@@ -191,5 +190,18 @@ impl Opening {
             Turn { edge: step.edge, column: None, line: Line { point: from - centre, direction }, drawn }
         };
         Self { turns: steps.iter().zip(&ends).map(turn).collect(), unit }
+    }
+}
+
+/// Adds the symmetric part of `2 half before_a x turns_b` to the matrices of its three components.
+pub(super) fn add_products(parts: &mut [DenseMatrix], (before, turns): (&[Vec3], &[Vec3]), half: f64) {
+    for (a, before) in before.iter().enumerate() {
+        for (b, turn) in turns.iter().enumerate() {
+            let product = half * before.cross(turn);
+            for (part, component) in parts.iter_mut().zip(product.iter()) {
+                part[(a, b)] += component;
+                part[(b, a)] += component;
+            }
+        }
     }
 }

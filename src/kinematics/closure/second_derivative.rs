@@ -7,8 +7,8 @@
 //!
 //! (formula of Baker, Campbell and Hausdorff).
 
-use super::products::add_products;
-use super::{Closure, opening};
+use super::Closure;
+use super::opening::{self, add_products};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 

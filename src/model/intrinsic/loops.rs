@@ -1,8 +1,26 @@
 //! The loops of a patch: one round every interior vertex, and one along the rim of every opening.
 
-use super::unsupported::Unsupported;
 use crate::math::Vec3;
 use std::collections::{HashMap, HashSet};
+use thiserror::Error;
+
+/// Why a model has no intrinsic form.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[allow(missing_docs)] // each variant is documented by its message
+pub enum Unsupported {
+    #[error("only patches are solved in fold angles")]
+    Domain,
+    #[error("pins and loads act on positions")]
+    PinsOrLoads,
+    #[error("bars or hinges have a law, or there are terms of one's own")]
+    Law,
+    #[error("edge {edge} has no bar")]
+    NoBar { edge: usize },
+    #[error("edge {edge} has no stiffness against folding")]
+    NoHinge { edge: usize },
+    #[error("the faces do not form one sheet with simple rims")]
+    Topology,
+}
 
 /// An edge seen from one of its ends.
 #[derive(Clone, Copy, Debug)]
@@ -42,11 +60,12 @@ pub(super) struct Rim {
     steps: Vec<Vec<Step>>,
 }
 
-/// An edge without face between two vertices of a rim, and the steps along the rim between its ends.
+/// The steps of a condition on angles and lengths, and what has to come of them.
 #[derive(Clone, Debug)]
-pub(super) struct Bridge {
-    pub(super) edge: usize,
-    pub(super) steps: Vec<Step>,
+pub(super) struct Condition {
+    pub steps: Vec<Step>,
+    /// The edge without face whose length the steps have to bridge; `None` for a loop that has to close.
+    pub bridge: Option<usize>,
 }
 
 impl Rim {
@@ -219,14 +238,14 @@ impl Topology {
 
     /// Returns the ways along a rim from one end to the other of the edges without face that join two vertices of
     /// triangles. Other edges without face have to hold a vertex of no triangle, alone or in pairs.
-    pub(super) fn bridges(&self, rims: &[Rim]) -> Result<Vec<Bridge>, Unsupported> {
+    pub(super) fn bridges(&self, rims: &[Rim]) -> Result<Vec<Condition>, Unsupported> {
         let (mut bridges, mut held) = (vec![], vec![0; self.vertices()]);
         for &[i, j] in &self.loose {
             match [i, j].map(|v| self.is_in_triangle(v)) {
                 [true, true] => {
                     let ways = rims.iter().flat_map(|rim| [rim.way(i, j), rim.way(j, i)]).flatten();
                     let steps = ways.min_by_key(Vec::len).ok_or(Unsupported::Topology)?;
-                    bridges.push(Bridge { edge: self.number(i, j)?, steps });
+                    bridges.push(Condition { steps, bridge: Some(self.number(i, j)?) });
                 }
                 [true, false] => held[j] += 1,
                 [false, true] => held[i] += 1,

@@ -11,7 +11,6 @@ mod loops;
 mod place;
 #[cfg(test)]
 mod tests;
-mod unsupported;
 mod word;
 
 use super::configuration::Configuration;
@@ -20,8 +19,8 @@ use super::law::Spring;
 use super::problem::Model;
 use crate::solver::constrained::{Block, Blocks, ConstrainedProblem};
 use crate::solver::{Problem, Start};
-use loops::{Step, Topology};
-pub use unsupported::Unsupported;
+pub use loops::Unsupported;
+use loops::{Condition, Step, Topology};
 use word::{Corner, Ends, Factor, Value, Word};
 
 /// A patch in fold angles and lengths.
@@ -49,7 +48,7 @@ impl IntrinsicModel {
             let patch = matches!(model.domain(), super::Domain::Patch);
             return Err(if patch { Unsupported::PinsOrLoads } else { Unsupported::Domain });
         }
-        let Collected { bars, hinges, topology } = Collected::of(model)?;
+        let (bars, hinges, topology) = collected(model)?;
         let (mut target, mut compliance) = (vec![], vec![]);
         let mut value = |spring: Spring| {
             if spring.stiffness.is_infinite() {
@@ -70,13 +69,9 @@ impl IntrinsicModel {
 
     /// Returns the number of interior vertices.
     pub fn interior_vertices(&self) -> usize {
-        self.conditions.iter().filter(|condition| condition.is_round()).count()
-    }
-
-    /// Returns the fold angle of every edge, in radians; 0 on rims.
-    pub fn fold_angles(&self, z: &[f64]) -> Vec<f64> {
-        let [angles, _] = self.measures(z);
-        angles
+        let along_edges =
+            |condition: &&Condition| condition.steps.iter().any(|step| matches!(step, Step::Along { .. }));
+        self.conditions.len() - self.conditions.iter().filter(along_edges).count()
     }
 
     /// Returns the variables of a state of the model: fold angles and lengths that are not fixed.
@@ -93,7 +88,7 @@ impl IntrinsicModel {
     }
 
     /// Returns the fold angle and the length of every edge.
-    fn measures(&self, z: &[f64]) -> [Vec<f64>; 2] {
+    pub fn measures(&self, z: &[f64]) -> [Vec<f64>; 2] {
         [&self.angles, &self.lengths].map(|values| values.iter().map(|value| value.get(z)).collect())
     }
 
@@ -179,67 +174,38 @@ impl ConstrainedProblem for IntrinsicModel {
     }
 }
 
-/// The springs of all bars and hinges by their edges, and the topology that follows from their vertices.
-struct Collected {
-    bars: Vec<Spring>,
-    hinges: Vec<Option<Spring>>,
-    topology: Topology,
-}
-
-impl Collected {
-    /// Collects the elements of a model. A lock comes before a crease on the same edge.
-    fn of(model: &Model) -> Result<Self, Unsupported> {
-        let edges = model.edges();
-        let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
-        let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
-        for element in model.elements() {
-            let Some(edge) = element.edge().filter(|_| !element.has_law()) else { return Err(Unsupported::Law) };
-            let (kind, spring) = (element.kind(), Some(element.spring));
-            match (kind, element.sites()) {
-                (TermKind::Bars, &[i, j]) => {
-                    bars[edge] = spring;
-                    ends[edge] = [i.vertex, j.vertex];
-                }
-                (TermKind::Creases | TermKind::Facets | TermKind::Locks, &[i, j, left, right]) => {
-                    hinges[edge] = if kind == TermKind::Locks { spring } else { hinges[edge].or(spring) };
-                    wings.push([i, j, left, right].map(|site| site.vertex));
-                }
-                _ => return Err(Unsupported::Topology),
+/// Collects the springs of all bars and hinges by their edges, and the topology that follows from their vertices. A
+/// lock comes before a crease on the same edge.
+fn collected(model: &Model) -> Result<(Vec<Spring>, Vec<Option<Spring>>, Topology), Unsupported> {
+    let edges = model.edges();
+    let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
+    let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
+    for element in model.elements() {
+        let Some(edge) = element.edge().filter(|_| !element.has_law()) else { return Err(Unsupported::Law) };
+        let (kind, spring) = (element.kind(), Some(element.spring));
+        match (kind, element.sites()) {
+            (TermKind::Bars, &[i, j]) => {
+                bars[edge] = spring;
+                ends[edge] = [i.vertex, j.vertex];
             }
-        }
-        let missing = |edge: usize| Unsupported::NoBar { edge };
-        let bars =
-            (0..).zip(bars).map(|(edge, spring)| spring.ok_or(missing(edge))).collect::<Result<Vec<Spring>, _>>()?;
-        let topology = Topology::new(vertices(model), &ends, &wings)?;
-        let folds = |hinge: &Option<Spring>| hinge.is_some_and(|spring| (1.0 / spring.stiffness).is_finite());
-        let inside = |edge: usize| {
-            let [i, j] = ends[edge];
-            [[i, j], [j, i]].iter().all(|&[a, b]| topology.get(a, b).is_some_and(|found| found.left.is_some()))
-        };
-        match (0..edges).find(|&edge| inside(edge) && !folds(&hinges[edge])) {
-            Some(edge) => Err(Unsupported::NoHinge { edge }),
-            None => Ok(Self { bars, hinges, topology }),
+            (TermKind::Creases | TermKind::Facets | TermKind::Locks, &[i, j, left, right]) => {
+                hinges[edge] = if kind == TermKind::Locks { spring } else { hinges[edge].or(spring) };
+                wings.push([i, j, left, right].map(|site| site.vertex));
+            }
+            _ => return Err(Unsupported::Topology),
         }
     }
-}
-
-/// Returns the number of vertices of a patch.
-fn vertices(model: &Model) -> usize {
-    model.coordinates(&model.start()).len() / 3
-}
-
-/// The steps of a condition on angles and lengths, and what has to come of them.
-#[derive(Clone, Debug)]
-struct Condition {
-    steps: Vec<Step>,
-    /// The edge without face whose length the steps have to bridge; `None` for a loop that has to close.
-    bridge: Option<usize>,
-}
-
-impl Condition {
-    /// Whether it is a loop round a vertex, which goes along no edge.
-    fn is_round(&self) -> bool {
-        !self.steps.iter().any(|step| matches!(step, Step::Along { .. }))
+    let missing = |edge: usize| Unsupported::NoBar { edge };
+    let bars = (0..).zip(bars).map(|(edge, spring)| spring.ok_or(missing(edge))).collect::<Result<Vec<Spring>, _>>()?;
+    let topology = Topology::new(model.coordinates(&model.start()).len() / 3, &ends, &wings)?;
+    let folds = |hinge: &Option<Spring>| hinge.is_some_and(|spring| (1.0 / spring.stiffness).is_finite());
+    let inside = |edge: usize| {
+        let [i, j] = ends[edge];
+        [[i, j], [j, i]].iter().all(|&[a, b]| topology.get(a, b).is_some_and(|found| found.left.is_some()))
+    };
+    match (0..edges).find(|&edge| inside(edge) && !folds(&hinges[edge])) {
+        Some(edge) => Err(Unsupported::NoHinge { edge }),
+        None => Ok((bars, hinges, topology)),
     }
 }
 
@@ -250,9 +216,7 @@ fn conditions(topology: &Topology) -> Result<Vec<Condition>, Unsupported> {
     if !topology.is_disk(rims.len()) {
         return Err(Unsupported::Topology);
     }
-    let bridges = topology.bridges(&rims)?.into_iter();
-    let bridges: Vec<Condition> =
-        bridges.map(|bridge| Condition { steps: bridge.steps, bridge: Some(bridge.edge) }).collect();
+    let bridges = topology.bridges(&rims)?;
     if let Some(outer) = (0..rims.len()).max_by_key(|&k| rims[k].len()) {
         rims.remove(outer);
     }

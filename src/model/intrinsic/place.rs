@@ -2,12 +2,10 @@
 
 use super::loops::{Directed, Topology};
 use super::word::Corner;
-use crate::math::Vec3;
+use crate::math::{Vec2, Vec3};
 use crate::numerics::dense::small::nearest_rotation;
-use nalgebra::{Matrix3, Vector2};
+use nalgebra::Matrix3;
 use std::collections::{BTreeMap, HashSet, VecDeque};
-
-type Vec2 = Vector2<f64>;
 
 /// Returns the coordinates of all vertices. Triangles are put together from the middle of the patch outward, so that
 /// rounding errors grow with its radius; then the whole is moved as close to the drawn coordinates as a rigid motion

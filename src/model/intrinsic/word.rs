@@ -9,7 +9,7 @@
 //! c`; for a translation `w = 0` and its direction `v`. For two factors, `p` before `q`, of a product that is the
 //! identity, the second derivative of the rotation vector is `(w_p x w_q) / 2` and that of the position `w_p x v_q`.
 
-use crate::math::{Vec3, rotation};
+use crate::math::{Vec3, in_lower_triangle, rotation};
 use crate::numerics::sparse::FIXED;
 use crate::solver::constrained::Block;
 use nalgebra::Matrix3;
@@ -170,12 +170,6 @@ fn vector(numbers: &[f64]) -> Vec3 {
     Vec3::from_column_slice(&numbers[..3])
 }
 
-/// Adds an amount to the entry of a row and a column, or of the column and the row, in a lower triangle.
-fn add(out: &mut [f64], row: usize, column: usize, amount: f64) {
-    let (row, column) = (row.max(column), row.min(column));
-    out[row * (row + 1) / 2 + column] += amount;
-}
-
 /// Adds `turning . R'' + moving . p''` to a lower triangle, for the rotation vector `R` of a product near the identity
 /// and its position `p`.
 fn add_hessian(rates: &[Rate], turning: &Vec3, moving: &Vec3, out: &mut [f64]) {
@@ -189,7 +183,8 @@ fn add_hessian(rates: &[Rate], turning: &Vec3, moving: &Vec3, out: &mut [f64]) {
             let force = turning.dot(&second.angular) + moving.dot(&second.linear);
             for i in 0..3 {
                 for j in (0..=i).filter(|&j| second.places[i] != FIXED && second.places[j] != FIXED) {
-                    add(out, second.places[i] as usize, second.places[j] as usize, force * hessian[(i, j)]);
+                    let place = in_lower_triangle(second.places[i] as usize, second.places[j] as usize);
+                    out[place] += force * hessian[(i, j)];
                 }
             }
         }
@@ -218,7 +213,7 @@ fn add_product(first: &Rate, second: &Rate, same: bool, amount: f64, out: &mut [
                 (true, false) => 0.5,
                 _ => 1.0,
             };
-            add(out, i, j, times * amount * a * b);
+            out[in_lower_triangle(i, j)] += times * amount * a * b;
         }
     }
 }
@@ -227,37 +222,24 @@ impl Factor {
     /// Returns how the product changes with this factor, if it varies. `axes` are x and z of the frame before it.
     fn rate(&self, z: &[f64], [x, up]: [Vec3; 2], place: &Vec3, want_hessian: bool) -> Option<Rate> {
         let about = |axis: Vec3| (axis, place.cross(&axis));
+        let of_one = |(angular, linear): (Vec3, Vec3), variable: u32, rate: f64| Rate {
+            angular,
+            linear,
+            places: [variable, FIXED, FIXED],
+            gradient: [rate, 0.0, 0.0],
+            hessian: None,
+        };
         match self {
-            Self::Fold { angle: Value::Variable(angle), sign } => {
-                let (angular, linear) = about(x);
-                Some(Rate {
-                    angular,
-                    linear,
-                    places: [*angle, FIXED, FIXED],
-                    gradient: [*sign, 0.0, 0.0],
-                    hessian: None,
-                })
-            }
+            Self::Fold { angle: Value::Variable(angle), sign } => Some(of_one(about(x), *angle, *sign)),
             Self::Sector { lengths, sign } => {
                 let (angular, linear) = about(up);
                 let corner = Corner::new(lengths.map(|length| length.get(z)));
                 let gradient = corner.gradient();
                 let hessian = want_hessian.then(|| *sign * corner.hessian(&gradient));
-                Some(Rate {
-                    angular,
-                    linear,
-                    places: lengths.map(|length| length.place()),
-                    gradient: gradient.map(|g| sign * g),
-                    hessian,
-                })
+                let places = lengths.map(|length| length.place());
+                Some(Rate { angular, linear, places, gradient: gradient.map(|g| sign * g), hessian })
             }
-            Self::Shift { length: Value::Variable(length) } => Some(Rate {
-                angular: Vec3::zeros(),
-                linear: x,
-                places: [*length, FIXED, FIXED],
-                gradient: [1.0, 0.0, 0.0],
-                hessian: None,
-            }),
+            Self::Shift { length: Value::Variable(length) } => Some(of_one((Vec3::zeros(), x), *length, 1.0)),
             _ => None,
         }
     }

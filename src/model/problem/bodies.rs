@@ -5,9 +5,9 @@
 //! `centroid + displacement + R(w) r`. The *generalised coordinates* of a model are the coordinates of all vertices,
 //! followed by six for each part; those of the vertices of a part follow from its pose.
 
-use crate::math::{Vec3, point, rotation};
+use crate::math::{Vec3, in_lower_triangle, point, rotation};
 use crate::model::element::Local;
-use crate::model::part::Part;
+use crate::model::terms::Part;
 use crate::numerics::dense::small::nearest_rotation;
 use crate::sheet::tiling::Site;
 use nalgebra::{DMatrix, Matrix3};
@@ -59,6 +59,12 @@ impl Bodies {
     /// Returns the number of the part to which a vertex belongs.
     pub(super) fn part_of(&self, vertex: usize) -> Option<usize> {
         self.part_of.get(vertex).copied().flatten()
+    }
+
+    /// Whether one part has all these sites, so that their measure keeps its value.
+    pub(crate) fn hold(&self, sites: &[Site]) -> bool {
+        let part = |site: &Site| self.part_of(site.vertex);
+        sites.first().and_then(part).is_some_and(|first| sites.iter().all(|site| part(site) == Some(first)))
     }
 
     /// Whether one of these points belongs to a part.
@@ -160,10 +166,7 @@ impl Bodies {
             .flat_map(|k| (maps[k].transpose() * point(&local.gradient, k)).as_slice().to_vec())
             .collect();
         if !local.hessian.is_empty() {
-            let entry = |row: usize, column: usize| {
-                let (high, low) = (row.max(column), row.min(column));
-                local.hessian[high * (high + 1) / 2 + low]
-            };
+            let entry = |row: usize, column: usize| local.hessian[in_lower_triangle(row, column)];
             let mut pulled = DMatrix::zeros(size, size);
             for (k, left) in maps.iter().enumerate() {
                 for (l, right) in maps.iter().enumerate() {

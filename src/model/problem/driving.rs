@@ -23,7 +23,6 @@ use std::sync::Arc;
 pub struct DrivenModel {
     /// The model, with the supports that the drive moves.
     pub model: Model,
-    quantity: Driven,
     parameter: f64,
     target: f64,
     way: f64,
@@ -45,10 +44,9 @@ impl DrivenModel {
     /// [`DriveError`] if the drive has no effect on this model.
     pub fn new(mut model: Model, drive: &Drive, drawn: Vec<f64>, loaded: bool) -> Result<Self, DriveError> {
         let first = model.compliance.len();
-        let quantity = drive.quantity.clone();
         let begin = f64::from(u8::from(loaded));
         let (mut unit, mut added) = (1.0, first..first);
-        let (effect, parameter, target) = match &quantity {
+        let (effect, parameter, target) = match &drive.quantity {
             Driven::Part { part, axis } => {
                 let pose = model.points() + POSE * part + axis;
                 model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3);
@@ -67,7 +65,7 @@ impl DrivenModel {
             Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
             Driven::Loads => (Effect::loads(&model, true, model.pressures()), begin, drive.to),
             Driven::Pressure(name) => {
-                let faces = model.pressure_of(name).ok_or(DriveError::NoPressure)?;
+                let (faces, _) = model.pressure_of(name).ok_or(DriveError::NoPressure)?;
                 let value = begin * model.springs[faces.start].stiffness;
                 (Effect::loads(&model, false, faces.map(|k| (k, 1.0)).collect()), value, drive.to)
             }
@@ -91,25 +89,24 @@ impl DrivenModel {
         if !((target - parameter).abs() > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
-        Ok(Self { unit, added, ..Self::driven(model, quantity, [parameter, target], effect) })
+        Ok(Self { unit, added, ..Self::driven(model, [parameter, target], effect) })
     }
 
     /// Makes a model whose rest values, those of locks and supports included, go from some at 0 to others at 1: one of
     /// each measure, as [`Model::values`] gives them.
     pub(crate) fn by_rests(model: Model, [from, to]: [Vec<f64>; 2]) -> Self {
-        let effect = Effect::Rest { drawn: from, given: to };
-        Self::driven(model, Driven::Rest, [0.0, 1.0], effect)
+        Self::driven(model, [0.0, 1.0], Effect::Rest { drawn: from, given: to })
     }
 
     /// Makes a model whose compliances of these bars, of the numbers among the stiff measures, go from one multiple of
     /// those given to another: of [`Model::rigid_bars`] to 0, of [`Model::soft_bars`] to 1.
     pub(crate) fn by_compliance(model: Model, bars: Vec<(usize, f64)>, multiples: [f64; 2]) -> Self {
-        Self::driven(model, Driven::Stiffness(TermKind::Bars), multiples, Effect::Compliance(bars))
+        Self::driven(model, multiples, Effect::Compliance(bars))
     }
 
-    fn driven(model: Model, quantity: Driven, [parameter, target]: [f64; 2], effect: Effect) -> Self {
+    fn driven(model: Model, [parameter, target]: [f64; 2], effect: Effect) -> Self {
         let (first, way) = (model.base.clone(), (target - parameter).abs());
-        let mut driven = Self { model, quantity, parameter, target, way, effect, unit: 1.0, added: 0..0, first };
+        let mut driven = Self { model, parameter, target, way, effect, unit: 1.0, added: 0..0, first };
         driven.set_parameter(parameter);
         driven
     }
@@ -160,12 +157,12 @@ impl DrivenModel {
 
     /// Whether the parameter is a load and its conjugate a displacement, instead of the other way round.
     pub fn is_load(&self) -> bool {
-        matches!(self.quantity, Driven::Loads | Driven::Pressure(_) | Driven::Rest | Driven::Stiffness(_))
+        !matches!(self.effect, Effect::Prescribed(_))
     }
 
     /// Whether the parameter is a stiffness, or the reciprocal of one, which should not become negative.
     pub fn is_stiffness(&self) -> bool {
-        matches!(self.quantity, Driven::Stiffness(_))
+        matches!(self.effect, Effect::Compliance(_) | Effect::Stiffness(_))
     }
 
     /// Whether extrema of the conjugate mean anything to a user: those of forces, torques and displacements do, where
@@ -173,7 +170,7 @@ impl DrivenModel {
     pub fn has_conjugate_limits(&self) -> bool {
         let model = &self.model;
         let stores = model.soft_elements() > 0 || model.compliance().iter().any(|compliance| *compliance > 0.0);
-        (stores || !model.loads.is_empty()) && !matches!(self.quantity, Driven::Rest | Driven::Stiffness(_))
+        (stores || !model.loads.is_empty()) && matches!(self.effect, Effect::Prescribed(_) | Effect::Loads { .. })
     }
 }
 
@@ -259,34 +256,28 @@ impl ParametrizedProblem for DrivenModel {
 
     fn parameter_rates(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> [Vec<f64>; 2] {
         let (mut force, mut gap) = (vec![0.0; at.gradient.len()], vec![0.0; tension.len()]);
+        let mut of_soft = vec![0.0; at.soft_stiffness.len()];
         match &self.effect {
             Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, _)| gap[*k] = -1.0),
             Effect::Loads { forces, pressures, .. } => {
                 if *forces {
                     force = self.model.load_rates(x);
                 }
-                let mut of_faces = vec![0.0; at.soft_stiffness.len()];
-                pressures.iter().for_each(|(k, unit)| of_faces[*k] = -unit);
-                at.soft_rows().add_transpose_product(&of_faces, &mut force);
+                pressures.iter().for_each(|(k, unit)| of_soft[*k] = -unit);
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
-                let count = self.model.soft_elements();
                 let by_rest = self.model.soft_by_rest(x);
-                let mut torques: Vec<f64> =
-                    by_rest.iter().zip(&moved).map(|([_, force, _], moved)| force * moved).collect();
-                torques.resize(at.soft_stiffness.len(), 0.0);
-                at.soft_rows().add_transpose_product(&torques, &mut force);
-                gap.iter_mut().zip(&moved[count..]).for_each(|(gap, moved)| *gap = -moved);
+                by_rest.iter().enumerate().for_each(|(k, [_, force, _])| of_soft[k] = force * moved[k]);
+                gap.iter_mut().zip(&moved[by_rest.len()..]).for_each(|(gap, moved)| *gap = -moved);
             }
             Effect::Compliance(units) => units.iter().for_each(|(k, unit)| gap[*k] = -unit * tension[*k]),
             Effect::Stiffness(units) => {
-                let mut torques = vec![0.0; at.soft_stiffness.len()];
                 let found = self.model.soft_responses(x);
-                units.iter().for_each(|(k, _)| torques[*k] = found[*k][1] / self.parameter);
-                at.soft_rows().add_transpose_product(&torques, &mut force);
+                units.iter().for_each(|(k, _)| of_soft[*k] = found[*k][1] / self.parameter);
             }
         }
+        at.soft_rows().add_transpose_product(&of_soft, &mut force);
         [force, gap]
     }
 

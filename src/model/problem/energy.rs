@@ -105,7 +105,11 @@ impl Problem for Model {
         let all = self.generalised(x);
         out.clear(kind);
         self.linearize_loads(&all, out);
-        self.linearize_soft(&all, kind, out);
+        let responds = |element: &Element<'_>, value: f64| {
+            let [energy, force, second] = element.response(value);
+            [energy, force, second, element.metric()]
+        };
+        self.add_soft_terms(&all, kind == HessianKind::Full, responds, out);
         self.linearize_stiff(&all, tension, out);
         self.linearize_supports(&all, tension, out);
     }
@@ -221,14 +225,6 @@ impl Model {
         local.gradient.iter_mut().zip(units).for_each(|(g, unit)| *g *= unit);
         let places = (0..units.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
         local.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h *= units[row] * units[column]);
-    }
-
-    fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
-        let responds = |element: &Element<'_>, value: f64| {
-            let [energy, force, second] = element.response(value);
-            [energy, force, second, element.metric()]
-        };
-        self.add_soft_terms(all, kind == HessianKind::Full, responds, out);
     }
 
     /// Adds the soft elements with these energies, forces, stiffnesses, and stiffnesses at rest, at their values. In the

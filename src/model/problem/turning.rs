@@ -24,9 +24,8 @@ impl Model {
         if self.equations.gauge == Gauge::Free || self.loads.is_empty() {
             return vec![];
         }
-        let held: Vec<bool> = number.iter().map(|k| *k == FIXED).collect();
         let motions = self.rigid_motions(&self.base, true);
-        let mut held = held;
+        let mut held: Vec<bool> = number.iter().map(|k| *k == FIXED).collect();
         held.resize(motions.len(), true);
         self.chosen_by_pieces(&motions, &held).into_iter().map(|k| number[k]).collect()
     }

@@ -3,7 +3,7 @@
 use crate::model::element::{Local, Term, TermKind};
 use crate::model::law::{Spring, Stored};
 use crate::model::measure::FoldAngle;
-use crate::model::problem::{Bodies, Conditions, Equations, Gauge, Model};
+use crate::model::problem::{Bodies, Equations, Gauge, Model};
 use crate::model::{Domain, Site};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -27,8 +27,7 @@ fn model_of_one_hinge(drawn: Vec<f64>) -> Model {
         mean_edge: 1.0,
         gauge: Gauge::Held,
     };
-    let conditions = Conditions { pinned: vec![], supports: vec![], loads: vec![] };
-    Model::new(equations, vec![Spring { stiffness: 1.0, rest: 0.0 }], conditions)
+    Model::new(equations, vec![Spring { stiffness: 1.0, rest: 0.0 }], vec![], vec![], vec![])
 }
 
 /// Claim: in steps of less than half a turn the angle is followed over two turns and back, by the functions for the

@@ -2,7 +2,7 @@
 
 use super::Numbers;
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary, Gauge, Hinges, Laws, Model, Ogden, RIGID, Stiffening, Terms};
+use crate::model::{Assembly, Boundary, Gauge, Hinges, Laws, Model, OfStrain, Ogden, RIGID, Stiffening, Terms};
 use crate::numerics::dense;
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
@@ -44,7 +44,7 @@ fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) 
 /// Laws of bars, creases and facets, whose limits lie among the angles of the states that are looked at.
 fn laws() -> Laws {
     Laws {
-        bars: Some(Ogden { exponents: [5.0, 1.0] }.into()),
+        bars: Some(OfStrain(Ogden { exponents: [5.0, 1.0] }).into()),
         creases: Some(Stiffening { limits: [-0.3, 0.9] }.into()),
         facets: Some(Stiffening { limits: [-0.01, 0.01] }.into()),
     }

@@ -54,12 +54,11 @@ fn roll_at(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, angles: &[f64]) -> Rol
     let each = if kept.rise { screw.theta } else { screw.rise() };
     let free = (!kept.is_closed()).then(|| of(strand, each));
     let coordinates = placed.chain([of(row, screw.theta), of(row, screw.rise())]).chain(free).collect();
-    Roll { seam, kept, coordinates, angles: angles.to_vec(), frame: Matrix3::identity(), origin: Vec3::zeros() }
+    Roll { seam, kept, coordinates, angles: angles.to_vec() }
 }
 
-/// Claim: with the turn of the seam kept there are two trajectories. Every state closes, its seam turns by `2 pi`, the
-/// rise moves the way of the sign, and the states are those of [`Tube::slip`] at equal lengths. Tolerances: those
-/// required; for `slip`, which stops at the same length by the same arc length, a hundred residuals.
+/// Claim: with the turn of the seam kept there are two trajectories. Every state closes, its seam turns by `2 pi`, and
+/// the rise moves the way of the sign. Tolerances: those required.
 #[test]
 fn the_seam_slips_both_ways() {
     for (sheet, seam) in cells() {
@@ -78,10 +77,6 @@ fn the_seam_slips_both_ways() {
             }
             assert!(rises.is_sorted() && rises[0].abs() <= 1e-13, "{seam:?}: {rises:?}");
             assert!(rises[rises.len() - 1] > 0.5, "{rises:?}");
-            let slipped = tube.slip(&roll.angles, one.branch.1 > 0, 0.6).unwrap();
-            let ends = [&slipped.points.last().unwrap().x, &one.states.last().unwrap().angles];
-            let apart = ends[0].iter().zip(ends[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(apart <= 1e-11, "{seam:?}: {apart:e}");
         }
     }
 }

@@ -89,7 +89,7 @@ fn surface_of_open_star() {
     for (k, point) in surface.points.iter().enumerate() {
         let residual = closure.residual(&point.angles).amax();
         assert!(residual <= 1e-12 && point.residual <= 1e-12, "{residual:e}");
-        assert!(point.shape.compatibility.largest() <= 1e-12);
+        assert!(point.shape.compatibility <= 1e-12);
         let off = point.shape.curvature.abs() - 0.5;
         assert!(if border.contains(&k) { off.abs() <= 1e-10 } else { off < 0.0 }, "{k}: {off:e}");
         let tip = point.radius == 0.0;

@@ -68,7 +68,7 @@ impl Folding {
                 .map(|[i, j]| (j - i).norm());
             (placed / drawn - 1.0).abs()
         });
-        let (ways, bars) = (placement.compatibility.largest(), bars.fold(0.0, f64::max));
+        let (ways, bars) = (placement.compatibility, bars.fold(0.0, f64::max));
         assert!(ways <= COMPATIBLE && bars <= COMPATIBLE, "{}: {ways:e}, {bars:e}", self.sheet.title);
         Shape::of(&self.embedding, placement).unwrap()
     }

@@ -1,7 +1,6 @@
 //! Tubes: screw-periodic sheets that close on themselves, their seams and their ends.
 
 use crate::common::{Testing, jacobian, linearized, mesh, on};
-use approx::abs_diff_eq;
 use foldwell::analysis::chart::coordinates;
 use foldwell::analysis::trace::Folded;
 use foldwell::kinematics::tube::{BOTH, Condition};
@@ -14,7 +13,6 @@ use foldwell::numerics::dense::{least_squares, null_space};
 use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Corner, EdgeKind, Pattern, Seam, Sheet, generate};
-use foldwell::solver::continuation::End;
 use nalgebra::{Matrix3, Rotation3};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -53,7 +51,7 @@ fn tubes_close() {
         let (turn, rise) = (of(theta).abs() - TAU, of(screw.rise()));
         assert!(turn.abs() <= 2e-14 && rise.abs() <= 2e-14, "{turn:e} {rise:e}");
         assert!(Closure::of_cell(&sheet).unwrap().residual(&angles).amax() <= 4e-15);
-        assert!(compatibility.largest() <= 1e-13, "{compatibility:?}");
+        assert!(compatibility <= 1e-13, "{compatibility:?}");
         let once_round = screw.motion([n1, n2]);
         let moved = |x: &Vec3| (once_round.apply(x) - x).norm();
         assert!(moved(&Vec3::zeros()) <= 1e-13 && moved(&Vec3::new(1.0, 2.0, 3.0)) <= 1e-13);
@@ -110,30 +108,6 @@ fn motions_left_by_the_conditions() {
                 assert_eq!(null.basis.ncols(), left, "{} {seam:?} {kept:?}", sheet.title);
                 assert!(null.gap > 1e10, "{:e}", null.gap);
             }
-        }
-    }
-}
-
-/// Claim: the seam of a tube slips, in both directions, over a finite distance: `n1 theta1 + n2 theta2 = 2 pi` to 1e-12
-/// along the whole way and faces closed, while its end climbs over its start, step by step, by more than 0.04 of the
-/// seam's length. Followed over 0.5 rad in fold angles. If its height were kept instead, the tube would widen: the same
-/// motion is refused. Tolerance: the required one.
-#[test]
-fn the_seam_slips() {
-    for (sheet, seam, angles) in tubes() {
-        let tube = Tube::new(&sheet, seam).unwrap();
-        for (rising, sign) in [(true, 1.0), (false, -1.0)] {
-            let slipped = tube.slip(&angles, rising, 0.5).unwrap();
-            assert_eq!(slipped.end, End::Length);
-            for point in &slipped.points {
-                let Shape { theta, compatibility, .. } = shape(&sheet, &point.x);
-                let turn = f64::from(seam[0]) * theta[0] + f64::from(seam[1]) * theta[1];
-                assert!(abs_diff_eq!(turn.abs(), TAU, epsilon = 1e-12), "{turn}");
-                assert!(point.residual <= 1e-13 && compatibility.largest() <= 1e-12, "{compatibility:?}");
-            }
-            let rises: Vec<f64> = slipped.points.iter().map(|point| sign * tube.defects(&point.x)[1]).collect();
-            assert!(rises.is_sorted() && rises[0].abs() <= 1e-15, "{rises:?}");
-            assert!(rises[rises.len() - 1] > 0.04, "{rises:?}");
         }
     }
 }

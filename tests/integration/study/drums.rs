@@ -3,7 +3,7 @@
 
 use foldwell::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, follow_path};
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, Builder, Drive, Driven, GreenLagrange, Ogden, Stiffening};
+use foldwell::model::{Assembly, Builder, Drive, Driven, GreenLagrange, OfStrain, Ogden, Stiffening};
 use foldwell::sheet::{Sheet, fold};
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
@@ -161,9 +161,9 @@ fn a_conical_drum_is_pressed_as_its_bars_say() {
     type Case = (fn(Builder) -> Builder, fn(f64) -> f64);
     let cases: [Case; 4] = [
         (|bars| bars, |l| l - 1.0),
-        (|bars| bars.bar_law(GreenLagrange), |l| l * (l * l - 1.0) / 2.0),
-        (|bars| bars.bar_law(Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
-        (|bars| bars.bar_law(Ogden { exponents: [2.0, -1.0] }), |l| (l - l.powi(-2)) / 3.0),
+        (|bars| bars.bar_law(OfStrain(GreenLagrange)), |l| l * (l * l - 1.0) / 2.0),
+        (|bars| bars.bar_law(OfStrain(Ogden { exponents: [5.0, 1.0] })), |l| (l.powi(4) - 1.0) / 4.0),
+        (|bars| bars.bar_law(OfStrain(Ogden { exponents: [2.0, -1.0] })), |l| (l - l.powi(-2)) / 3.0),
     ];
     let ring = |first: usize| (first..first + 7).map(|vertex| (vertex, [0, 0]));
     for (number, (law, by_stretch)) in cases.into_iter().enumerate() {
@@ -202,8 +202,11 @@ fn a_drum_of_merlin_is_folded_as_its_closed_form() {
             builder.pin(vertex, [0, 0], [true; 3]).load(8 + vertex, [0, 0], [0.0, 0.0, -1.0])
         });
         let limits = Stiffening { limits: [-0.75 * PI, 0.75 * PI] };
-        let builder =
-            if with_own { builder.bar_law(Ogden { exponents: [5.0, 1.0] }).crease_law(limits) } else { builder };
+        let builder = if with_own {
+            builder.bar_law(OfStrain(Ogden { exponents: [5.0, 1.0] })).crease_law(limits)
+        } else {
+            builder
+        };
         let branch = followed(builder, Driven::Loads, to);
         if !with_own {
             let first = limit_loads(&branch)[0];

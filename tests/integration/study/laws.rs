@@ -49,9 +49,9 @@ fn bars_are_stretched_by_their_law() {
             |bars| bars.bar_law(OfStrain(Bilinear { ratio: 0.5, at: [-0.01, 0.1] })),
             |l| (l - 1.0).clamp(-0.01, 0.1) + 0.5 * ((l - 1.1).max(0.0) + (l - 0.99).min(0.0)),
         ),
-        (|bars| bars.bar_law(Ogden { exponents: [5.0, 1.0] }), |l| (l.powi(4) - 1.0) / 4.0),
-        (|bars| bars.bar_law(Ogden { exponents: [2.0, 0.0] }), |l| (l - 1.0 / l) / 2.0),
-        (|bars| bars.bar_law(GreenLagrange), |l| l * (l * l - 1.0) / 2.0),
+        (|bars| bars.bar_law(OfStrain(Ogden { exponents: [5.0, 1.0] })), |l| (l.powi(4) - 1.0) / 4.0),
+        (|bars| bars.bar_law(OfStrain(Ogden { exponents: [2.0, 0.0] })), |l| (l - 1.0 / l) / 2.0),
+        (|bars| bars.bar_law(OfStrain(GreenLagrange)), |l| l * (l * l - 1.0) / 2.0),
     ];
     for (law, by_stretch) in forces {
         for (stiffness, force) in [(3.0, 1.0), (3.0, -0.4), (1e3, 20.0), (1e6, -5.0), (1e12, 1.0)] {
@@ -165,7 +165,7 @@ fn hinges_have_the_torque_of_their_law() {
 #[should_panic(expected = "a rigid element has no law")]
 fn rigid_elements_have_no_law() {
     let ends = [0, 1].map(|vertex| Site { vertex, shift: [0, 0] });
-    OwnTerm::with_law("rod", Length, [(ends, Spring { stiffness: RIGID, rest: 1.0 })], GreenLagrange);
+    OwnTerm::with_law("rod", Length, [(ends, Spring { stiffness: RIGID, rest: 1.0 })], OfStrain(GreenLagrange));
 }
 
 /// Claim: on a path of rest angles the work of the drive is the energy, with laws too: the derivatives by rest values
@@ -179,7 +179,7 @@ fn rest_angles_do_work_against_laws() {
         (0..).zip(&drawn).map(|(k, angle)| angle + 1.5 * ((f64::from(k) * 0.618).fract() - 0.5)).collect();
     for (bars, creases) in [(1e3, 1.0), (1e6, 1e5)] {
         let energy = Assembly::patch(sheet.clone(), [2, 2]).bars(bars).creases(creases).facets(3.0);
-        let energy = energy.rest(Rest::PerEdge(rest.clone())).bar_law(GreenLagrange);
+        let energy = energy.rest(Rest::PerEdge(rest.clone())).bar_law(OfStrain(GreenLagrange));
         let laws = energy.crease_law(Stiffening { limits: [-1.05 * largest, 1.05 * largest] });
         let drive = Drive { quantity: Driven::Rest, to: 1.0 };
         let options = PathOptions { max_step: 0.02, ..PathOptions::default() };
@@ -386,7 +386,7 @@ fn wells_have_the_energy_of_all_terms() {
     let ends = [0, 3 * plain.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
     let band =
         |stiffness: f64| plain.with_own_term(OwnTerm::new("band", Length, [(ends, Spring { stiffness, rest: 1.0 })]));
-    let of_bars = miura().bar_law(GreenLagrange).build().unwrap();
+    let of_bars = miura().bar_law(OfStrain(GreenLagrange)).build().unwrap();
     let of_creases = miura().crease_law(Stiffening { limits: [-3.0, 3.0] }).build().unwrap();
     for assembly in [band(2.0), band(1e9), of_bars, of_creases, plain] {
         let starts = Starts { count: 2, seed: 0, spread: 0.1, options: Options::default() };

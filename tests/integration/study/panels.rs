@@ -2,7 +2,7 @@
 
 use crate::common::{Scene, case_folder, mesh, scaled, turned};
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
-use foldwell::model::{Assembly, Drive, Driven, Law, Material, Ogden, Stiffening, Stiffness};
+use foldwell::model::{Assembly, Drive, Driven, Law, Material, OfStrain, Ogden, Stiffening, Stiffness};
 use foldwell::sheet::{EdgeKind, Sheet, fold, tile, with_centres};
 use foldwell::{Pattern, generate, relax};
 use nalgebra::{Matrix2, Rotation3, Vector2, Vector3};
@@ -199,7 +199,7 @@ fn pushed(published: &Published, sheet: &Sheet, with_laws: bool) -> f64 {
     builder = builder.pin(1, [0, 0], [false, true, true]).pin(58, [0, 0], [true, false, true]);
     if with_laws {
         let stiffening = Stiffening { limits: [-0.75 * PI, 0.75 * PI] };
-        builder = builder.bar_law(Ogden { exponents: [5.0, 1.0] }).crease_law(stiffening).facet_law(Smooth);
+        builder = builder.bar_law(OfStrain(Ogden { exponents: [5.0, 1.0] })).crease_law(stiffening).facet_law(Smooth);
     }
     let driven = Driven::Vertices { vertices: vec![58], direction: Vector3::y() };
     let drive = Drive { quantity: driven, to: -30.0 };

@@ -131,7 +131,7 @@ fn solve(intrinsic: &IntrinsicModel, run: &mut Run<'_>, start: &Start) -> Result
     let large = shown.compliance().len() >= parallel::FEWEST_SHARED_ELEMENTS;
     let minimize = || minimize_constrained(intrinsic, z, &mut seen);
     let found = parallel::meanwhile(large, analyse, minimize).map_err(|error| error.failure)?;
-    let angle = max_abs(&intrinsic.fold_angles(&found.z));
+    let angle = max_abs(&intrinsic.measures(&found.z)[0]);
     if !(angle <= LARGEST_ANGLE_RAD) {
         return Err(IntrinsicFailure::FoldedThrough { angle });
     }

@@ -2,7 +2,7 @@
 //! stress.
 
 use super::straight_screw;
-use crate::analysis::relax::rigid_forces::rigid_over_others;
+use crate::analysis::relax::certainty::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_interruption};
 use crate::model::Domain;
 use crate::solver::{Equilibrium, Options, Start, tension};

@@ -97,14 +97,13 @@ fn follow_minima(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, mut st
     let (mut parameter, target) = (driven.parameter(), driven.target());
     let first = run.recorder.steps();
     while run.recorder.steps() < first + MOST_STEPS {
-        let Stretch { end, parameter: reached, x, tension } = stretch(run, drive, (parameter, start));
-        if end == StretchEnd::Interrupted {
-            return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
-        }
-        let (known, place) = (if end == StretchEnd::Lost { None } else { Some(tension) }, run.model.clone());
-        let found =
-            known.and_then(|tension| minimum(run, drive, reached, Start { x: x.clone(), tension: Some(tension) }));
-        let found = found.map(|found| (reached, found)).or_else(|| farther(run, drive, reached, (&place, &x)));
+        let (reached, place) = match stretch(run, drive, (parameter, start)) {
+            Ok(reached) => reached,
+            Err(interrupted) => return Some(Err(interrupted)),
+        };
+        let (model, x) = (run.model.clone(), place.x.clone());
+        let found = if place.tension.is_some() { minimum(run, drive, reached, place) } else { None };
+        let found = found.map(|found| (reached, found)).or_else(|| farther(run, drive, reached, (&model, &x)));
         match found? {
             (_, Err(interrupted)) => return Some(Err(interrupted)),
             (next, Ok(found)) if next == target => return Some(Ok(found)),
@@ -144,27 +143,13 @@ fn farther(
     })
 }
 
-/// The reason for which a stretch of a path ends.
-#[derive(Clone, Copy, PartialEq)]
-enum StretchEnd {
-    Target,
-    Unstable,
-    Lost,
-    Interrupted,
-}
-
-/// A stretch of a path on which states are stable.
-struct Stretch {
-    end: StretchEnd,
-    /// The parameter from which to go on.
-    parameter: f64,
-    /// Unknowns and tensions of the last state.
-    x: Vec<f64>,
-    tension: Vec<f64>,
-}
-
-/// Follows a path from an equilibrium at a parameter as far as it is stable.
-fn stretch(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, (from, start): (f64, Equilibrium)) -> Stretch {
+/// Follows a path from an equilibrium at a parameter as far as it is stable. Returns the parameter from which to go on,
+/// and the last state, without tensions where no step leads on; an error where the observer asks to stop.
+fn stretch(
+    run: &mut Run<'_>,
+    drive: &dyn Fn(Model) -> DrivenModel,
+    (from, start): (f64, Equilibrium),
+) -> Result<(f64, Start), NewtonError> {
     let (mut driven, recorder) = (drive(run.model.clone()), &mut run.recorder);
     driven.set_parameter(from);
     let target = driven.target();
@@ -176,26 +161,32 @@ fn stretch(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, (from, start
         ..PathSettings::default()
     };
     let begin = Start { x: start.x.clone(), tension: Some(start.tension.clone()) };
-    let (mut end, mut furthest) = (StretchEnd::Lost, from);
+    let (mut interrupted, mut unstable, mut furthest) = (false, false, from);
     let reached = reach(&mut driven, begin, &settings, &mut |driven, state| {
-        if !recorder.see(&step_of(driven, state), || State::new(&driven.model, &state.x, &state.tension)) {
-            end = StretchEnd::Interrupted;
-        } else if state.negative_eigenvalues.is_some_and(|count| count > 0) {
-            end = StretchEnd::Unstable;
-        } else if (state.parameter - furthest) * (target - from) > 0.0 {
+        interrupted = !recorder.see(&step_of(driven, state), || State::new(&driven.model, &state.x, &state.tension));
+        unstable = state.negative_eigenvalues.is_some_and(|count| count > 0);
+        let goes_on = !interrupted && !unstable;
+        if goes_on && (state.parameter - furthest) * (target - from) > 0.0 {
             furthest = state.parameter;
         }
-        end == StretchEnd::Lost
+        goes_on
     });
-    let Ok((state, arrived)) = reached else {
-        return Stretch { end, parameter: from, x: start.x, tension: start.tension };
+    let (parameter, leads_on, x, tension) = match reached {
+        Err(_) => (from, unstable, start.x, start.tension),
+        Ok((state, arrived)) => {
+            let turned = (interrupted || unstable) && state.tangent.parameter * (target - from) < 0.0;
+            // where the path turns back at a limit point, the next equilibrium is sought beyond it
+            let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
+            interrupted &= !arrived;
+            run.model = driven.model;
+            let parameter = if turned { beyond } else { state.parameter };
+            (if arrived { target } else { parameter }, arrived || unstable, state.x, state.tension)
+        }
     };
-    let turned = end != StretchEnd::Lost && state.tangent.parameter * (target - from) < 0.0;
-    let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
-    let parameter = if turned { beyond } else { state.parameter };
-    let (end, parameter) = if arrived { (StretchEnd::Target, target) } else { (end, parameter) };
-    run.model = driven.model;
-    Stretch { end, parameter, x: state.x, tension: state.tension }
+    if interrupted {
+        return Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] });
+    }
+    Ok((parameter, Start { x, tension: leads_on.then_some(tension) }))
 }
 
 /// The record of a state of a path among the steps of a relaxation.

@@ -11,7 +11,7 @@
 //! grows as `k^(1/3)`: the state tends to a rigid one, in which no tensions balance the torques. That is said, since no
 //! iteration can converge to it.
 
-use crate::analysis::relax::rigid_forces::rigid_over_others;
+use crate::analysis::relax::certainty::rigid_over_others;
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
 use crate::math::fold_angle::FLAT_RAD;
 use crate::model::{Model, TermKind};

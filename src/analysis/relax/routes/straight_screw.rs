@@ -25,16 +25,16 @@ const STRAIGHT: f64 = 1e-9;
 const AXIS: f64 = 0.3;
 const AXES: usize = 4;
 
-/// The curvature of a state times the unit of length; `None` if the model is no screw.
-fn curvature(model: &Model, coordinates: &[f64]) -> Option<f64> {
-    Some(model.domain().turns(coordinates)?.kappa.abs() * model.unit_of_length())
+/// Whether a screw has at most this curvature times the mean length of an edge.
+fn is_straight(model: &Model, coordinates: &[f64], most: f64) -> bool {
+    let turns = model.domain().turns(coordinates);
+    turns.is_some_and(|turns| turns.kappa.abs() * model.unit_of_length() <= most)
 }
 
 /// Whether a relaxation of a screw failed with hardly any curvature.
 pub(super) fn is_nearly_straight(run: &Run<'_>, ending: &Ending) -> bool {
     let Err(error) = ending else { return false };
-    let curvature = || curvature(&run.model, &run.model.coordinates(&error.x));
-    has_failed(run, ending) && curvature().is_some_and(|curvature| curvature <= NEARLY)
+    has_failed(run, ending) && is_straight(&run.model, &run.model.coordinates(&error.x), NEARLY)
 }
 
 /// The equilibrium that a nearly straight screw reaches by way of straight ones.
@@ -48,8 +48,7 @@ pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
 
 /// Whether a relaxation starts next to an equilibrium without curvature.
 pub(crate) fn begins_straight(run: &Run<'_>) -> bool {
-    let is_straight = |curvature| curvature <= ROUNDING;
-    run.is_restarted() && curvature(&run.model, &run.start.coordinates).is_some_and(is_straight)
+    run.is_restarted() && is_straight(&run.model, &run.start.coordinates, ROUNDING)
 }
 
 /// The equilibrium next to a straight start, about an axis that keeps its direction unless the sheet bends.
@@ -65,7 +64,7 @@ fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending
         let reached = run.minimize(start);
         let last = reached.as_ref().map_or_else(|error| &error.x, |found| &found.x);
         let mut place = run.model.coordinates(last);
-        let straight = curvature(&run.model, &place).is_some_and(|curvature| curvature <= ROUNDING);
+        let straight = is_straight(&run.model, &place, ROUNDING);
         if straight {
             run.model.domain().bend(&mut place, AXIS, 0.0);
         }
@@ -84,7 +83,7 @@ fn with_axis_held(run: &mut Run<'_>, mut start: Start, left: &[usize]) -> Ending
 /// is how it starts again. Others, and those that do not meet it so, are returned as they are.
 pub(super) fn about_one_axis(run: &mut Run<'_>, found: Equilibrium) -> Ending {
     let place = run.model.coordinates(&found.x);
-    if !curvature(&run.model, &place).is_some_and(|curvature| curvature <= ROUNDING) {
+    if !is_straight(&run.model, &place, ROUNDING) {
         return Ok(found);
     }
     let (tension, steps) = (Some(found.tension.clone()), run.recorder.steps());
@@ -105,7 +104,7 @@ pub(super) fn about_one_axis(run: &mut Run<'_>, found: Equilibrium) -> Ending {
 /// effect, and the sign of its eigenvalue is one of rounding. Other equilibria are returned as they are.
 pub(crate) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     let place = model.coordinates(&found.x);
-    if !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT) {
+    if !is_straight(model, &place, STRAIGHT) {
         return found;
     }
     if found.negative_eigenvalues == Some(0) {

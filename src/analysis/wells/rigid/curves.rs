@@ -10,7 +10,6 @@ use crate::kinematics::{
 use crate::model::{Assembly, Domain};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
-use crate::solver::Implicit;
 use crate::solver::continuation::{CurveOptions, End, Point, follow};
 use std::f64::consts::TAU;
 
@@ -85,16 +84,13 @@ pub(super) fn net(
 /// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the
 /// Jacobian pass zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
 fn meetings(folding: &mut Closing<'_>, points: &[Point]) -> Result<usize, KinematicsError> {
-    let (rows, columns) = (folding.equations(), folding.unknowns());
-    let (mut residual, mut last) = (vec![0.0; rows], None::<DenseMatrix>);
-    let mut found = 0;
+    let (mut found, mut last) = (0, None::<DenseMatrix>);
     for point in points.get(1..points.len() - 1).unwrap_or_default() {
-        let mut next = DenseMatrix::zeros(rows, columns);
-        folding.linearize(&point.x, &mut residual, &mut next);
+        let (_, next) = folding.linearized(&point.x);
         if let Some(last) = &last {
             let across = full_svd(last)?.v;
             let turned = |k: usize| (last * across.column(k)).dot(&(&next * across.column(k))) < 0.0;
-            found += usize::from((0..columns - 1).any(turned));
+            found += usize::from((0..next.ncols() - 1).any(turned));
         }
         last = Some(next);
     }

@@ -15,6 +15,7 @@ mod extent;
 mod flood;
 mod surface;
 
+use super::merge::are_close;
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
@@ -73,7 +74,7 @@ pub struct RigidPass {
 }
 
 /// Wells and passes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct RigidLandscape {
     /// Dimension of the folded states: 1 or 2.
     pub dimension: usize,
@@ -136,54 +137,119 @@ pub fn landscape(
     let lowest = |angles: &[f64], sign: f64| {
         Surface::lowest_on_crossing(assembly, &options, angles, &|angles| sign * springs.energy(angles))
     };
-    Ok(polished((&springs, &extent), &net, (sampling.step, &lowest)))
+    let reach = NEIGHBOUR_DISTANCES * sampling.step;
+    Ok(Sampled { springs: &springs, extent: &extent, net: &net, reach, lowest: &lowest }.polished())
 }
 
-/// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially
-/// periodic states.
-type OnCrossing<'a> = &'a dyn Fn(&[f64], f64) -> Option<Lowest>;
+/// A net, and what makes its states exact.
+struct Sampled<'a> {
+    springs: &'a Springs,
+    extent: &'a Extent,
+    net: &'a Net,
+    /// Largest distance of an exact state from a sampled one.
+    reach: f64,
+    /// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially
+    /// periodic states.
+    lowest: &'a dyn Fn(&[f64], f64) -> Option<Lowest>,
+}
 
-/// Wells and passes of a net, made exact.
-fn polished(within: (&Springs, &Extent), net: &Net, (step, lowest): (f64, OnCrossing<'_>)) -> RigidLandscape {
-    let (springs, extent) = within;
-    let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
-    let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
-    let (dimension, states) = (net.dimension, net.angles.len());
-    let (wells, contacts, passes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost: 0, open: net.open };
-    // the well of each minimum; none where the landscape ends there, or where it is no well
-    let mut well = vec![None; states];
-    for &at in &minima {
-        let found = if let Some(found) = net.well_on_seam(within, at, (NEIGHBOUR_DISTANCES * step, lowest)) {
-            Some(found)
-        } else if net.seam == 0 {
-            None
-        } else if net.border[at] || net.singular[at] {
-            net.beside(at).find_map(|other| between(within, net, [at, other]))
-        } else {
-            exact(within, &net.angles[at], (0, NEIGHBOUR_DISTANCES * step))
-        };
-        match found {
-            Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
-            None if net.border[at] => landscape.contacts.extend(net.touches(extent, at).then_some(energies[at])),
-            // where branches cross nothing is stationary: the state is the lowest of the samples only
-            None => landscape.lost += usize::from(!net.singular[at] || at >= net.seam),
+impl Sampled<'_> {
+    /// Wells and passes of the net, made exact.
+    fn polished(&self) -> RigidLandscape {
+        let (springs, net) = (self.springs, self.net);
+        let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
+        let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
+        let (dimension, states) = (net.dimension, net.angles.len());
+        let mut landscape = RigidLandscape { dimension, states, open: net.open, ..RigidLandscape::default() };
+        // the well of each minimum; none where the landscape ends there, or where it is no well
+        let mut well = vec![None; states];
+        for &at in &minima {
+            match self.well(at) {
+                Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
+                // a curve ends there because a crease is shut
+                None if net.border[at] => {
+                    let touches = dimension == 1 && self.extent.is_met(&net.angles[at]);
+                    landscape.contacts.extend(touches.then_some(energies[at]));
+                }
+                // where branches cross nothing is stationary: the state is the lowest of the samples only
+                None => landscape.lost += usize::from(!net.singular[at] || at >= net.seam),
+            }
         }
-    }
-    // wells so near to where branches cross that no sample lies between
-    for at in (0..states).filter(|&at| net.singular[at] && dimension == 1) {
-        let hidden = net.beside(at).filter_map(|other| between(within, net, [at, other]));
-        hidden.for_each(|found| {
-            known(&mut landscape.wells, found);
-        });
-    }
-    for Merge { lower, at } in merges {
-        if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) {
-            landscape.add_pass(within, net, ([a, b], at), (step, lowest));
+        // wells so near to where branches cross that no sample lies between
+        for at in (0..states).filter(|&at| net.singular[at] && dimension == 1) {
+            for found in net.beside(at).filter_map(|other| self.between([at, other])) {
+                known(&mut landscape.wells, found);
+            }
         }
+        for Merge { lower, at } in merges {
+            if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum])
+                && a != b
+            {
+                let pass = |(angles, singular): (Vec<f64>, bool)| RigidPass {
+                    joins: [a, b],
+                    energy: springs.energy(&angles),
+                    angles,
+                    singular,
+                };
+                match self.pass(at) {
+                    Some(found) => landscape.passes.push(pass(found)),
+                    None => landscape.lost += 1,
+                }
+            }
+        }
+        landscape.sort();
+        landscape
     }
-    landscape.sort();
-    landscape
+
+    /// The well at a minimum of the samples.
+    fn well(&self, at: usize) -> Option<Stationary> {
+        let net = self.net;
+        self.well_on_seam(at).or_else(|| match net.seam {
+            0 => None,
+            _ if net.border[at] || net.singular[at] => net.beside(at).find_map(|other| self.between([at, other])),
+            _ => self.exact(at, 0),
+        })
+    }
+
+    /// The well on the curve on which surfaces cross, next to a state of it or beside it.
+    fn well_on_seam(&self, at: usize) -> Option<Stationary> {
+        let net = self.net;
+        let mut on = [at].into_iter().chain(net.beside(at)).filter(|&at| at >= net.seam);
+        let Lowest { angles, residual, error, well } = (self.lowest)(&net.angles[on.next()?], 1.0)?;
+        let apart = distance(&angles, &net.angles[at]);
+        let inside = self.extent.holds(&angles);
+        let energy = self.springs.energy(&angles);
+        let found = Stationary { angles, energy, negative_eigenvalues: 0, residual, error };
+        (well && inside && apart <= self.reach).then_some(found)
+    }
+
+    /// The well between two neighbours, the first of which has no tangents or lies on the border.
+    fn between(&self, ends: [usize; 2]) -> Option<Stationary> {
+        let [here, there] = ends.map(|state| &self.net.angles[state]);
+        let most = (1.0 + SAME_STATE_ANGLE_RAD) * distance(here, there);
+        let found = self.springs.stationary(there)?;
+        let inside = [here, there].iter().all(|end| distance(&found.angles, end) <= most);
+        (found.negative_eigenvalues == 0 && inside && self.extent.holds(&found.angles)).then_some(found)
+    }
+
+    /// The stationary state of this index next to a sampled one.
+    fn exact(&self, at: usize, index: usize) -> Option<Stationary> {
+        let angles = &self.net.angles[at];
+        let found = self.springs.stationary(angles)?;
+        let near = distance(&found.angles, angles) <= self.reach;
+        (found.negative_eigenvalues == index && near && self.extent.holds(&found.angles)).then_some(found)
+    }
+
+    /// The angles of the pass at a state, and whether it is singular.
+    fn pass(&self, at: usize) -> Option<(Vec<f64>, bool)> {
+        let angles = &self.net.angles[at];
+        if at >= self.net.seam {
+            // where two surfaces cross it is the lowest state of the curve, and on the curve alone the highest
+            let (sign, singular) = if self.net.dimension == 2 { (1.0, true) } else { (-1.0, false) };
+            return Some(((self.lowest)(angles, sign)?.angles, singular));
+        }
+        if self.net.singular[at] { Some((angles.clone(), true)) } else { Some((self.exact(at, 1)?.angles, false)) }
+    }
 }
 
 impl Net {
@@ -191,55 +257,11 @@ impl Net {
     fn beside(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
         self.links.iter().filter(move |link| link.contains(&at)).map(move |[a, b]| a + b - at)
     }
-
-    /// The well on the curve on which surfaces cross, next to a state of it or beside it.
-    fn well_on_seam(
-        &self,
-        (springs, extent): (&Springs, &Extent),
-        at: usize,
-        (reach, lowest): (f64, OnCrossing<'_>),
-    ) -> Option<Stationary> {
-        let mut on = [at].into_iter().chain(self.beside(at)).filter(|&at| at >= self.seam);
-        let Lowest { angles, residual, error, well } = lowest(&self.angles[on.next()?], 1.0)?;
-        let apart = distance(&angles, &self.angles[at]);
-        let inside = extent.holds(&angles);
-        let energy = springs.energy(&angles);
-        (well && inside && apart <= reach).then_some(Stationary {
-            angles,
-            energy,
-            negative_eigenvalues: 0,
-            residual,
-            error,
-        })
-    }
-
-    /// Whether a curve ends in a state because a crease is shut.
-    fn touches(&self, extent: &Extent, at: usize) -> bool {
-        self.dimension == 1 && extent.is_met(&self.angles[at])
-    }
-}
-
-/// The well between two neighbours, the first of which has no tangents or lies on the border.
-fn between((springs, extent): (&Springs, &Extent), net: &Net, [at, other]: [usize; 2]) -> Option<Stationary> {
-    let [here, there] = [at, other].map(|state| &net.angles[state]);
-    let length = distance(here, there);
-    let found = springs.stationary(there)?;
-    let inside = [here, there].iter().all(|end| distance(&found.angles, end) <= (1.0 + SAME_STATE_ANGLE_RAD) * length)
-        && extent.holds(&found.angles);
-    (found.negative_eigenvalues == 0 && inside).then_some(found)
-}
-
-/// The stationary state of this index next to a sampled one.
-fn exact((springs, extent): (&Springs, &Extent), angles: &[f64], (index, reach): (usize, f64)) -> Option<Stationary> {
-    let found = springs.stationary(angles)?;
-    let apart = distance(&found.angles, angles);
-    (found.negative_eigenvalues == index && apart <= reach && extent.holds(&found.angles)).then_some(found)
 }
 
 /// The number of a well, which is added where it is new.
 fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
-    let same =
-        |well: &Stationary| well.angles.iter().zip(&found.angles).all(|(a, b)| (a - b).abs() <= SAME_STATE_ANGLE_RAD);
+    let same = |well: &Stationary| are_close(&well.angles, &found.angles, SAME_STATE_ANGLE_RAD);
     wells.iter().position(same).unwrap_or_else(|| {
         wells.push(found);
         wells.len() - 1
@@ -247,42 +269,6 @@ fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
 }
 
 impl RigidLandscape {
-    /// Makes the pass at a state exact.
-    fn add_pass(
-        &mut self,
-        within: (&Springs, &Extent),
-        net: &Net,
-        (joins, at): ([usize; 2], usize),
-        (step, lowest): (f64, OnCrossing<'_>),
-    ) {
-        let springs = within.0;
-        if joins[0] == joins[1] {
-            return;
-        }
-        if at >= net.seam {
-            // where two surfaces cross it is the lowest state of the curve, and on the curve alone the highest
-            let (sign, singular) = if net.dimension == 2 { (1.0, true) } else { (-1.0, false) };
-            match lowest(&net.angles[at], sign) {
-                Some(Lowest { angles, .. }) => {
-                    self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular });
-                }
-                None => self.lost += 1,
-            }
-            return;
-        }
-        if net.singular[at] {
-            let angles = net.angles[at].clone();
-            self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
-            return;
-        }
-        match exact(within, &net.angles[at], (1, NEIGHBOUR_DISTANCES * step)) {
-            Some(Stationary { angles, energy, .. }) => {
-                self.passes.push(RigidPass { joins, energy, angles, singular: false });
-            }
-            None => self.lost += 1,
-        }
-    }
-
     /// Wells and passes by energy.
     fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.wells.len()).collect();

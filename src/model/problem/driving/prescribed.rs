@@ -21,26 +21,21 @@ impl Model {
         self.choose_unknowns();
     }
 
-    /// Returns the numbers of the faces under the pressure of this name, which are soft elements; `None` if there are
-    /// none.
-    pub(super) fn pressure_of(&self, name: &str) -> Option<Range<usize>> {
-        let (first, term) = self.pressure_term(name)?;
-        Some(first..first + term.len())
-    }
-
-    fn pressure_term(&self, name: &str) -> Option<(usize, &Arc<dyn Elements>)> {
+    /// Returns the faces under the pressure of this name, and their numbers, which are soft elements; `None` if there
+    /// are none.
+    pub(super) fn pressure_of(&self, name: &str) -> Option<(Range<usize>, &Arc<dyn Elements>)> {
         let soft = &self.equations.soft;
         let is_wanted = |term: &Arc<dyn Elements>| term.head().kind == TermKind::Pressure && term.head().name == name;
         let number = soft.iter().position(is_wanted)?;
-        Some((soft[..number].iter().map(|term| term.len()).sum(), &soft[number]))
+        let first: usize = soft[..number].iter().map(|term| term.len()).sum();
+        Some((first..first + soft[number].len(), &soft[number]))
     }
 
     /// Keeps the volume that the faces under the pressure of this name enclose, instead of the pressure. Returns the
     /// number of that volume among the stiff measures and its value, and the drawn area of the faces, by which it is
     /// divided.
     pub(super) fn hold_volume(&mut self, name: &str) -> Option<((usize, f64), f64)> {
-        let (first, term) = self.pressure_term(name)?;
-        let faces = first..first + term.len();
+        let (faces, term) = self.pressure_of(name)?;
         let volume = Enclosed::new(term.clone(), &self.equations.drawn);
         let (area, rest) = (volume.area, volume.value(0, self.domain(), &self.base[..self.points()]));
         let measure = self.compliance.len() - self.supports.len();
