@@ -17,6 +17,7 @@ use super::setting::{Setting, apply};
 use super::spec::Scene;
 use crate::sheet::SheetError;
 use crate::sheet::similar::{did_you_mean, did_you_mean_of};
+use crate::sheet::text::line_and_column;
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.
@@ -100,7 +101,7 @@ impl SceneFile {
 
     /// Returns the line of a byte offset, counted from 1.
     pub(super) fn line_of(&self, offset: usize) -> usize {
-        line_and_column(self.text(), offset).0
+        line_and_column(self.text(), offset)[0]
     }
 
     /// Returns an error that points at a place of the scene ([`super::Located::span`]); `message` describes the error,
@@ -135,7 +136,7 @@ impl SceneFile {
 }
 
 fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String, help: Option<String>) -> SceneError {
-    let (line, column) = line_and_column(text.inner(), span.start);
+    let [line, column] = line_and_column(text.inner(), span.start);
     let key = if span.is_empty() { "".into() } else { key_at(text.inner(), span.start).into() };
     let (text, span) = excerpt(text, span);
     let (message, help) = (cut(&message), help.as_deref().map(cut));
@@ -205,14 +206,6 @@ fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSou
         offset = here.end;
     }
     (Arc::new(NamedSource::new(text.name(), short).with_language("TOML")), moved)
-}
-
-/// Returns line and column of a byte offset, both counted from 1; the column counts characters.
-fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
-    let before = &text.as_bytes()[..offset.min(text.len())];
-    let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
-    let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
-    (line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1)
 }
 
 fn deserialize(text: &Arc<NamedSource<String>>) -> Result<Scene, SceneError> {
@@ -330,9 +323,9 @@ mod tests {
     #[test]
     fn line_and_column_of_an_offset() {
         let text = "a = 1\n# \u{e9}\u{e9} b = 2\n";
-        assert_eq!(line_and_column(text, 0), (1, 1));
-        assert_eq!(line_and_column(text, 4), (1, 5));
-        assert_eq!(line_and_column(text, text.find('b').unwrap()), (2, 6));
-        assert_eq!(line_and_column(text, text.len() + 9), (3, 1));
+        assert_eq!(line_and_column(text, 0), [1, 1]);
+        assert_eq!(line_and_column(text, 4), [1, 5]);
+        assert_eq!(line_and_column(text, text.find('b').unwrap()), [2, 6]);
+        assert_eq!(line_and_column(text, text.len() + 9), [3, 1]);
     }
 }

@@ -3,6 +3,7 @@
 use serde_json::value::RawValue;
 
 use crate::sheet::error::{Problem, SheetError};
+use crate::sheet::text::line_and_column;
 
 /// A text and the name of its file.
 pub(super) struct Source<'a> {
@@ -14,7 +15,7 @@ impl<'a> Source<'a> {
     /// Returns the error that a value of the text has this problem.
     pub(crate) fn at(&self, value: &RawValue, problem: Problem) -> SheetError {
         let offset = (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
-        self.at_offset(offset.min(self.text.len()), problem)
+        self.at_offset(offset, problem)
     }
 
     /// Returns the error that the text as a whole has this problem.
@@ -23,11 +24,7 @@ impl<'a> Source<'a> {
     }
 
     fn at_offset(&self, offset: usize, problem: Problem) -> SheetError {
-        let before = &self.text.as_bytes()[..offset];
-        let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
-        let start = before.iter().rposition(|&b| b == b'\n').map_or(0, |k| k + 1);
-        let column = String::from_utf8_lossy(&before[start..]).chars().count() + 1;
-        SheetError::bad(self.name, [line, column], problem)
+        SheetError::bad(self.name, line_and_column(self.text, offset), problem)
     }
 
     /// Returns the error of the JSON parser, without the position in its message.

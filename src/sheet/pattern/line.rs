@@ -76,13 +76,6 @@ pub(super) fn offset(text: &str, part: &str) -> usize {
     (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
 }
 
-/// Returns the line and column, from 1, of a place in a text.
-pub(super) fn place(text: &str, at: usize) -> [usize; 2] {
-    let before = text.get(..at).unwrap_or_default();
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    [1 + before.matches('\n').count(), 1 + before[line_start..].chars().count()]
-}
-
 /// Returns the coordinate along the other direction of y; zero has no sign.
 pub(super) fn flip(y: f64) -> f64 {
     0.0 - y
