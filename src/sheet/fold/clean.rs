@@ -9,6 +9,7 @@ use super::frames::Frame;
 use super::locate::Source;
 use super::read::{ReadFrame, Rows};
 use super::record;
+use crate::math::bounds;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::Drawing;
 use crate::sheet::cell::Sheet;
@@ -79,8 +80,7 @@ pub(super) fn needed((drawn, rows, edges): &ReadFrame) -> Option<Cleanup> {
 
 /// Returns what a drawing is if it is not a flat crease pattern.
 fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
-    let first = drawn.coords.first().copied().unwrap_or_default();
-    let [low, high] = drawn.coords.iter().fold([first; 2], |[low, high], x| [low.inf(x), high.sup(x)]);
+    let [low, high] = bounds(&drawn.coords);
     if drawn.is_repeated() {
         Some("this sheet is periodic")
     } else if drawn.folded {
