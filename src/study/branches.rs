@@ -24,15 +24,10 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     supported::drawn_rigid_hinges(context, "branches of rigid folding")?;
     let angles = assembly.start_angles();
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
-    match assembly.terms().locks.iter().find(moved) {
-        None => Ok(()),
-        Some((edge, angle)) => {
-            let message = format!("a lock holds a crease at {angle} that starts at {}", angles[*edge]);
-            let help =
-                "rigid folding leaves the drawn state, of a tube the closed one: leave out the angle of the lock";
-            Err(context.refuse(message, help).into())
-        }
-    }
+    let Some((edge, angle)) = assembly.terms().locks.iter().find(moved) else { return Ok(()) };
+    let message = format!("a lock holds a crease at {angle} that starts at {}", angles[*edge]);
+    let help = "rigid folding leaves the drawn state, of a tube the closed one: leave out the angle of the lock";
+    Err(context.refuse(message, help).into())
 }
 
 /// Returns the number of rays that leave the drawn state of a rigid cell with locks, if it is larger than two. Then

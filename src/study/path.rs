@@ -66,18 +66,16 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         return Ok(start::unavailable(context));
     };
     let start = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
+    let usual = PathOptions::default();
     let options = PathOptions {
         switch: spec.switch,
         snap: snaps(context, spec),
         stop,
         at: spec.at.iter().map(|value| value.0).collect(),
         then: then(context, spec),
-        ..PathOptions::default()
-    };
-    let options = PathOptions {
-        tolerance: spec.tolerance.as_ref().map_or(options.tolerance, |tolerance| tolerance.0),
-        max_step: spec.max_step.as_ref().map_or(options.max_step, |step| step.0),
-        ..options
+        tolerance: spec.tolerance.as_ref().map_or(usual.tolerance, |tolerance| tolerance.0),
+        max_step: spec.max_step.as_ref().map_or(usual.max_step, |step| step.0),
+        ..usual
     };
     let mut step = 0;
     let mut observe = |_: usize, point: &PathPoint| {
@@ -189,10 +187,7 @@ fn answer(
     let marks = marks(context, branches);
     answer.add(format!("{}.csv", context.name()), table::table(context, (spec, &probes), branches, marks.as_deref()));
     add_pictures(&mut answer, context, drive, branches, marks.as_deref());
-    let result = PathSummary {
-        not_passed: not_passed(spec, branches),
-        ..summary(context, (drive_name(context, spec), drive), branches, marks.as_deref())
-    };
+    let result = summary(context, (spec, drive), branches, marks.as_deref());
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
@@ -286,7 +281,7 @@ fn pictured(branches: &[PathBranch]) -> BTreeSet<usize> {
 
 fn summary(
     context: &Context<'_>,
-    (name, drive): (&str, &Drive),
+    (spec, drive): (&PathSpec, &Drive),
     branches: &[PathBranch],
     marks: Option<&[Vec<Marks>]>,
 ) -> PathSummary {
@@ -295,11 +290,11 @@ fn summary(
         ..branch_summary(number, branch, marks.map(|marks| &marks[number][..]))
     };
     PathSummary {
-        drive: name.to_owned(),
+        drive: drive_name(context, spec).to_owned(),
         driven: Words::new(context, drive).driven.to_owned(),
         to: finite(drive.to),
         branches: branches.iter().enumerate().map(branch).collect(),
-        ..PathSummary::default()
+        not_passed: not_passed(spec, branches),
     }
 }
 
