@@ -27,12 +27,9 @@ pub(super) fn mass(file: &SceneFile) -> Option<Mass> {
 pub(crate) fn is_read(file: &SceneFile) -> Result<(), SceneError> {
     let span = file.scene.mass.as_ref().map(Located::span);
     let weighs = file.scene.loads.iter().any(|load| load.weight.is_some());
-    match span.filter(|_| !weighs && !file.scene.studies.iter().any(|study| study.kind.reads_mass())) {
-        None => Ok(()),
-        Some(span) => {
-            let help = "frequencies are those of kind = \"modes\" with `eigenvalues` and kind = \"bloch\" with `path` or \
-                        `density`, weight is that of [[load]]; leave `mass` out otherwise";
-            Err(file.error_at(span, "no study of this scene reads the mass", help))
-        }
-    }
+    let unread = span.filter(|_| !weighs && !file.scene.studies.iter().any(|study| study.kind.reads_mass()));
+    let Some(span) = unread else { return Ok(()) };
+    let help = "frequencies are those of kind = \"modes\" with `eigenvalues` and kind = \"bloch\" with `path` or \
+                `density`, weight is that of [[load]]; leave `mass` out otherwise";
+    Err(file.error_at(span, "no study of this scene reads the mass", help))
 }

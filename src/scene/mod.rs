@@ -32,7 +32,6 @@ mod sweep;
 mod ties;
 mod turns;
 pub(crate) mod values;
-mod written;
 
 pub(crate) use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;

@@ -43,6 +43,7 @@ pub(crate) mod text;
 mod thicken;
 pub(crate) mod tiling;
 mod weld;
+pub(crate) mod written;
 
 pub use assignment::Assignment;
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, MeshStiffness, Panel, Sheet, Triangle};

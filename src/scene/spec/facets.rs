@@ -13,7 +13,7 @@ use crate::scene::Located;
 use crate::scene::rest::RestSpec;
 use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::values::Fraction;
-use crate::scene::written::{Written, read_as_written, schema_any_of};
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// The model by which quadrilaterals bend, named by the vertices and bars of one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]

@@ -12,7 +12,7 @@ use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess};
 use crate::scene::Located;
 use crate::scene::forms::FileName;
 use crate::scene::values::Exactly;
-use crate::scene::written::{Written, read_as_written};
+use crate::sheet::written::{Written, read_as_written};
 
 /// The key of a sweep whose value is a table of points.
 const POINTS: &str = "points";
