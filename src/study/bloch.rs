@@ -6,7 +6,7 @@ mod summary;
 
 use self::bands::{FoundBands, facet_stiffness};
 use self::strip::FoundStrip;
-use super::{Answer, Context, StudyError, StudyResult, start, states};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, start, states};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::zero_lines::ZeroLine;
@@ -122,17 +122,10 @@ struct FoundModes {
 }
 
 /// Computes the modes of the state that the scene names.
-pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
-    let found = match ground(context, spec) {
-        Ok(Some(ground)) => find(context, spec, ground),
-        Ok(None) => return start::unavailable(context),
-        Err(error) => Err(error),
-    };
-    let found = match found {
-        Ok(Some(found)) => found,
-        Ok(None) => return Answer::failed(context.study, "interrupted"),
-        Err(error) => return Answer::failed(context.study, error),
-    };
+pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Answer, NoAnswer> {
+    let ground = ground(context, spec).map_err(NoAnswer::because)?.ok_or_else(start::unavailable)?;
+    let found = find(context, spec, ground).map_err(NoAnswer::because)?;
+    let found = found.ok_or_else(|| NoAnswer::because("interrupted"))?;
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     let survey = found.survey.as_ref().ok();
     answer.add(format!("{name}.csv"), table(survey.map_or(&[], |survey| &survey.decays)));
@@ -155,7 +148,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
         ..survey.map_or_else(BlochSummary::default, |survey| summary(survey, found.grid, theta))
     };
     answer.conclude(StudyResult::Bloch(Box::new(result)), survey.map(|survey| survey.determinant.error), None);
-    answer
+    Ok(answer)
 }
 
 /// Computes the survey and the bands; `None` if the observer asked to stop.

@@ -2,7 +2,7 @@
 
 mod summary;
 
-use super::{Answer, Context, StudyError, StudyResult, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, supported};
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
 use crate::model::{Assembly, Domain};
@@ -59,18 +59,14 @@ pub(crate) fn word(directions: RealDirections) -> String {
 }
 
 /// Computes the branches.
-pub(crate) fn compute(context: &Context<'_>) -> Answer {
+pub(crate) fn compute(context: &Context<'_>) -> Result<Answer, NoAnswer> {
     let mut answer = Answer::empty(context.study);
     context.step(0, None);
-    match branches(context.assembly) {
-        Ok(branches) => {
-            answer.add(format!("{}.csv", context.name()), table(context.assembly, &branches));
-            let error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
-            answer.conclude(StudyResult::Branches(summary(&branches)), error, None);
-            answer
-        }
-        Err(error) => Answer::failed(context.study, error),
-    }
+    let branches = branches(context.assembly).map_err(NoAnswer::because)?;
+    answer.add(format!("{}.csv", context.name()), table(context.assembly, &branches));
+    let error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
+    answer.conclude(StudyResult::Branches(summary(&branches)), error, None);
+    Ok(answer)
 }
 
 /// Returns a row for each ray, with the rate of every fold angle. On a patch of several cells the names of columns

@@ -12,7 +12,7 @@ use self::plot::{Words, event_word, figure};
 use super::sides::RestSides;
 use super::states::{self, Shown};
 use super::supported::small_tolerance;
-use super::{Answer, Context, Progress, StudyError, StudyResult, ratios, start};
+use super::{Answer, Context, NoAnswer, Progress, StudyError, StudyResult, ratios, start};
 use crate::analysis::intersections::Marks;
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
@@ -59,12 +59,10 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
 }
 
 /// Follows the path, and its branches if the scene asks for them.
-pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, NoAnswer> {
     let (drive, stop) = (drive(context, spec)?, stop(context, spec)?);
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let start = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
     let usual = PathOptions::default();
     let options = PathOptions {
@@ -99,7 +97,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     match (found, fault) {
         (_, Some(fault)) => Err(fault.into()),
         (Ok(branches), None) => Ok(answer(context, (spec, probes(context, spec)?), &drive, &branches)),
-        (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
+        (Err(failure), None) => Err(NoAnswer::because(failure)),
     }
 }
 

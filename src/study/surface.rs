@@ -3,7 +3,7 @@
 mod summary;
 
 use super::trace::enter_folded;
-use super::{Answer, Context, StudyError, StudyResult, energies, states, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, energies, states, supported};
 use crate::analysis::chart::screw_coordinates;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
@@ -67,7 +67,7 @@ pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
 }
 
 /// Computes the surface of the sheet without its locks.
-pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Result<Answer, NoAnswer> {
     let assembly = context.assembly;
     let unlocked = assembly.with_terms(Terms { locks: Vec::new(), ..assembly.terms().clone() });
     let options = SurfaceOptions {
@@ -76,15 +76,13 @@ pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
         max_curvature: spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(assembly), |most| most.0),
         max_points: MOST_POINTS,
     };
-    let mut surface = match surface(&unlocked, &options, &mut |step| context.step(step, None)) {
-        Ok(surface) => surface,
-        Err(error) => return Answer::failed(context.study, error),
-    };
+    let found = surface(&unlocked, &options, &mut |step| context.step(step, None));
+    let mut surface = found.map_err(NoAnswer::because)?;
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, &unlocked, (&mut surface, options.max_curvature));
     let result = summary(&surface, &options);
     answer.conclude(StudyResult::Surface(result.clone()), result.max_residual, reason(&surface));
-    answer
+    Ok(answer)
 }
 
 /// Returns `1 / sqrt(A)` with the area `A` of the cell; 1 for a sheet without lattice.

@@ -6,7 +6,7 @@ mod trajectory;
 use self::trajectory::{Path, is_tube, summary};
 use super::states::{self, Shown};
 use super::supported::small_tolerance;
-use super::{Answer, Context, StudyError, StudyResult, branches, energies, ratios, relax};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;
 use crate::analysis::intersections::SelfIntersection;
@@ -75,7 +75,7 @@ fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
 }
 
 /// Follows the trajectories that the scene asks for.
-pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, NoAnswer> {
     let options = TraceOptions {
         max_step: spec.max_step.as_ref().map_or(MAX_STEP, |step| step.0),
         tolerance: spec.tolerance.as_ref().map_or(TOLERANCE, |tolerance| tolerance.0),
@@ -85,10 +85,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
         },
         stop: stop(context, spec)?,
     };
-    let traced = match follow(context, &options) {
-        Ok(traced) => traced,
-        Err(error) => return Ok(Answer::failed(context.study, error)),
-    };
+    let traced = follow(context, &options).map_err(NoAnswer::because)?;
     let relaxations = relaxed(context, spec.engine, &traced);
     context.end_steps();
     let pictures = if context.study.draw.contains(&Draw::Html) { STATES_ON_PAGE } else { PICTURES };

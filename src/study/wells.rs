@@ -5,7 +5,7 @@ mod summary;
 
 use super::states::{self, Shown};
 use super::surface::{check_resolution, curvature_of_cell};
-use super::{Answer, Context, StudyError, StudyResult, start, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, start, supported};
 use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::modes::ModesError;
 use crate::analysis::state::State;
@@ -99,12 +99,10 @@ struct FoundWells {
 }
 
 /// Finds the wells, and the barriers that the scene asks for.
-pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer, NoAnswer> {
     let assembly = context.assembly;
     let mut model = assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let centre = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
     let step = AtomicUsize::new(0);
     let watch = |of: Option<usize>| context.step(step.fetch_add(1, Ordering::Relaxed) + 1, of);
