@@ -17,7 +17,7 @@ use super::setting::{Setting, apply};
 use super::spec::Scene;
 use crate::sheet::SheetError;
 use crate::sheet::similar::{did_you_mean, did_you_mean_of};
-use crate::sheet::text::line_and_column;
+use crate::sheet::text::{line_and_column, shortened};
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.
@@ -139,7 +139,8 @@ fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String
     let [line, column] = line_and_column(text.inner(), span.start);
     let key = if span.is_empty() { "".into() } else { key_at(text.inner(), span.start).into() };
     let (text, span) = excerpt(text, span);
-    let (message, help) = (cut(&message), help.as_deref().map(cut));
+    let cut = |text: String| shortened(&text, LONGEST_PRINTED_LINE);
+    let (message, help) = (cut(message), help.map(cut));
     SceneError::At { line, column, key, message, help, text, span: span.into() }
 }
 
@@ -171,14 +172,6 @@ fn key_in_value(value: &Spanned<DeValue<'_>>, offset: usize) -> Option<Vec<Strin
 
 /// Largest number of characters of a line or message that are printed.
 const LONGEST_PRINTED_LINE: usize = 400;
-
-/// Truncates a message to a readable length.
-fn cut(message: &str) -> String {
-    match message.char_indices().nth(LONGEST_PRINTED_LINE) {
-        Some((end, _)) => format!("{}...", &message[..end]),
-        None => message.to_owned(),
-    }
-}
 
 /// Returns the text to be shown around a place and the place in it: the whole text, or, if one of its lines is very
 /// long, the text with long lines truncated, the line of the place to a part around it.

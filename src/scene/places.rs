@@ -54,13 +54,9 @@ impl<'a> Places<'a> {
         if found.is_empty() {
             return Err(self.file.error_at(span(), "this set has no vertices", self.extremes()));
         }
-        match twice(&found) {
-            Some(vertex) => {
-                let message = format!("{} is listed twice", self.described(vertex));
-                Err(self.file.error_at(span(), message, "name every vertex once"))
-            }
-            None => Ok(found),
-        }
+        let Some(vertex) = twice(&found) else { return Ok(found) };
+        let message = format!("{} is listed twice", self.described(vertex));
+        Err(self.file.error_at(span(), message, "name every vertex once"))
     }
 
     /// Returns the number of a vertex of the patch.
