@@ -45,6 +45,12 @@ pub(crate) fn line_and_column(text: &str, offset: usize) -> [usize; 2] {
     [line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1]
 }
 
+/// Returns a text that is cut after this number of characters.
+pub(crate) fn shortened(text: &str, length: usize) -> String {
+    let end = text.char_indices().nth(length);
+    end.map_or_else(|| text.to_owned(), |(end, _)| format!("{}...", &text[..end]))
+}
+
 fn wrong(message: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, message)
 }

@@ -46,10 +46,8 @@ pub(super) fn sheet(
     };
     let lines: Vec<Line> = parts.iter().map(line).collect();
     let head = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
-    let mut sheet = sheet_of_lines(&lines, cleanup, &head).map_err(|(line, problem)| match line {
-        Some(line) => source.at(places[line], *problem),
-        None => source.at_start(*problem),
-    })?;
+    let mut sheet = sheet_of_lines(&lines, cleanup, &head)
+        .map_err(|(line, problem)| source.at_value(line.map(|line| places[line]), *problem))?;
     edges.rebuilt = true;
     sheet.record = FileRecord { redrawing: sheet.record.redrawing, ..record::record(frame, &edges, false) };
     let lost = LOST.into_iter().filter(|key| frame.values.get(key).is_some());

@@ -4,7 +4,7 @@ use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::Problem;
 use crate::sheet::pattern_fault::{LineName, PatternFault};
-use crate::sheet::redrawing::Redrawing;
+use crate::sheet::record::Redrawing;
 
 /// The lines of a file, or an error with its line and column.
 pub(super) type Lines = Result<DrawnLines, Misread>;
