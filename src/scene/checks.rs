@@ -6,7 +6,9 @@ use std::ops::Range;
 
 use super::forms::StartSpec;
 use super::outputs::outputs;
-use super::spec::{DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec};
+use super::spec::{
+    CreasesSpec, DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec,
+};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile, loads};
 use crate::sheet::similar::{did_you_mean, there_are};
@@ -129,10 +131,7 @@ fn locks(file: &SceneFile) -> Checked {
 
 /// Checks that fractions are given only where there are angles of which they can be a part.
 fn fractions(file: &SceneFile) -> Checked {
-    let energy = &file.scene.energy;
-    let creases = energy.creases.as_ref().map(|spec| (&spec.rest, &spec.fraction));
-    let facets = energy.facets.as_ref().map(|spec| (&spec.rest, &spec.fraction));
-    for (rest, fraction) in creases.into_iter().chain(facets) {
+    for CreasesSpec { rest, fraction, .. } in file.scene.energy.hinges().into_iter().flatten() {
         let Some(fraction) = fraction else { continue };
         if !rest.as_ref().is_some_and(|rest| rest.has_fraction()) {
             let help = "it belongs to rest = \"target\", \"assigned\" or { M = .., V = .. }; leave it out otherwise";

@@ -10,7 +10,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let (energy, material) = (&file.scene.energy, file.scene.material.as_ref());
     let bars = energy.bars.as_ref().filter(|bars| bars.stiffness.is_none()).map(Located::span);
     let creases = energy.creases.as_ref().filter(|creases| creases.stiffness.is_none()).map(Located::span);
-    let facets = energy.facets.as_ref().filter(|facets| facets.stiffness.is_none()).map(Located::span);
+    let facets = energy.facets.as_ref().filter(|facets| facets.hinges.stiffness.is_none()).map(Located::span);
     let creases_follow = material.is_some_and(|material| material.crease_length.is_some());
     let terms = [(bars, material.is_some()), (creases, creases_follow), (facets, material.is_some())];
     for ((without, follows), of_curve) in terms.into_iter().zip(energy.stiffness_of_curve()) {

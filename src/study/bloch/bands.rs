@@ -72,7 +72,7 @@ fn masses(assembly: &Assembly) -> Option<Vec<f64>> {
 /// if they differ. One number is read from the scene since the model of a patch lacks the diagonals that are cut by its
 /// rim.
 pub(super) fn facet_stiffness(file: &SceneFile, assembly: &Assembly) -> Option<f64> {
-    let given = file.scene.energy.facets.as_ref().and_then(|facets| facets.stiffness.as_deref());
+    let given = file.scene.energy.hinges()[1].and_then(|facets| facets.stiffness.as_deref());
     match given {
         Some(StiffnessSpec::Number(stiffness)) => Some(*stiffness),
         None if file.scene.material.is_none() => Some(f64::INFINITY),
