@@ -9,7 +9,7 @@ use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Terms};
-use crate::numerics::{larger, worst};
+use crate::numerics::worst;
 use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
 use crate::output::figure::surface::{self as figure, PathPoint};
@@ -202,7 +202,8 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         let studies = context.file.scene.studies.iter().map(|study| &study.name.0);
         let before = studies.take_while(|study| *study != name).filter_map(|study| context.earlier.paths.get(study));
         let mut paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
-        paths.extend(mesh.segments.iter().map(|segment| segment.map(|k| on_curve(&mesh, k)).to_vec()));
+        let on_curve = |k: usize| PathPoint::new(mesh.points[k], mesh.curvature[k], mesh.theta[k]);
+        paths.extend(mesh.segments.iter().map(|segment| segment.map(on_curve).to_vec()));
         let caption = context.caption(format!("all folded states up to a curvature of {}", rounded(max_curvature, 4)));
         answer.add(format!("{name}.svg"), figure::svg(&mesh, &paths, &caption));
     }
@@ -211,13 +212,6 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         answer.add(&file, Artifact::Surface(mesh));
         answer.add(format!("{name}.pvd"), Artifact::Series(vec![(0.0, file)]));
     }
-}
-
-/// Returns a state of a curve as one of a trajectory.
-fn on_curve(mesh: &StrainSurface, k: usize) -> PathPoint {
-    let [theta1, theta2] = mesh.theta[k];
-    let turn = larger(theta1.abs(), theta2.abs());
-    PathPoint { strain: mesh.points[k], curvature: mesh.curvature[k], turn }
 }
 
 /// Returns the pieces of a trajectory whose absolute curvature is at most `max_curvature`.

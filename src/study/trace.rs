@@ -14,12 +14,12 @@ use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
 use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Model};
-use crate::numerics::{larger, worst};
+use crate::numerics::worst;
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::table::{Solution, StateRow};
 use crate::scene::forms::BranchChoice;
-use crate::scene::spec::{Draw, Engine, TraceSpec};
+use crate::scene::spec::{CreaseAngle, Draw, Engine, TraceSpec};
 use crate::solver::continuation;
 use crate::solver::{Options, Problem};
 pub use summary::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
@@ -54,22 +54,18 @@ pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), Study
 
 fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
     let Some(said) = &spec.stop else { return Ok(Stop::default()) };
-    let crease_angle = match &said.crease_angle {
-        None => None,
-        Some(wanted) => {
-            let key = wanted.crease.0;
-            let found = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
-            let edge = found.ok_or_else(|| {
-                let message = format!("the sheet has no crease {key}");
-                context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
-            })?;
-            Some((edge, wanted.angle.radians))
-        }
+    let crease_angle = |wanted: &CreaseAngle| {
+        let key = wanted.crease.0;
+        let edge = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
+        edge.map(|edge| (edge, wanted.angle.radians)).ok_or_else(|| {
+            let message = format!("the sheet has no crease {key}");
+            context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
+        })
     };
     Ok(Stop {
         arc_length: said.arc_length.as_ref().map(|length| length.0),
         curvature: said.curvature.as_ref().map(|curvature| curvature.0),
-        crease_angle,
+        crease_angle: said.crease_angle.as_ref().map(crease_angle).transpose()?,
         self_intersection: said.self_intersection == Some(true),
     })
 }
@@ -228,8 +224,7 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
 /// unknown.
 pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
     let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
-    let turn = larger(theta1?.abs(), theta2?.abs());
-    Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature?, turn })
+    Some(PathPoint::new(Vec3::new(a?, b?, c?), row.curvature?, [theta1?, theta2?]))
 }
 
 /// Returns the last state of the first trajectory.
