@@ -23,7 +23,7 @@ use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
 use crate::scene::forms::StartSpec;
 use crate::scene::places::Places;
-use crate::scene::spec::{Draw, PathSpec};
+use crate::scene::spec::{CreaseAngle, Draw, PathSpec, ProbeValue};
 use crate::sheet::similar::there_are;
 use std::collections::BTreeSet;
 pub use summary::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
@@ -125,33 +125,27 @@ fn probes<'a>(context: &Context<'_>, spec: &'a PathSpec) -> Result<Vec<(&'a str,
 fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> {
     let inside_out = folds(context).then_some(INSIDE_OUT);
     let Some(said) = &spec.stop else { return Ok(PathStop { drive: inside_out, ..PathStop::default() }) };
-    let crease_angle = match &said.crease_angle {
-        None => None,
-        Some(wanted) => {
-            let found = crease_in_middle(context.assembly, wanted.crease.0);
-            let edge = found.ok_or_else(|| {
-                let message = format!("the sheet has no crease {}", wanted.crease.0);
-                let help = "name a crease between two faces as [i, j, n1, n2]";
-                context.file.error_at(wanted.crease.span(), message, help)
-            })?;
-            Some((edge, wanted.angle.radians))
-        }
+    let crease_angle = |wanted: &CreaseAngle| {
+        let edge = crease_in_middle(context.assembly, wanted.crease.0);
+        edge.map(|edge| (edge, wanted.angle.radians)).ok_or_else(|| {
+            let message = format!("the sheet has no crease {}", wanted.crease.0);
+            let help = "name a crease between two faces as [i, j, n1, n2]";
+            context.file.error_at(wanted.crease.span(), message, help)
+        })
     };
-    let displacement = match &said.displacement {
-        None => None,
-        Some(wanted) => {
-            let probes = probes(context, spec)?;
-            let names: Vec<&str> = probes.iter().map(|(name, _)| *name).collect();
-            let found = probes.into_iter().find(|(name, _)| *name == wanted.probe.as_str());
-            let missing = || {
-                let message = format!("no probe is called `{}`", *wanted.probe);
-                context.file.error_at(wanted.probe.span(), message, there_are(&wanted.probe, names))
-            };
-            Some((found.ok_or_else(missing)?.1, wanted.value.0))
-        }
+    let displacement = |wanted: &ProbeValue| -> Result<_, StudyError> {
+        let probes = probes(context, spec)?;
+        let names: Vec<&str> = probes.iter().map(|(name, _)| *name).collect();
+        let found = probes.into_iter().find(|(name, _)| *name == wanted.probe.as_str());
+        let missing = || {
+            let message = format!("no probe is called `{}`", *wanted.probe);
+            context.file.error_at(wanted.probe.span(), message, there_are(&wanted.probe, names))
+        };
+        Ok((found.ok_or_else(missing)?.1, wanted.value.0))
     };
+    let crease_angle = said.crease_angle.as_ref().map(crease_angle).transpose()?;
     Ok(PathStop {
-        displacement,
+        displacement: said.displacement.as_ref().map(displacement).transpose()?,
         drive: said.drive.as_ref().map(|value| value.0).or(inside_out),
         reaction: said.reaction.as_ref().map(|value| value.0),
         states: said.states.as_ref().map(|count| count.0 as usize),
