@@ -62,6 +62,10 @@ impl Written for Angle {
     fn from_number<E: Error>(radians: f64, _: Unexpected<'_>) -> Result<Self, E> {
         Ok(radians.into())
     }
+
+    fn from_unsigned<E: Error>(radians: u64) -> Result<Self, E> {
+        Ok((radians as f64).into())
+    }
 }
 
 schema_any_of!(Angle as "Angle", _generator, [

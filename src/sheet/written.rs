@@ -26,6 +26,11 @@ pub(crate) trait Written: Sized {
         Self::from_number(number as f64, Unexpected::Signed(number))
     }
 
+    /// Reads a number without a sign, as JSON has it; in TOML only those that are too large for an `i64`.
+    fn from_unsigned<E: Error>(number: u64) -> Result<Self, E> {
+        Err(E::invalid_type(Unexpected::Unsigned(number), &Self::FORMS))
+    }
+
     /// Reads a list in brackets.
     fn from_list<'de, A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
         Err(A::Error::invalid_type(Unexpected::Seq, &Self::FORMS))
@@ -89,6 +94,10 @@ impl<'de, T: Written> Visitor<'de> for AnyForm<T> {
 
     fn visit_i64<E: Error>(self, number: i64) -> Result<T, E> {
         T::from_whole(number)
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<T, E> {
+        T::from_unsigned(number)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<T, A::Error> {
