@@ -2,7 +2,7 @@
 
 use super::{Answer, Context, energies};
 use crate::analysis::intersections::Marks;
-use crate::analysis::state::{Cylinder, State, cylinder};
+use crate::analysis::state::{State, cylinder};
 use crate::output::artifact::Artifact;
 use crate::output::figure::{Annotations, sheet};
 use crate::output::paraview;
@@ -39,13 +39,9 @@ pub(crate) fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
 
 fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
     let (assembly, state) = (context.assembly, &shown.state);
-    let shape = cylinder(assembly.drawn(), &state.coordinates);
-    let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
     StateRow {
         step: Some(step as i64),
-        curvature: of(|c| c.curvature),
-        theta: [of(|c| c.theta[0]), of(|c| c.theta[1])],
-        strain: [of(|c| c.strain[0]), of(|c| c.strain[1]), of(|c| c.strain[2])],
+        shape: cylinder(assembly.drawn(), &state.coordinates),
         solution: Solution {
             energy: energies::columns(assembly.terms(), state),
             residual_force: shown.residuals.map(|r| r[0]),

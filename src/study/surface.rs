@@ -5,7 +5,7 @@ mod summary;
 use super::trace::enter_folded;
 use super::{Answer, Context, NoAnswer, StudyError, StudyResult, energies, states, supported};
 use crate::analysis::chart::screw_coordinates;
-use crate::analysis::state::State;
+use crate::analysis::state::{Cylinder, State};
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Terms};
@@ -161,14 +161,12 @@ fn add_files(
 }
 
 fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRow {
-    let (shape, state) = (&point.shape, &found.states[k]);
+    let state = &found.states[k];
     StateRow {
         branch: Some(point.branch.0 as i64),
         sign: Some(i64::from(point.branch.1)),
         step: Some(k as i64),
-        curvature: Some(shape.curvature),
-        theta: shape.theta.map(Some),
-        strain: shape.strain.map(Some),
+        shape: Some(Cylinder::from(&point.shape)),
         solution: Solution { energy: energies::columns_if_any(terms, state), ..Solution::default() },
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
         fold: point.angles.clone(),

@@ -10,9 +10,8 @@ use super::{Answer, Context, NoAnswer, StudyError, StudyResult, branches, energi
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;
 use crate::analysis::intersections::SelfIntersection;
-use crate::analysis::state::State;
+use crate::analysis::state::{Cylinder, State};
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
-use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Model};
 use crate::numerics::worst;
 use crate::output::figure::surface::{self, PathPoint};
@@ -208,7 +207,8 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
     let mut lines = Vec::new();
     for path in paths {
         let (own, rest) = rows.split_at(path.len());
-        lines.push(own.iter().filter_map(path_point).collect::<Vec<PathPoint>>());
+        let point = |shape: Cylinder| PathPoint::new(shape.strain.into(), shape.curvature, shape.theta);
+        lines.push(own.iter().filter_map(|row| row.shape).map(point).collect::<Vec<PathPoint>>());
         rows = rest;
     }
     if context.draws(Draw::Svg) && !lines.iter().all(Vec::is_empty) {
@@ -218,13 +218,6 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
         answer.add(file, surface::svg(&StrainSurface::default(), &lines, &caption));
     }
     answer.paths = lines;
-}
-
-/// Returns the point of a state in the space of lattice strains; `None` if strain, rotation angles or curvature are
-/// unknown.
-pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
-    let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
-    Some(PathPoint::new(Vec3::new(a?, b?, c?), row.curvature?, [theta1?, theta2?]))
 }
 
 /// Returns the last state of the first trajectory.
@@ -247,9 +240,8 @@ fn row(
     self_intersecting: Option<bool>,
 ) -> StateRow {
     let shape = match along {
-        None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
-        Some(along) => relaxed_cylinder(assembly.drawn(), folded, along)
-            .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
+        None => folded.shape.as_ref().map(Cylinder::from),
+        Some(along) => relaxed_cylinder(assembly.drawn(), folded, along),
     };
     let branch = path.traced.branch;
     StateRow {
@@ -257,9 +249,7 @@ fn row(
         sign: Some(i64::from(branch.1)),
         step: Some(step as i64),
         arc_length: Some(folded.arc_length),
-        curvature: shape.map(|(curvature, ..)| curvature),
-        theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
-        strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
+        shape,
         solution: Solution {
             energy: energies::columns_if_any(assembly.terms(), state),
             residual_length: along.map(|along| along.relaxed.residual_length),
