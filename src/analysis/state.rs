@@ -1,5 +1,6 @@
 //! A state of a model, edge by edge and as a cylinder.
 
+use crate::kinematics::Shape;
 use crate::kinematics::metric::LatticeFrame;
 use crate::math::Vec3;
 use crate::model::{Domain, Drawn, Element, Memory, Model, TermKind, Turns};
@@ -207,6 +208,12 @@ pub(crate) struct Cylinder {
     pub theta: [f64; 2],
     /// Strain `a^-T g a^-1 - I` of the chords from vertex 0 to its copies: components 11, 22, 12.
     pub strain: [f64; 3],
+}
+
+impl From<&Shape> for Cylinder {
+    fn from(shape: &Shape) -> Self {
+        Self { curvature: shape.curvature, theta: shape.theta, strain: shape.strain }
+    }
 }
 
 /// The cylinder of a periodic state; `None` on a patch.

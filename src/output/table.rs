@@ -6,6 +6,7 @@
 use std::fmt::Write;
 
 use super::error::ShapeError;
+use crate::analysis::state::Cylinder;
 use crate::sheet::EdgeKey;
 
 /// Returns the numbers of the named columns of a table that was written by this module: one vector for each row, with
@@ -244,12 +245,8 @@ pub(crate) struct StateRow {
     pub step: Option<i64>,
     /// Arc length along the branch in the space of fold angles, in radians.
     pub arc_length: Option<f64>,
-    /// Signed curvature at vertex 0.
-    pub curvature: Option<f64>,
-    /// Rotation angles along the two lattice vectors, in radians.
-    pub theta: [Option<f64>; 2],
-    /// Components 11, 22 and 12 of the lattice strain.
-    pub strain: [Option<f64>; 3],
+    /// The cylinder of a state that is periodic up to screw motions.
+    pub shape: Option<Cylinder>,
     /// Energies and residuals.
     pub solution: Solution,
     /// Whether faces pass through each other.
@@ -275,8 +272,11 @@ pub(crate) const SEAM: [&str; 2] = ["seam_turn", "seam_rise"];
 impl StateRow {
     fn values(&self, row: usize, compared: bool) -> Vec<Value> {
         let counts = [self.branch, self.sign, self.step].map(Value::from);
-        let shape = [&[self.arc_length, self.curvature][..], &self.theta, &self.strain].concat();
-        let numbers = shape.into_iter().map(Value::from).chain(self.solution.values());
+        let shape = self.shape.map_or([f64::NAN; CYLINDER.len()], |shape| {
+            let Cylinder { curvature, theta, strain } = shape;
+            [curvature, theta[0], theta[1], strain[0], strain[1], strain[2]]
+        });
+        let numbers = [self.arc_length.into()].into_iter().chain(shape.map(Value::from)).chain(self.solution.values());
         let crossing = Value::from(self.self_intersecting.map(i64::from));
         let error = compared.then(|| Value::from(self.error_to_kinematic));
         let ratios = [self.ratios, self.seam].into_iter().flatten().flatten().map(Value::from);
@@ -308,9 +308,7 @@ mod tests {
         let state = StateRow {
             sign: Some(-1),
             arc_length: Some(1.0),
-            curvature: Some(2.0),
-            theta: [Some(3.0), Some(4.0)],
-            strain: [Some(5.0), None, Some(6.0)],
+            shape: Some(Cylinder { curvature: 2.0, theta: [3.0, 4.0], strain: [5.0, f64::NAN, 6.0] }),
             solution: Solution {
                 energy: Energies {
                     of_edges: [Some(7.0), Some(8.0), Some(9.0)],

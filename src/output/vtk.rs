@@ -71,13 +71,11 @@ pub(crate) fn vtp(path: &Path, surface: &StrainSurface) -> Result<Vec<u8>, Outpu
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let lines = numbers(surface.segments.iter().map(|segment| segment.as_slice()));
     let pair = ElementType::Scalars { num_comp: 2, lookup_table: None };
-    let theta = IOBuffer::F64(surface.theta.iter().flatten().copied().collect());
-    let mut point = vec![scalars("curvature", IOBuffer::F64(surface.curvature.clone())), array("theta", pair, theta)];
-    point.extend(surface.folds.iter().map(|(name, angles)| scalars(name, IOBuffer::F64(angles.clone()))));
-    point.extend(surface.energy.iter().map(|energy| scalars("energy", IOBuffer::F64(energy.clone()))));
-    point.extend(
-        surface.self_intersecting.iter().map(|marks| scalars("self_intersecting", IOBuffer::U8(marks.clone()))),
-    );
+    let theta: Vec<f64> = surface.theta.iter().flatten().copied().collect();
+    let mut point = vec![scalars("curvature", surface.curvature.clone()), array("theta", pair, theta)];
+    point.extend(surface.folds.iter().map(|(name, angles)| scalars(name, angles.clone())));
+    point.extend(surface.energy.iter().map(|energy| scalars("energy", energy.clone())));
+    point.extend(surface.self_intersecting.iter().map(|marks| scalars("self_intersecting", marks.clone())));
     let piece = PolyDataPiece {
         points: coordinates(&surface.points),
         lines: (!surface.segments.is_empty()).then_some(lines),
@@ -97,10 +95,8 @@ pub(crate) fn vtp_of_net(
     arrays: &[(&'static str, Vec<f64>)],
     of_curves: &[(&'static str, Vec<i32>)],
 ) -> Result<Vec<u8>, OutputError> {
-    check_lengths(path, arrays, points.len())?;
-    check_lengths(path, of_curves, curves.len())?;
-    let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
-    let cell = of_curves.iter().map(|(name, values)| scalars(name, IOBuffer::I32(values.clone()))).collect();
+    let point = checked_scalars(path, arrays, points.len())?;
+    let cell = checked_scalars(path, of_curves, curves.len())?;
     let piece = PolyDataPiece {
         points: coordinates(points),
         lines: Some(numbers(curves.iter().map(Vec::as_slice))),
@@ -119,10 +115,9 @@ pub(crate) fn vti(
     [origin, spacing]: [[f64; 2]; 2],
     arrays: &[(&'static str, Vec<f64>)],
 ) -> Result<Vec<u8>, OutputError> {
-    check_lengths(path, arrays, size[0] * size[1])?;
+    let point = checked_scalars(path, arrays, size[0] * size[1])?;
     let [last1, last2] = size.map(|n| n as i32 - 1);
     let extent = Extent::Ranges([0..=last1, 0..=last2, 0..=0]);
-    let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
     let piece = ImageDataPiece { extent: extent.clone(), data: Attributes { point, cell: vec![] } };
     let place = |[x, y]: [f64; 2], z: f32| [x as f32, y as f32, z];
     let (origin, spacing) = (place(origin, 0.0), place(spacing, 1.0));
@@ -130,15 +125,18 @@ pub(crate) fn vti(
     bytes(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
 }
 
-/// Checks that every array has the expected length.
-fn check_lengths<T>(path: &Path, arrays: &[(&'static str, Vec<T>)], expected: usize) -> Result<(), OutputError> {
-    match arrays.iter().find(|(_, values)| values.len() != expected) {
-        None => Ok(()),
-        Some((array, values)) => {
-            let fault = ShapeError::Length { array, found: values.len(), expected };
-            Err(OutputError::Shape { path: path.into(), fault })
-        }
-    }
+/// Returns arrays of one number for each point or cell, of which there are `expected`; `path` is for messages.
+fn checked_scalars<T: Clone>(
+    path: &Path,
+    arrays: &[(&'static str, Vec<T>)],
+    expected: usize,
+) -> Result<Vec<Attribute>, OutputError>
+where
+    IOBuffer: From<Vec<T>>,
+{
+    let lengths = arrays.iter().map(|(array, values)| (*array, values.len(), expected));
+    ShapeError::check(lengths, [], 0).map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
+    Ok(arrays.iter().map(|(array, values)| scalars(array, values.clone())).collect())
 }
 
 /// Returns the bytes of the file of a data set; `path` is for messages.
@@ -180,37 +178,28 @@ fn coordinates(points: &[Vec3]) -> IOBuffer {
 }
 
 fn cells(picture: &Picture) -> Cells {
-    let (faces, lines) = (picture.triangles.len(), picture.lines.len());
-    let used = picture.triangles.iter().flatten().chain(picture.lines.iter().flatten());
-    let ends = (1..=faces).map(|face| 3 * face).chain((1..=lines).map(|line| 3 * faces + 2 * line));
-    let types = [vec![CellType::Triangle; faces], vec![CellType::Line; lines]].concat();
-    let cell_verts = VertexNumbers::XML {
-        connectivity: used.map(|&point| point as u64).collect(),
-        offsets: ends.map(|end| end as u64).collect(),
-    };
-    Cells { cell_verts, types }
+    let types = [vec![CellType::Triangle; picture.triangles.len()], vec![CellType::Line; picture.lines.len()]];
+    let triangles = picture.triangles.iter().map(|triangle| triangle.as_slice());
+    let cell_verts = numbers(triangles.chain(picture.lines.iter().map(|line| line.as_slice())));
+    Cells { cell_verts, types: types.concat() }
 }
 
 fn attributes(picture: &Picture) -> Attributes {
     let faces = picture.triangles.len();
-    let on_lines = |values: &[f64]| IOBuffer::F64([&vec![f64::NAN; faces], values].concat());
+    let on_lines = |values: &[f64]| [&vec![f64::NAN; faces], values].concat();
     let crossing = [&picture.self_intersecting[..], &vec![0; picture.lines.len()]].concat();
     let edges = [&vec![-1; faces], &picture.line_edges[..]].concat();
-    let vertex = picture.places.iter().map(|(vertex, _)| *vertex as i32).collect();
-    let cell = |axis: usize| IOBuffer::I32(picture.places.iter().map(|(_, cell)| cell[axis]).collect());
+    let vertex: Vec<i32> = picture.places.iter().map(|(vertex, _)| *vertex as i32).collect();
+    let cell = |axis: usize| picture.places.iter().map(|(_, cell)| cell[axis]).collect::<Vec<i32>>();
     let letters = picture.letters.iter().map(|letter| letter.number() as i32);
-    let letters = vec![-1; faces].into_iter().chain(letters).collect();
+    let letters: Vec<i32> = vec![-1; faces].into_iter().chain(letters).collect();
     let fields = Picture::FIELDS.iter().map(|(name, get)| scalars(name, on_lines(get(picture))));
-    let others = [
-        scalars("self_intersecting", IOBuffer::U8(crossing)),
-        scalars("edge", IOBuffer::I32(edges)),
-        scalars("assignment", IOBuffer::I32(letters)),
-    ];
+    let others = [scalars("self_intersecting", crossing), scalars("edge", edges), scalars("assignment", letters)];
     let remembered = picture.memory.iter().map(|(name, values)| scalars(name, on_lines(values)));
     Attributes {
         point: vec![
             array("displacement", ElementType::Vectors, coordinates(&picture.displacement)),
-            scalars("vertex", IOBuffer::I32(vertex)),
+            scalars("vertex", vertex),
             scalars("cell1", cell(0)),
             scalars("cell2", cell(1)),
         ],
@@ -218,12 +207,12 @@ fn attributes(picture: &Picture) -> Attributes {
     }
 }
 
-fn scalars(name: &str, data: IOBuffer) -> Attribute {
+fn scalars(name: &str, data: impl Into<IOBuffer>) -> Attribute {
     array(name, ElementType::Scalars { num_comp: 1, lookup_table: None }, data)
 }
 
-fn array(name: &str, elem: ElementType, data: IOBuffer) -> Attribute {
-    Attribute::DataArray(DataArray { name: name.into(), elem, data })
+fn array(name: &str, elem: ElementType, data: impl Into<IOBuffer>) -> Attribute {
+    Attribute::DataArray(DataArray { name: name.into(), elem, data: data.into() })
 }
 
 /// Returns a PVD collection. `states` holds pairs of a time (any increasing numbers) and the path of a file relative to

@@ -5,8 +5,9 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::folder::files_of;
 use crate::output::{OutputError, files};
-use crate::scene::outputs::{is_one_of, outputs, owned};
+use crate::scene::outputs::outputs;
 use crate::scene::{Fingerprint, SceneFile};
 use crate::study::Files;
 
@@ -30,18 +31,13 @@ impl Belongings {
 
     /// Returns the existing files that a study of this name has written, in order.
     fn present(&self, name: &str) -> Vec<String> {
-        let own = owned(name);
-        let entries = fs::read_dir(self.out.join(name)).into_iter().flatten().flatten();
-        let inside = entries.map(|entry| format!("{name}/{}", entry.file_name().to_string_lossy()));
-        let beside = own.iter().filter(|file| !file.contains('/')).cloned();
         let is_own = |file: &String| {
             let path = self.out.join(file);
-            is_one_of(&own, file)
-                && self.writers.get(file).is_none_or(|writer| writer == name)
+            self.writers.get(file).is_none_or(|writer| writer == name)
                 && path.is_file()
                 && fs::canonicalize(path).is_ok_and(|real| !self.read.contains(&real))
         };
-        beside.chain(inside).filter(is_own).collect::<BTreeSet<_>>().into_iter().collect()
+        files_of(&self.out, name).into_iter().filter(is_own).collect::<BTreeSet<_>>().into_iter().collect()
     }
 
     /// Removes the files that an earlier run wrote for a study of this name and this run did not write, and the study's

@@ -82,12 +82,10 @@ impl RunError {
         match self {
             Self::Scene(SceneError::Read { source, .. } | SceneError::Mesh(SheetError::Read { source, .. }))
             | Self::Mesh(SheetError::Read { source, .. })
-            | Self::Output(OutputError::Read { source, .. }) => {
-                if wrong_input(source) {
-                    2
-                } else {
-                    3
-                }
+            | Self::Output(OutputError::Read { source, .. })
+                if !wrong_input(source) =>
+            {
+                3
             }
             Self::Output(OutputError::Write { .. } | OutputError::Claimed { .. }) => 3,
             _ => 2,

@@ -38,16 +38,21 @@ pub(super) fn study_name(study: &Map<String, Value>) -> Option<&str> {
 
 /// Returns the files of a study that can be shown.
 pub(super) fn contents(folder: &Path, name: &str) -> Result<Vec<(String, Content<'static>)>, OutputError> {
-    let own = owned(name);
-    let entries = fs::read_dir(folder.join(name)).into_iter().flatten().flatten();
-    let inside = entries.map(|entry| format!("{name}/{}", entry.file_name().to_string_lossy()));
-    let beside = own.iter().filter(|file| !file.contains('/')).cloned();
     let content = |file: String| match content(&folder.join(&file)) {
         Ok(Some(content)) => Some(Ok((file, content))),
         Ok(None) => None,
         Err(error) => Some(Err(error)),
     };
-    beside.chain(inside).filter(|file| is_one_of(&own, file)).filter_map(content).collect()
+    files_of(folder, name).into_iter().filter_map(content).collect()
+}
+
+/// Returns the files of a study that may be there: those beside its own folder, and those in it.
+pub(super) fn files_of(folder: &Path, name: &str) -> Vec<String> {
+    let own = owned(name);
+    let entries = fs::read_dir(folder.join(name)).into_iter().flatten().flatten();
+    let inside = entries.map(|entry| format!("{name}/{}", entry.file_name().to_string_lossy()));
+    let beside = own.iter().filter(|file| !file.contains('/')).cloned();
+    beside.chain(inside).filter(|file| is_one_of(&own, file)).collect()
 }
 
 /// Reads a file; `None` if there is none, or if a page shows nothing of it.

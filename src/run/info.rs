@@ -148,8 +148,7 @@ pub fn edges(sheet: &Sheet) -> Table {
         let place =
             [number, key.i, key.j].map(Value::from).into_iter().chain(key.shift.map(i64::from).map(Value::from));
         let words = [edge.kind.word(), sheet.assignment(edge).letter()].map(Value::Word);
-        let [start, end] = key.ends().map(|corner| sheet.position(corner));
-        let numbers = [Value::Number((end - start).norm()), sheet.drawn_angle(edge).into()];
+        let numbers = [Value::Number(sheet.length(key)), sheet.drawn_angle(edge).into()];
         table.push(place.chain(words).chain(numbers));
     }
     table

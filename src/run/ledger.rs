@@ -8,7 +8,6 @@
 use super::{RunError, RunReport};
 use crate::output::files;
 use crate::output::json::to_json;
-use crate::run::Summary;
 use crate::scene::spec::StudySpec;
 use crate::study::StudySummary;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -109,14 +108,10 @@ impl Ledger {
 }
 
 impl Entries {
-    fn summary(&mut self) -> Option<&mut Summary> {
-        self.report.as_mut().map(|report| &mut report.summary)
-    }
-
     fn insert(&mut self, study: StudySummary, place: usize) {
         let at = self.places.partition_point(|other| *other < place);
-        if let Some(summary) = self.summary() {
-            summary.studies.insert(at, study);
+        if let Some(report) = &mut self.report {
+            report.summary.studies.insert(at, study);
             self.places.insert(at, place);
         }
     }

@@ -5,11 +5,9 @@
 //! study's own files are those on record. A study from which a later one starts leaves its state in `NAME.state.json`,
 //! every number with enough digits to be read back exactly, so that the later study starts from the same state.
 
-use super::RunError;
 use super::belongings::Belongings;
 use crate::math::Vec3;
 use crate::model::Configuration;
-use crate::numerics::larger;
 use crate::output::figure::surface::PathPoint;
 use crate::output::table::columns_of;
 use crate::output::{OutputError, files};
@@ -19,7 +17,7 @@ use crate::scene::spec::{StudyKind, StudySpec};
 use crate::study::StudySummary;
 use serde::Deserialize;
 use serde_json::value::RawValue;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The parts of an earlier `summary.json` that are needed to resume.
 #[derive(Default, Deserialize)]
@@ -54,7 +52,7 @@ impl PreviousRun {
         if !found.converged || found.result.is_none() || found.files != files.record(name).ok() {
             return None;
         }
-        let state = if is_start(file, name) { Some(read_state(out, name)?) } else { None };
+        let state = if is_start(file, name) { Some(read_state(&out.join(state_file(name)))?) } else { None };
         Some((found, state))
     }
 }
@@ -76,30 +74,24 @@ pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<Path
     let text = std::fs::read_to_string(&path).map_err(|source| OutputError::Read { path, source })?;
     let rows = columns_of(&text, &COLUMNS);
     let of_one_ray = |a: &Vec<f64>, b: &Vec<f64>| a[..2] == b[..2];
-    let point = |row: &Vec<f64>| PathPoint {
-        curvature: row[2],
-        strain: Vec3::new(row[3], row[4], row[5]),
-        turn: larger(row[6].abs(), row[7].abs()),
-    };
+    let point = |row: &Vec<f64>| PathPoint::new(Vec3::new(row[3], row[4], row[5]), row[2], [row[6], row[7]]);
     Ok(Some(rows.chunk_by(of_one_ray).map(|rows| rows.iter().map(point).collect()).collect()))
 }
 
-fn state_path(out: &Path, name: &str) -> PathBuf {
-    out.join(format!("{name}.state.json"))
+/// Returns the name of the file of the state in which a study ended.
+pub(crate) fn state_file(name: &str) -> String {
+    format!("{name}.state.json")
 }
 
-fn read_state(out: &Path, name: &str) -> Option<Configuration> {
-    serde_json::from_str(&std::fs::read_to_string(state_path(out, name)).ok()?).ok()
+/// Reads a state; `None` if its file is not there or truncated.
+fn read_state(path: &Path) -> Option<Configuration> {
+    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 
-/// Writes the final state of a study if a later one starts from it.
-pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &Configuration) -> Result<(), RunError> {
-    if !is_start(file, name) {
-        return Ok(());
-    }
+/// Writes the state in which a study ended.
+pub(crate) fn write_state(path: &Path, state: &Configuration) -> Result<(), OutputError> {
     // a list of finite numbers, so that serialization cannot fail
-    let text = serde_json::to_string(state).unwrap_or_default();
-    Ok(files::write(&state_path(out, name), text)?)
+    files::write(path, serde_json::to_string(state).unwrap_or_default())
 }
 
 #[cfg(test)]
@@ -121,14 +113,14 @@ mod tests {
             tension: Some(vec![1.0 / 3.0, -0.0]),
             memory: vec![Memory { kept: 0.1 + 0.2, gone: 1e300 / 3.0 }],
         };
-        write_state(&file, folder.path(), "a", &state).unwrap();
-        let back = read_state(folder.path(), "a").unwrap();
+        let path = folder.path().join(state_file("a"));
+        write_state(&path, &state).unwrap();
+        let back = read_state(&path).unwrap();
         let bits = |state: &Configuration| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&back), bits(&state));
         assert_eq!(back, state);
-        write_state(&file, folder.path(), "b", &state).unwrap();
-        assert!(!state_path(folder.path(), "b").exists(), "nothing starts from it");
-        std::fs::write(state_path(folder.path(), "a"), "{\"coordinates\":[0.1").unwrap();
-        assert_eq!(read_state(folder.path(), "a"), None);
+        assert_eq!(["a", "b"].map(|name| is_start(&file, name)), [true, false], "nothing starts from the second");
+        std::fs::write(&path, "{\"coordinates\":[0.1").unwrap();
+        assert_eq!(read_state(&path), None);
     }
 }

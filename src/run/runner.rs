@@ -179,9 +179,8 @@ impl<'a> Runner<'a> {
     /// Keeps the final state of a study for the studies that start from it.
     fn keep_state(&mut self, study: &StudySpec, state: Configuration) -> Result<(), RunError> {
         if resume::is_start(self.file, &study.name.0) {
-            self.path(format!("{}.state.json", study.name.0));
+            resume::write_state(&self.path(resume::state_file(&study.name.0)), &state)?;
         }
-        resume::write_state(self.file, &self.out, &study.name.0, &state)?;
         self.earlier.states.insert(study.name.0.clone(), state);
         Ok(())
     }

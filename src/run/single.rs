@@ -89,7 +89,7 @@ pub(super) fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
 /// Checks that a scene has a study, and one that reads its mass, if it has a mass.
 fn has_something_to_compute(file: &SceneFile) -> Result<(), RunError> {
     has_studies(file)?;
-    Ok(crate::scene::mass::is_read(file)?)
+    Ok(crate::scene::material::mass_is_read(file)?)
 }
 
 /// Checks that a scene has a study.

@@ -4,14 +4,13 @@ pub(crate) use super::drives::rest as rest_drive;
 use super::elements::{ElementKind, ElementValues};
 use super::forms::{Mode, RatesFile};
 use super::laws::GivenLaw;
-use super::mass::mass;
-use super::material::material;
+use super::material::{mass, material};
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::Column;
-use super::spec::{DomainSpec, EnergySpec, Lattice};
+use super::spec::{CreasesSpec, DomainSpec, Lattice};
 use super::stiffness::StiffnessSpec;
-use super::values::{EdgeName, Fraction};
+use super::values::EdgeName;
 use super::{Located, SceneError, SceneFile, drives, laws, loads, ties};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
@@ -169,25 +168,23 @@ impl<'a> Reader<'a> {
 
     fn terms(&self) -> Result<Terms, SceneError> {
         let energy = &self.file.scene.energy;
-        let EnergySpec { bars: bar_spec, creases: crease_spec, facets: facet_spec, membrane: _ } = energy;
+        let (bar_spec, [crease_spec, facet_spec]) = (energy.bars.as_ref(), energy.hinges());
         let [bar_law, crease_law, facet_law] = laws::given(self.file, &self.values)?;
-        let given = bar_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
+        let given = bar_spec.and_then(|spec| spec.stiffness.as_ref());
         let bars = self.stiffness(given, bar_law.as_ref(), ElementKind::Bars)?;
-        let rest = bar_spec.as_ref().and_then(|spec| spec.rest.as_ref());
+        let rest = bar_spec.and_then(|spec| spec.rest.as_ref());
         let bars = bars.map(|stiffness| self.values.lengths(rest).map(|rest| Bars { stiffness, rest })).transpose()?;
         // without facets on the tiling, those of the cell still say which folding modes there are
-        let given = facet_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let facet_stiffness = self.stiffness(given, facet_law.as_ref(), ElementKind::Facets)?.unwrap_or(RIGID.into());
+        let given = |spec: Option<&'a CreasesSpec>| spec.and_then(|spec| spec.stiffness.as_ref());
+        let facet_stiffness = self.stiffness(given(facet_spec), facet_law.as_ref(), ElementKind::Facets)?;
+        let facet_stiffness = facet_stiffness.unwrap_or(RIGID.into());
         let rigid = self.rigid_facets(&facet_stiffness);
-        let given = crease_spec.as_ref().and_then(|spec| spec.stiffness.as_ref());
-        let crease_stiffness = self.stiffness(given, crease_law.as_ref(), ElementKind::Creases)?;
-        let [crease_rest, facet_rest] = energy.rests();
-        let hinges = |stiffness, of, rest| self.rest(rest, of, &rigid).map(|rest| Hinges { stiffness, rest });
-        let rest = (crease_rest, crease_spec.as_ref().and_then(|spec| spec.fraction.as_ref()));
-        let creases = crease_stiffness.map(|stiffness| hinges(stiffness, ElementKind::Creases, rest)).transpose()?;
-        let rest = (facet_rest, facet_spec.as_ref().and_then(|spec| spec.fraction.as_ref()));
+        let crease_stiffness = self.stiffness(given(crease_spec), crease_law.as_ref(), ElementKind::Creases)?;
+        let hinges = |stiffness, of, spec| self.rest(spec, of, &rigid).map(|rest| Hinges { stiffness, rest });
+        let creases = crease_stiffness.map(|stiffness| hinges(stiffness, ElementKind::Creases, crease_spec));
         let has_facets = self.tiling.facets().next().is_some();
-        let facets = has_facets.then(|| hinges(facet_stiffness, ElementKind::Facets, rest)).transpose()?;
+        let facets = has_facets.then(|| hinges(facet_stiffness, ElementKind::Facets, facet_spec)).transpose()?;
+        let creases = creases.transpose()?;
         let of_hinges = |hinges: &'_ Option<Hinges>| hinges.as_ref().map(|hinges| hinges.stiffness.clone());
         let stiffness = [bars.as_ref().map(|bars| bars.stiffness.clone()), of_hinges(&creases), of_hinges(&facets)];
         let laws = laws::of_terms(self.file, [bar_law, crease_law, facet_law], stiffness)?;
@@ -236,17 +233,15 @@ impl<'a> Reader<'a> {
     /// Returns the rest angle of every edge of the tiling; only those of hinges of this term are meant.
     fn rest(
         &self,
-        (rest, fraction): (Option<&Located<RestSpec>>, Option<&Located<Fraction>>),
+        spec: Option<&CreasesSpec>,
         of: ElementKind,
         rigid_facets: &[usize],
     ) -> Result<Vec<f64>, SceneError> {
-        let Some(rest) = rest else { return Ok(self.angles.to_vec()) };
-        let part = |angles: Vec<f64>| {
-            let fraction = fraction.map_or(1.0, |fraction| fraction.0);
-            angles.into_iter().map(|angle| fraction * angle).collect()
-        };
+        let Some(CreasesSpec { rest: Some(rest), fraction, .. }) = spec else { return Ok(self.angles.to_vec()) };
+        let fraction = fraction.as_ref().map_or(1.0, |fraction| fraction.0);
+        let part = |angles: Vec<f64>| angles.into_iter().map(|angle| fraction * angle).collect();
         match &**rest {
-            RestSpec::Target => self.targets(fraction.map_or(1.0, |fraction| fraction.0), rest.span()),
+            RestSpec::Target => self.targets(fraction, rest.span()),
             RestSpec::Assigned => self.flat_folded(of, rest.span()).map(part),
             RestSpec::Letters(letters) => self.values.angles_by_letter(letters, of, rest.span()).map(part),
             RestSpec::Drawn => Ok(self.angles.to_vec()),

@@ -6,7 +6,9 @@ use std::ops::Range;
 
 use super::forms::StartSpec;
 use super::outputs::outputs;
-use super::spec::{DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec};
+use super::spec::{
+    CreasesSpec, DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec,
+};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile, loads};
 use crate::sheet::similar::{did_you_mean, there_are};
@@ -19,7 +21,7 @@ type Checked = Result<(), SceneError>;
 /// Checks a scene; returns an error for the first invalid combination of values.
 pub(super) fn check(file: &SceneFile) -> Checked {
     sheet(file)?;
-    super::mass::check(file)?;
+    super::material::check_mass(file)?;
     super::material::check(file)?;
     locks(file)?;
     super::turns::check(file)?;
@@ -51,13 +53,10 @@ fn sheet(file: &SceneFile) -> Checked {
         }
     }
     of_tube(file)?;
-    match &sheet.lattice {
-        Some(lattice) if sheet.domain() != DomainSpec::Torus => {
-            let help = "it belongs to domain = \"torus\"; leave it out otherwise";
-            Err(file.error_at(lattice.span(), format!("`lattice` is given for a {}", domain_name(file)), help))
-        }
-        _ => Ok(()),
-    }
+    let misplaced = sheet.lattice.as_ref().filter(|_| sheet.domain() != DomainSpec::Torus);
+    let Some(lattice) = misplaced else { return Ok(()) };
+    let help = "it belongs to domain = \"torus\"; leave it out otherwise";
+    Err(file.error_at(lattice.span(), format!("`lattice` is given for a {}", domain_name(file)), help))
 }
 
 /// Checks that a tube has a seam and shows no more strands than it has, and that the keys of tubes are given for tubes
@@ -80,15 +79,11 @@ fn of_tube(file: &SceneFile) -> Checked {
         return Err(file.error_at(span, "a tube without a seam", help));
     };
     let strands = seam.usual_cells()[0];
-    match &sheet.cells {
-        Some(cells) if cells.0[0] > strands => {
-            let [n1, n2] = seam.0;
-            let message = format!("a tube with the seam [{n1}, {n2}] has no {} strands", cells.0[0]);
-            let help = format!("the first number is at most {strands}, the greatest common divisor of the seam");
-            Err(file.error_at(cells.span(), message, help))
-        }
-        _ => Ok(()),
-    }
+    let Some(cells) = sheet.cells.as_ref().filter(|cells| cells.0[0] > strands) else { return Ok(()) };
+    let [n1, n2] = seam.0;
+    let message = format!("a tube with the seam [{n1}, {n2}] has no {} strands", cells.0[0]);
+    let help = format!("the first number is at most {strands}, the greatest common divisor of the seam");
+    Err(file.error_at(cells.span(), message, help))
 }
 
 /// Returns the bytes of the header `[sheet]`, the place of errors of the whole table.
@@ -136,10 +131,7 @@ fn locks(file: &SceneFile) -> Checked {
 
 /// Checks that fractions are given only where there are angles of which they can be a part.
 fn fractions(file: &SceneFile) -> Checked {
-    let energy = &file.scene.energy;
-    let creases = energy.creases.as_ref().map(|spec| (&spec.rest, &spec.fraction));
-    let facets = energy.facets.as_ref().map(|spec| (&spec.rest, &spec.fraction));
-    for (rest, fraction) in creases.into_iter().chain(facets) {
+    for CreasesSpec { rest, fraction, .. } in file.scene.energy.hinges().into_iter().flatten() {
         let Some(fraction) = fraction else { continue };
         if !rest.as_ref().is_some_and(|rest| rest.has_fraction()) {
             let help = "it belongs to rest = \"target\", \"assigned\" or { M = .., V = .. }; leave it out otherwise";
@@ -199,13 +191,10 @@ fn place(
         return Err(file.error_at(span, format!("{what} on a {}", domain_name(file)), help));
     }
     let cells = sheet.cells();
-    match cell {
-        Some(cell) if cell.0[0] >= cells[0] || cell.0[1] >= cells[1] => {
-            let help = format!("cells of this patch run from [0, 0] to [{}, {}]", cells[0] - 1, cells[1] - 1);
-            Err(file.error_at(cell.span(), format!("there is no cell {:?}", cell.0), help))
-        }
-        _ => Ok(()),
-    }
+    let outside = cell.filter(|cell| cell.0[0] >= cells[0] || cell.0[1] >= cells[1]);
+    let Some(cell) = outside else { return Ok(()) };
+    let help = format!("cells of this patch run from [0, 0] to [{}, {}]", cells[0] - 1, cells[1] - 1);
+    Err(file.error_at(cell.span(), format!("there is no cell {:?}", cell.0), help))
 }
 
 fn studies(file: &SceneFile) -> Checked {
@@ -301,13 +290,9 @@ fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
 
 /// Checks that a study of kind `fold` names no drive.
 fn folded(file: &SceneFile, path: &PathSpec) -> Checked {
-    match &path.drive {
-        None => path_stop(file, path),
-        Some(name) => {
-            let help = "leave it out: what is driven are the rest angles; kind = \"path\" drives other quantities";
-            Err(file.error_at(name.span(), "a study of kind fold has no drive of the scene", help))
-        }
-    }
+    let Some(name) = &path.drive else { return path_stop(file, path) };
+    let help = "leave it out: what is driven are the rest angles; kind = \"path\" drives other quantities";
+    Err(file.error_at(name.span(), "a study of kind fold has no drive of the scene", help))
 }
 
 /// Checks that the sheet of a path has the quantities at which it stops.
@@ -323,13 +308,9 @@ fn path_stop(file: &SceneFile, path: &PathSpec) -> Checked {
 
 /// Checks that a trace stops at what it has.
 fn trace_stop(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
-    match stop.of_path() {
-        None => some_condition(file, stop),
-        Some(span) => {
-            let help = "a trace follows rigid foldings, without a drive and forces; kind = \"path\" has this condition";
-            Err(file.error_at(span, "a trace does not stop there", help))
-        }
-    }
+    let Some(span) = stop.of_path() else { return some_condition(file, stop) };
+    let help = "a trace follows rigid foldings, without a drive and forces; kind = \"path\" has this condition";
+    Err(file.error_at(span, "a trace does not stop there", help))
 }
 
 fn some_condition(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
@@ -344,13 +325,10 @@ fn of_rigid(file: &SceneFile, wells: &WellsSpec) -> Checked {
         ("resolution", wells.resolution.as_ref().map(Located::span)),
         ("max_curvature", wells.max_curvature.as_ref().map(Located::span)),
     ];
-    match given.into_iter().find_map(|(key, span)| Some((key, span?))) {
-        Some((key, span)) if !wells.rigid => {
-            let message = format!("`{key}` is given, but the rigid states are not asked for");
-            Err(file.error_at(span, message, "add rigid = true, or leave it out"))
-        }
-        _ => Ok(()),
-    }
+    let given = given.into_iter().find_map(|(key, span)| Some((key, span?)));
+    let Some((key, span)) = given.filter(|_| !wells.rigid) else { return Ok(()) };
+    let message = format!("`{key}` is given, but the rigid states are not asked for");
+    Err(file.error_at(span, message, "add rigid = true, or leave it out"))
 }
 
 fn not_empty(file: &SceneFile, landscape: &LandscapeSpec) -> Checked {

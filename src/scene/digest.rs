@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::forms::{Mode, StartSpec};
 use super::rest::RestSpec;
-use super::spec::{BarsSpec, EnergySpec, StudyKind, SweepValues};
+use super::spec::{BarsSpec, CreasesSpec, StudyKind, SweepValues};
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::{Located, SceneError, SceneFile};
 use crate::sheet::text::read_bytes;
@@ -62,18 +62,17 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
         Mode::Curvature(_) | Mode::Wave(_) => None,
     };
     let mut found: Vec<PathBuf> = scene.sheet.mesh.iter().map(|mesh| mesh.to_path_buf()).collect();
-    let EnergySpec { bars, creases, facets, membrane: _ } = &scene.energy;
-    let hinges = |stiffness, rest: &Option<Located<RestSpec>>| {
-        let angles = match rest.as_deref() {
+    let hinges = |spec: &CreasesSpec| {
+        let angles = match spec.rest.as_deref() {
             Some(RestSpec::File(name)) => Some(name.file.to_path_buf()),
             Some(RestSpec::Mode(mode)) => rates(&mode.mode),
             _ => None,
         };
-        [stiffness_table(stiffness), angles]
+        [stiffness_table(&spec.stiffness), angles]
     };
-    found.extend(bars.iter().flat_map(|spec| [stiffness_table(&spec.stiffness), length_table(spec)]).flatten());
-    found.extend(creases.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
-    found.extend(facets.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
+    let bars = scene.energy.bars.iter();
+    found.extend(bars.flat_map(|spec| [stiffness_table(&spec.stiffness), length_table(spec)]).flatten());
+    found.extend(scene.energy.hinges().into_iter().flatten().flat_map(hinges).flatten());
     found.extend(scene.energy.curves().into_iter().filter_map(|curve| curve.file.clone()));
     for study in &scene.studies {
         if let Some(StartSpec::File(path)) = study.kind.start().map(|start| &**start) {

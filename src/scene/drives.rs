@@ -35,13 +35,11 @@ enum Quantity<'a> {
 pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let scene = &file.scene;
     let patch = scene.sheet.domain() == DomainSpec::Patch;
-    if let Some(part) = scene.parts.first().filter(|_| !patch) {
-        let help = "parts need domain = \"patch\"";
-        return Err(file.error_at(part.name.span(), "a part on a sheet that is no patch", help));
-    }
-    if let Some(tie) = scene.ties.first().filter(|_| !patch) {
-        let help = "ties need domain = \"patch\"";
-        return Err(file.error_at(tie.vertices.span(), "a tie on a sheet that is no patch", help));
+    let part = scene.parts.first().map(|part| ("part", part.name.span()));
+    let tie = scene.ties.first().map(|tie| ("tie", tie.vertices.span()));
+    if let Some((word, span)) = part.or(tie).filter(|_| !patch) {
+        let help = format!("{word}s need domain = \"patch\"");
+        return Err(file.error_at(span, format!("a {word} on a sheet that is no patch"), help));
     }
     for drive in &scene.drives {
         let quantity = quantity(file, drive)?;
@@ -298,15 +296,13 @@ fn vertices(
 
 /// Checks that a crease has one hinge, which an angle means.
 pub(super) fn one_hinge(file: &SceneFile, sheet: &Sheet, crease: &Located<EdgeName>) -> Result<(), SceneError> {
-    match sheet.hinges_round(crease.0) {
-        0 | 1 => Ok(()),
-        hinges => {
-            let message = format!("the crease has {hinges} hinges, since more than two faces meet there");
-            let help =
-                "a lock without `angle` keeps all of them; `foldwell:glue` in the mesh welds or frees single ones";
-            Err(file.error_at(crease.span(), message, help))
-        }
+    let hinges = sheet.hinges_round(crease.0);
+    if hinges < 2 {
+        return Ok(());
     }
+    let message = format!("the crease has {hinges} hinges, since more than two faces meet there");
+    let help = "a lock without `angle` keeps all of them; `foldwell:glue` in the mesh welds or frees single ones";
+    Err(file.error_at(crease.span(), message, help))
 }
 
 /// Returns the locked edges whose angle a drive changes.

@@ -204,15 +204,10 @@ impl<'a> ElementValues<'a> {
             }
         }
         let missing = |k: &usize| needed.is_at(self.tiling.edges[*k].kind) && values[*k].is_nan();
-        match (0..values.len()).find(missing) {
-            None => Ok(values),
-            Some(k) => {
-                let key = self.key(k);
-                let message =
-                    format!("{} has no row for {word} {key} of cell {:?}", path.display(), self.tiling.edges[k].cell);
-                Err(self.file.error_at(span, message, format!("give one row for each {word}")))
-            }
-        }
+        let Some(k) = (0..values.len()).find(missing) else { return Ok(values) };
+        let (key, cell) = (self.key(k), self.tiling.edges[k].cell);
+        let message = format!("{} has no row for {word} {key} of cell {cell:?}", path.display());
+        Err(self.file.error_at(span, message, format!("give one row for each {word}")))
     }
 
     /// Returns the name of the cell's edge of which an edge of the tiling is a copy.

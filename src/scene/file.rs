@@ -17,6 +17,7 @@ use super::setting::{Setting, apply};
 use super::spec::Scene;
 use crate::sheet::SheetError;
 use crate::sheet::similar::{did_you_mean, did_you_mean_of};
+use crate::sheet::text::{line_and_column, shortened};
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.
@@ -100,7 +101,7 @@ impl SceneFile {
 
     /// Returns the line of a byte offset, counted from 1.
     pub(super) fn line_of(&self, offset: usize) -> usize {
-        line_and_column(self.text(), offset).0
+        line_and_column(self.text(), offset)[0]
     }
 
     /// Returns an error that points at a place of the scene ([`super::Located::span`]); `message` describes the error,
@@ -135,10 +136,11 @@ impl SceneFile {
 }
 
 fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String, help: Option<String>) -> SceneError {
-    let (line, column) = line_and_column(text.inner(), span.start);
+    let [line, column] = line_and_column(text.inner(), span.start);
     let key = if span.is_empty() { "".into() } else { key_at(text.inner(), span.start).into() };
     let (text, span) = excerpt(text, span);
-    let (message, help) = (cut(&message), help.as_deref().map(cut));
+    let cut = |text: String| shortened(&text, LONGEST_PRINTED_LINE);
+    let (message, help) = (cut(message), help.map(cut));
     SceneError::At { line, column, key, message, help, text, span: span.into() }
 }
 
@@ -171,14 +173,6 @@ fn key_in_value(value: &Spanned<DeValue<'_>>, offset: usize) -> Option<Vec<Strin
 /// Largest number of characters of a line or message that are printed.
 const LONGEST_PRINTED_LINE: usize = 400;
 
-/// Truncates a message to a readable length.
-fn cut(message: &str) -> String {
-    match message.char_indices().nth(LONGEST_PRINTED_LINE) {
-        Some((end, _)) => format!("{}...", &message[..end]),
-        None => message.to_owned(),
-    }
-}
-
 /// Returns the text to be shown around a place and the place in it: the whole text, or, if one of its lines is very
 /// long, the text with long lines truncated, the line of the place to a part around it.
 fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSource<String>>, Range<usize>) {
@@ -205,14 +199,6 @@ fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSou
         offset = here.end;
     }
     (Arc::new(NamedSource::new(text.name(), short).with_language("TOML")), moved)
-}
-
-/// Returns line and column of a byte offset, both counted from 1; the column counts characters.
-fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
-    let before = &text.as_bytes()[..offset.min(text.len())];
-    let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
-    let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
-    (line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1)
 }
 
 fn deserialize(text: &Arc<NamedSource<String>>) -> Result<Scene, SceneError> {
@@ -330,9 +316,9 @@ mod tests {
     #[test]
     fn line_and_column_of_an_offset() {
         let text = "a = 1\n# \u{e9}\u{e9} b = 2\n";
-        assert_eq!(line_and_column(text, 0), (1, 1));
-        assert_eq!(line_and_column(text, 4), (1, 5));
-        assert_eq!(line_and_column(text, text.find('b').unwrap()), (2, 6));
-        assert_eq!(line_and_column(text, text.len() + 9), (3, 1));
+        assert_eq!(line_and_column(text, 0), [1, 1]);
+        assert_eq!(line_and_column(text, 4), [1, 5]);
+        assert_eq!(line_and_column(text, text.find('b').unwrap()), [2, 6]);
+        assert_eq!(line_and_column(text, text.len() + 9), [3, 1]);
     }
 }

@@ -9,7 +9,7 @@ use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 
 use super::Located;
 use super::values::{Positive, Triple};
-use super::written::{Written, read_as_written, schema_any_of};
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// `{ file = "angles.csv" }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
 use super::rows::numbered_lines;
-use super::spec::{BarLawSpec, CurveSpec, EnergySpec, HingeLawSpec, HingeYieldSpec, LawForm};
+use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec, HingeYieldSpec, LawForm};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{
     Bilinear, CurveError, ElasticPlastic, Formula, FormulaError, GreenLagrange, Law, Laws, Measured, Memory, OfAngle,
@@ -33,10 +33,9 @@ type LawReader<T> = fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneE
 
 /// Returns the laws that bars, creases and facets are given.
 pub(super) fn given(file: &SceneFile, values: &ElementValues) -> Result<[Option<GivenLaw>; 3], SceneError> {
-    let EnergySpec { bars, creases, facets, membrane: _ } = &file.scene.energy;
-    let [in_creases, in_facets] =
-        [creases.as_ref().and_then(|spec| spec.law.as_ref()), facets.as_ref().and_then(|spec| spec.law.as_ref())];
-    let in_bars = bars.as_ref().and_then(|spec| spec.law.as_ref());
+    let energy = &file.scene.energy;
+    let [in_creases, in_facets] = energy.hinges().map(|spec| spec?.law.as_ref());
+    let in_bars = energy.bars.as_ref().and_then(|spec| spec.law.as_ref());
     Ok([
         in_bars.map(|law| of_elements(file, (values, ElementKind::Bars), law, of_bars)).transpose()?,
         in_creases.map(|law| of_elements(file, (values, ElementKind::Creases), law, of_hinges)).transpose()?,
@@ -71,13 +70,12 @@ pub(super) fn of_terms(
     [of_bars, of_creases, of_facets]: [Option<GivenLaw>; 3],
     [bar, crease, facet]: [Option<Stiffness>; 3],
 ) -> Result<Laws, SceneError> {
-    let EnergySpec { bars, creases, facets, membrane: _ } = &file.scene.energy;
+    let energy = &file.scene.energy;
     let of_hinges =
         |spec: &Located<HingeYieldSpec>| Yield::new(spec.span(), [spec.moment.0, spec.hardening.0, spec.isotropic.0]);
-    let in_bars = bars.as_ref().and_then(|spec| spec.yields.as_ref());
+    let in_bars = energy.bars.as_ref().and_then(|spec| spec.yields.as_ref());
     let in_bars = in_bars.map(|spec| Yield::new(spec.span(), [spec.force.0, spec.hardening.0, spec.isotropic.0]));
-    let in_creases = creases.as_ref().and_then(|spec| spec.yields.as_ref()).map(of_hinges);
-    let in_facets = facets.as_ref().and_then(|spec| spec.yields.as_ref()).map(of_hinges);
+    let [in_creases, in_facets] = energy.hinges().map(|spec| spec?.yields.as_ref().map(of_hinges));
     Ok(Laws {
         bars: of_term(file, of_bars, (in_bars, bar), OfStrain)?,
         creases: of_term(file, of_creases, (in_creases, crease), OfAngle)?,

@@ -1,8 +1,8 @@
-//! The material of a scene, and the stiffnesses that follow from it.
+//! The material of a scene, and the stiffnesses that follow from it; its mass.
 
 use super::spec::{FacetModel, MaterialSpec};
 use super::{Located, SceneError, SceneFile};
-use crate::model::{Assembly, Material, OwnTerm, Stiffness};
+use crate::model::{Assembly, Mass, Material, OwnTerm, Stiffness};
 use crate::sheet::{Sheet, with_centres};
 
 /// Checks that every term of the energy has a stiffness, or the material one for it.
@@ -10,7 +10,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let (energy, material) = (&file.scene.energy, file.scene.material.as_ref());
     let bars = energy.bars.as_ref().filter(|bars| bars.stiffness.is_none()).map(Located::span);
     let creases = energy.creases.as_ref().filter(|creases| creases.stiffness.is_none()).map(Located::span);
-    let facets = energy.facets.as_ref().filter(|facets| facets.stiffness.is_none()).map(Located::span);
+    let facets = energy.facets.as_ref().filter(|facets| facets.hinges.stiffness.is_none()).map(Located::span);
     let creases_follow = material.is_some_and(|material| material.crease_length.is_some());
     let terms = [(bars, material.is_some()), (creases, creases_follow), (facets, material.is_some())];
     for ((without, follows), of_curve) in terms.into_iter().zip(energy.stiffness_of_curve()) {
@@ -71,4 +71,35 @@ pub(super) fn bars(file: &SceneFile, assembly: &Assembly, material: &Material) -
 pub(super) fn membrane(file: &SceneFile, assembly: &Assembly) -> Option<OwnTerm> {
     let material = material(file).filter(|_| file.scene.energy.has_membrane())?;
     Some(OwnTerm::membrane(assembly, &material))
+}
+
+/// Checks that a mass is given in one way.
+pub(super) fn check_mass(file: &SceneFile) -> Result<(), SceneError> {
+    let Some(mass) = &file.scene.mass else { return Ok(()) };
+    let help = "give one of { vertex = 1.0 }, the mass of each vertex, and { area = 1.0 }, a mass per area";
+    match (&mass.vertex, &mass.area) {
+        (Some(_), Some(both)) => {
+            Err(file.error_at(both.span(), "the sheet has both a mass per vertex and per area", help))
+        }
+        (None, None) => Err(file.error_at(mass.span(), "the mass has neither `vertex` nor `area`", help)),
+        _ => Ok(()),
+    }
+}
+
+/// Returns the mass of the sheet; `None` if the scene gives none.
+pub(super) fn mass(file: &SceneFile) -> Option<Mass> {
+    let spec = file.scene.mass.as_ref()?;
+    let vertex = spec.vertex.as_ref().map(|mass| Mass::Vertex(mass.0));
+    vertex.or(spec.area.as_ref().map(|mass| Mass::Area(mass.0)))
+}
+
+/// Checks that a study of the scene reads its mass.
+pub(crate) fn mass_is_read(file: &SceneFile) -> Result<(), SceneError> {
+    let span = file.scene.mass.as_ref().map(Located::span);
+    let weighs = file.scene.loads.iter().any(|load| load.weight.is_some());
+    let unread = span.filter(|_| !weighs && !file.scene.studies.iter().any(|study| study.kind.reads_mass()));
+    let Some(span) = unread else { return Ok(()) };
+    let help = "frequencies are those of kind = \"modes\" with `eigenvalues` and kind = \"bloch\" with `path` or \
+                `density`, weight is that of [[load]]; leave `mass` out otherwise";
+    Err(file.error_at(span, "no study of this scene reads the mass", help))
 }

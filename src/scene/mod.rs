@@ -14,8 +14,7 @@ pub(crate) mod forms;
 mod laws;
 mod loads;
 mod located;
-pub(crate) mod mass;
-mod material;
+pub(crate) mod material;
 mod memory;
 pub(crate) mod notes;
 pub(crate) mod outputs;
@@ -32,7 +31,6 @@ mod sweep;
 mod ties;
 mod turns;
 pub(crate) mod values;
-mod written;
 
 pub(crate) use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;

@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::spec::{Coordinate, PartSpec, PinSpec, SpringSpec, VertexName, VertexSet};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 use crate::model::{Assembly, Length, OwnTerm, Part, Site, Spring};
 use crate::sheet::similar::there_are;
 use crate::sheet::{Sheet, Tiling};
@@ -54,13 +54,9 @@ impl<'a> Places<'a> {
         if found.is_empty() {
             return Err(self.file.error_at(span(), "this set has no vertices", self.extremes()));
         }
-        match twice(&found) {
-            Some(vertex) => {
-                let message = format!("{} is listed twice", self.described(vertex));
-                Err(self.file.error_at(span(), message, "name every vertex once"))
-            }
-            None => Ok(found),
-        }
+        let Some(vertex) = twice(&found) else { return Ok(found) };
+        let message = format!("{} is listed twice", self.described(vertex));
+        Err(self.file.error_at(span(), message, "name every vertex once"))
     }
 
     /// Returns the number of a vertex of the patch.
@@ -99,7 +95,7 @@ impl<'a> Places<'a> {
 
     /// Returns the vertices with these drawn coordinates.
     fn at(&self, values: &[Option<Coordinate>; 3]) -> Vec<usize> {
-        let (low, high) = self.bounds();
+        let [low, high] = bounds(&self.tiling.positions);
         let value = |axis: usize, value: Coordinate| match value {
             Coordinate::Least => low[axis],
             Coordinate::Largest => high[axis],
@@ -126,14 +122,9 @@ impl<'a> Places<'a> {
         positions.filter(|(_, position)| has(position)).map(|(vertex, _)| vertex).collect()
     }
 
-    fn bounds(&self) -> (Vec3, Vec3) {
-        let all = &self.tiling.positions;
-        (all.iter().fold(all[0], |low, x| low.inf(x)), all.iter().fold(all[0], |high, x| high.sup(x)))
-    }
-
     /// Returns a sentence about the extent of the patch.
     fn extremes(&self) -> String {
-        let (low, high) = self.bounds();
+        let [low, high] = bounds(&self.tiling.positions);
         let range = |axis: usize| format!("{} from {:.6} to {:.6}", ["x", "y", "z"][axis], low[axis], high[axis]);
         format!("in the drawn state, the vertices of the patch have {}, {} and {}", range(0), range(1), range(2))
     }

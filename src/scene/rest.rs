@@ -11,9 +11,9 @@ use serde::de::{Error, MapAccess, Unexpected};
 use super::Located;
 use super::forms::{FileName, Mode};
 use super::values::Finite;
-use super::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::Assignment;
 use crate::sheet::angle::Angle;
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// Rest angles of creases or facets.
 #[derive(Clone, Debug, PartialEq)]

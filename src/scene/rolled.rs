@@ -16,10 +16,8 @@ pub(super) fn roll(file: &SceneFile, sheet: &Sheet) -> Result<Option<Roll>, Scen
         return drawn(file, sheet, seam).map(Some);
     }
     let inwards = spec.inwards.as_deref().copied().unwrap_or(true);
-    match rolled_up(sheet, seam.0, spec.seam_kept(), inwards) {
-        Ok(roll) => Ok(Some(roll)),
-        Err(error) => Err(file.error_at(seam.span(), error.to_string(), help(&error, inwards))),
-    }
+    let refused = |error: KinematicsError| file.error_at(seam.span(), error.to_string(), help(&error, inwards));
+    rolled_up(sheet, seam.0, spec.seam_kept(), inwards).map(Some).map_err(refused)
 }
 
 /// Returns a tube that its mesh draws as one.

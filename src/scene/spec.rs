@@ -17,7 +17,7 @@ mod vertices;
 use super::Located;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Fraction, Label, Positive, SeamCell, Stiffness, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Label, Positive, SeamCell, Stiffness, Triple};
 use crate::sheet::SeamKept;
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
@@ -211,10 +211,14 @@ impl EnergySpec {
         self.membrane.as_deref() == Some(&true)
     }
 
+    /// The keys of creases and of facets.
+    pub(crate) fn hinges(&self) -> [Option<&CreasesSpec>; 2] {
+        [self.creases.as_deref(), self.facets.as_deref().map(|facets| &facets.hinges)]
+    }
+
     /// The rest angles of creases and of facets.
     pub(crate) fn rests(&self) -> [Option<&Located<RestSpec>>; 2] {
-        let creases = self.creases.as_ref().and_then(|creases| creases.rest.as_ref());
-        [creases, self.facets.as_ref().and_then(|facets| facets.rest.as_ref())]
+        self.hinges().map(|spec| spec?.rest.as_ref())
     }
 
     /// The measured curves of all terms.
@@ -235,9 +239,8 @@ impl EnergySpec {
     }
 
     fn laws(&self) -> (Option<&LawForm<BarLawSpec>>, [Option<&LawForm<HingeLawSpec>>; 2]) {
-        let creases = self.creases.as_ref().and_then(|creases| creases.law.as_deref());
-        let facets = self.facets.as_ref().and_then(|facets| facets.law.as_deref());
-        (self.bars.as_ref().and_then(|bars| bars.law.as_deref()), [creases, facets])
+        let bars = self.bars.as_ref().and_then(|bars| bars.law.as_deref());
+        (bars, self.hinges().map(|spec| spec?.law.as_deref()))
     }
 }
 
@@ -255,25 +258,6 @@ pub struct BarsSpec {
     /// Where it yields; left out: nowhere.
     #[serde(rename = "yield")]
     pub yields: Option<Located<BarYieldSpec>>,
-}
-
-/// `creases = { stiffness, rest, fraction, law, yield }`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CreasesSpec {
-    /// Torque per radian and per length of crease; the spring constant is stiffness * L0. Left out: that of the
-    /// material.
-    pub stiffness: Option<Located<StiffnessSpec>>,
-    /// Rest angles; left out: as drawn.
-    pub rest: Option<Located<RestSpec>>,
-    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
-    /// letters.
-    pub fraction: Option<Located<Fraction>>,
-    /// How the torque grows with the angle; left out: linearly.
-    pub law: Option<Located<LawForm<HingeLawSpec>>>,
-    /// Where it yields; left out: nowhere.
-    #[serde(rename = "yield")]
-    pub yields: Option<Located<HingeYieldSpec>>,
 }
 
 /// `mass = { vertex }` or `mass = { area }`: exactly one of both.

@@ -11,8 +11,8 @@ use serde::de::{Error, MapAccess, Unexpected};
 use super::Located;
 use super::forms::FileName;
 use super::values::{Positive, Stiffness};
-use super::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::Assignment;
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// Stiffness of the elements of a term.
 #[derive(Clone, Debug, PartialEq)]

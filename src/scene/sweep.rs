@@ -190,17 +190,10 @@ fn different_keys(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
 
 fn common_length(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
     let len = axes.first().map_or(0, Axis::len);
-    match axes.iter().find(|axis| axis.len() != len) {
-        Some(other) => {
-            let message = format!("the axes run together, and this one has {} values, the first {len}", other.len());
-            Err(file.error_at(
-                other.span.clone(),
-                message,
-                "give all axes one length, or leave out zip: then every value meets every other",
-            ))
-        }
-        None => Ok(()),
-    }
+    let Some(other) = axes.iter().find(|axis| axis.len() != len) else { return Ok(()) };
+    let message = format!("the axes run together, and this one has {} values, the first {len}", other.len());
+    let help = "give all axes one length, or leave out zip: then every value meets every other";
+    Err(file.error_at(other.span.clone(), message, help))
 }
 
 /// Returns the number of points of a sweep whose axes have these numbers of values: their product, or the largest of

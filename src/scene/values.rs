@@ -3,9 +3,7 @@
 //! Every message has the form `description of the error, expected valid value`; [`crate::scene::SceneError`] prints the
 //! second half as help.
 
-use std::borrow::Cow;
-
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
@@ -62,31 +60,16 @@ pub enum ValueError {
     Loop(usize),
 }
 
-/// A list of exactly `N` values: an array alone would silently ignore additional values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+// A list of exactly `N` values: an array alone would silently ignore additional values. (A documentation comment would
+// be the description of every such list in the schema.)
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema)]
+#[schemars(inline, bound = "[T; N]: JsonSchema")]
 pub(crate) struct Exactly<T, const N: usize>(pub [T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let values = Vec::<T>::deserialize(deserializer)?;
         values.try_into().map(Self).map_err(|values: Vec<T>| D::Error::custom(ValueError::Length(values.len(), N)))
-    }
-}
-
-impl<T, const N: usize> JsonSchema for Exactly<T, N>
-where
-    [T; N]: JsonSchema,
-{
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        <[T; N]>::schema_name()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        <[T; N]>::json_schema(generator)
     }
 }
 

@@ -1,13 +1,12 @@
 //! An angle in a file that a user writes: a number of radians, or a text with its unit.
 
-use std::borrow::Cow;
 use std::f64::consts::PI;
-use std::fmt;
 use std::str::FromStr;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Error, Visitor};
+use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer};
+
+use super::written::{Written, read_as_written, schema_any_of};
 
 /// An angle: `1.2`, in radians, or a text with its unit, `"60 deg"` or `"1.2 rad"`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,51 +49,29 @@ impl From<f64> for Angle {
     }
 }
 
-/// Reads the forms of an angle; numbers are accepted as they are, infinite ones too.
-struct AngleForm;
+read_as_written!(Angle);
 
-impl Visitor<'_> for AngleForm {
-    type Value = Angle;
+/// Numbers are accepted as they are, infinite ones too.
+impl Written for Angle {
+    const FORMS: &str = "a number of radians, or a text with a unit such as \"60 deg\"";
 
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number of radians, or a text with a unit such as \"60 deg\"")
+    fn from_word<E: Error>(text: &str) -> Result<Self, E> {
+        text.parse().map_err(E::custom)
     }
 
-    fn visit_f64<E: Error>(self, radians: f64) -> Result<Angle, E> {
+    fn from_number<E: Error>(radians: f64, _: Unexpected<'_>) -> Result<Self, E> {
         Ok(radians.into())
     }
 
-    fn visit_i64<E: Error>(self, radians: i64) -> Result<Angle, E> {
+    fn from_unsigned<E: Error>(radians: u64) -> Result<Self, E> {
         Ok((radians as f64).into())
     }
-
-    fn visit_u64<E: Error>(self, radians: u64) -> Result<Angle, E> {
-        Ok((radians as f64).into())
-    }
-
-    fn visit_str<E: Error>(self, text: &str) -> Result<Angle, E> {
-        text.parse().map_err(E::custom)
-    }
 }
 
-impl<'de> Deserialize<'de> for Angle {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(AngleForm)
-    }
-}
-
-impl JsonSchema for Angle {
-    fn schema_name() -> Cow<'static, str> {
-        "Angle".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [
-            { "type": "number", "description": "in radians" },
-            { "type": "string", "pattern": "^ *[-+.0-9eE]+ *(deg|\u{b0}|rad) *$", "description": "with its unit: \"60 deg\"" },
-        ] })
-    }
-}
+schema_any_of!(Angle as "Angle", _generator, [
+    { "type": "number", "description": "in radians" },
+    { "type": "string", "pattern": "^ *[-+.0-9eE]+ *(deg|\u{b0}|rad) *$", "description": "with its unit: \"60 deg\"" },
+]);
 
 /// Reads an angle as its number of radians.
 pub(crate) fn radians<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {

@@ -7,16 +7,11 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::f64::consts::TAU;
 
-use nalgebra::Vector2;
-
 use super::assignment::Assignment;
 use super::cell::{EdgeKey, EdgeKind, Sheet};
-use super::info::angle_defects;
-use super::pieces::pieces;
+use super::info::{angle_defects, pieces};
 use super::record::FileRecord;
-use crate::math::Vec3;
-
-type Vec2 = Vector2<f64>;
+use crate::math::{Vec2, Vec3};
 
 /// Largest angle defect of an inner vertex of a developable sheet, in radians: that of coordinates with seven digits.
 const DEFECT_RAD: f64 = 1e-6;
@@ -97,9 +92,7 @@ fn check(sheet: &Sheet) -> Result<(), NotDevelopable> {
     if !sheet.cut_from.is_empty() {
         return Err(NotDevelopable::Cut);
     }
-    let edges = sheet.edges.iter().map(|edge| [edge.key.i, edge.key.j]);
-    let corners = sheet.triangles.iter().map(|triangle| triangle.corners[0].vertex);
-    let pieces = pieces(sheet.vertices.len(), edges, corners).len();
+    let pieces = pieces(sheet).len();
     if pieces > 1 {
         return Err(NotDevelopable::Pieces { pieces });
     }

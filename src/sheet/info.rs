@@ -110,9 +110,8 @@ impl Info {
         let edges = sheet.bars().count();
         let free = 3 * sheet.vertices.len() as i64 - edges as i64;
         let bars_alone = sheet.bars_alone().count();
-        let lengths =
-            || sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm());
-        let (defect, mut thin) = (largest_angle_defect(sheet), thin_triangles(sheet));
+        let lengths = || sheet.edges.iter().map(|edge| sheet.length(edge.key));
+        let (defect, thin) = (largest_angle_defect(sheet), thin_triangles(sheet));
         Self {
             title: sheet.title.clone(),
             periodic: sheet.is_repeated(),
@@ -137,10 +136,7 @@ impl Info {
             longest_edge: lengths().fold(0.0, f64::max),
             worst_triangle_quality: points(sheet).map(quality).fold(1.0, f64::min),
             thin_triangles: thin.len(),
-            thinnest: {
-                thin.truncate(NAMED);
-                thin
-            },
+            thinnest: thin.iter().take(NAMED).copied().collect(),
             target_angles: sheet.targets_not_drawn(),
             drawn_against_targets: sheet.drawn_against_targets()[0],
             turned_over: sheet.record.turned_over,
@@ -173,7 +169,8 @@ pub(crate) fn targets_said(count: usize) -> String {
     format!("{count} fold {angles} of the file {differ} from the drawn ones; rest = \"target\" uses them")
 }
 
-fn pieces(sheet: &Sheet) -> Vec<Vec<usize>> {
+/// Returns the vertices of each piece of a sheet.
+pub(super) fn pieces(sheet: &Sheet) -> Vec<Vec<usize>> {
     let edges = sheet.edges.iter().map(|edge| edge.key.ends().map(|end| end.vertex));
     super::pieces::pieces(sheet.vertices.len(), edges, sheet.triangles.iter().map(|t| t.corners[0].vertex))
 }

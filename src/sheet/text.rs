@@ -37,6 +37,20 @@ pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     })
 }
 
+/// Returns the line and column, from 1, of a place in a text, which is given in bytes.
+pub(crate) fn line_and_column(text: &str, offset: usize) -> [usize; 2] {
+    let before = &text.as_bytes()[..offset.min(text.len())];
+    let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+    let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
+    [line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1]
+}
+
+/// Returns a text that is cut after this number of characters.
+pub(crate) fn shortened(text: &str, length: usize) -> String {
+    let end = text.char_indices().nth(length);
+    end.map_or_else(|| text.to_owned(), |(end, _)| format!("{}...", &text[..end]))
+}
+
 fn wrong(message: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, message)
 }

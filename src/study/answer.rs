@@ -27,9 +27,9 @@ impl Answer {
     }
 
     /// Returns an answer without result, with the reason for that.
-    pub fn failed(study: &StudySpec, reason: impl ToString) -> Self {
+    pub fn failed(study: &StudySpec, reason: String) -> Self {
         let mut answer = Self::empty(study);
-        answer.summary.reason = Some(reason.to_string());
+        answer.summary.reason = Some(reason);
         answer
     }
 

@@ -6,7 +6,7 @@ mod summary;
 
 use self::bands::{FoundBands, facet_stiffness};
 use self::strip::FoundStrip;
-use super::{Answer, Context, StudyError, StudyResult, start, states};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, start, states};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::zero_lines::ZeroLine;
@@ -23,7 +23,7 @@ use crate::output::figure::bloch::{self as figure, BlochPlot};
 use crate::output::figure::rounded;
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
-use crate::scene::spec::{BlochSpec, Draw};
+use crate::scene::spec::{BlochSpec, Draw, StripSpec};
 use crate::scene::{Located, SceneFile};
 use std::f64::consts::TAU;
 pub use summary::{BlochSummary, DecaySummary, StripSummary};
@@ -86,18 +86,19 @@ struct Ground {
     folded: Option<Vec<f64>>,
 }
 
-/// Returns the state that the scene names; `None` if the study that should have found it did not.
-fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
+/// Returns the state that the scene names, unless the study that should have found it did not.
+fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Ground, NoAnswer> {
     let assembly = context.assembly;
     let Some(StartSpec::Study(name)) = spec.start.as_deref() else {
-        return Ok(Some(Ground { rigidity: rigidity(context.file, assembly)?, folded: None }));
+        let rigidity = rigidity(context.file, assembly).map_err(NoAnswer::because)?;
+        return Ok(Ground { rigidity, folded: None });
     };
     let (sheet, drawn) = (assembly.sheet(), assembly.drawn());
     let fits = |saved: &&Configuration| saved.coordinates.len() == drawn.coordinates.len();
-    let Some(saved) = context.earlier.states.get(name).filter(fits) else { return Ok(None) };
+    let saved = context.earlier.states.get(name).filter(fits).ok_or_else(start::unavailable)?;
     let rigid = facets_are_rigid(context.file, assembly);
-    let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &saved.coordinates)?;
-    Ok(Some(Ground { rigidity, folded: Some(saved.coordinates.clone()) }))
+    let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &saved.coordinates).map_err(NoAnswer::because)?;
+    Ok(Ground { rigidity, folded: Some(saved.coordinates.clone()) })
 }
 
 /// Whether polygons are rigid. Polygons that are rigid in part only are refused by [`check`].
@@ -122,17 +123,8 @@ struct FoundModes {
 }
 
 /// Computes the modes of the state that the scene names.
-pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
-    let found = match ground(context, spec) {
-        Ok(Some(ground)) => find(context, spec, ground),
-        Ok(None) => return start::unavailable(context),
-        Err(error) => Err(error),
-    };
-    let found = match found {
-        Ok(Some(found)) => found,
-        Ok(None) => return Answer::failed(context.study, "interrupted"),
-        Err(error) => return Answer::failed(context.study, error),
-    };
+pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Answer, NoAnswer> {
+    let found = find(context, spec, ground(context, spec)?)?;
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     let survey = found.survey.as_ref().ok();
     answer.add(format!("{name}.csv"), table(survey.map_or(&[], |survey| &survey.decays)));
@@ -155,11 +147,12 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
         ..survey.map_or_else(BlochSummary::default, |survey| summary(survey, found.grid, theta))
     };
     answer.conclude(StudyResult::Bloch(Box::new(result)), survey.map(|survey| survey.determinant.error), None);
-    answer
+    Ok(answer)
 }
 
-/// Computes the survey and the bands; `None` if the observer asked to stop.
-fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Option<FoundModes>, BlochError> {
+/// Computes the survey and the bands, unless the observer asks to stop.
+fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<FoundModes, NoAnswer> {
+    let interrupted = || NoAnswer::because("interrupted");
     let options = SurveyOptions {
         wavenumbers: wavenumbers(spec),
         averaged: AVERAGED,
@@ -168,26 +161,21 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Optio
     };
     let mut go_on = |step: usize| context.step(step, Some(bloch::STEPS));
     let survey = match bloch::survey(&ground.rigidity, &options, &mut go_on) {
-        Ok(None) => return Ok(None),
-        Ok(Some(survey)) => Ok(survey),
         // counts and bands need no determinant
         Err(error) if error.is_of_determinant() => Err(error),
-        Err(error) => return Err(error),
+        found => Ok(found.map_err(NoAnswer::because)?.ok_or_else(interrupted)?),
     };
     let wanted = spec.zero_modes_at.iter().flat_map(|list| list.iter());
-    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
-    let strip = match &spec.strip {
-        None => None,
-        Some(strip) => {
-            let rigid = facets_are_rigid(context.file, context.assembly);
-            match strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers)? {
-                None => return Ok(None),
-                found => found,
-            }
-        }
+    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0).map_err(NoAnswer::because));
+    let counts = counts.collect::<Result<_, _>>()?;
+    let strip = |strip: &Located<StripSpec>| {
+        let rigid = facets_are_rigid(context.file, context.assembly);
+        let found = strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers);
+        found.map_err(NoAnswer::because)?.ok_or_else(interrupted)
     };
-    let Some(bands) = bands::compute(context, spec)? else { return Ok(None) };
-    Ok(Some(FoundModes { ground, survey, grid: options.grid, bands, strip, counts }))
+    let strip = spec.strip.as_ref().map(strip).transpose()?;
+    let bands = bands::compute(context, spec).map_err(NoAnswer::because)?.ok_or_else(interrupted)?;
+    Ok(FoundModes { ground, survey, grid: options.grid, bands, strip, counts })
 }
 
 fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 mod summary;
 
-use super::{Answer, Context, StudyError, StudyResult, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, supported};
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
 use crate::model::{Assembly, Domain};
@@ -24,15 +24,10 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     supported::drawn_rigid_hinges(context, "branches of rigid folding")?;
     let angles = assembly.start_angles();
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
-    match assembly.terms().locks.iter().find(moved) {
-        None => Ok(()),
-        Some((edge, angle)) => {
-            let message = format!("a lock holds a crease at {angle} that starts at {}", angles[*edge]);
-            let help =
-                "rigid folding leaves the drawn state, of a tube the closed one: leave out the angle of the lock";
-            Err(context.refuse(message, help).into())
-        }
-    }
+    let Some((edge, angle)) = assembly.terms().locks.iter().find(moved) else { return Ok(()) };
+    let message = format!("a lock holds a crease at {angle} that starts at {}", angles[*edge]);
+    let help = "rigid folding leaves the drawn state, of a tube the closed one: leave out the angle of the lock";
+    Err(context.refuse(message, help).into())
 }
 
 /// Returns the number of rays that leave the drawn state of a rigid cell with locks, if it is larger than two. Then
@@ -64,18 +59,14 @@ pub(crate) fn word(directions: RealDirections) -> String {
 }
 
 /// Computes the branches.
-pub(crate) fn compute(context: &Context<'_>) -> Answer {
+pub(crate) fn compute(context: &Context<'_>) -> Result<Answer, NoAnswer> {
     let mut answer = Answer::empty(context.study);
     context.step(0, None);
-    match branches(context.assembly) {
-        Ok(branches) => {
-            answer.add(format!("{}.csv", context.name()), table(context.assembly, &branches));
-            let error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
-            answer.conclude(StudyResult::Branches(summary(&branches)), error, None);
-            answer
-        }
-        Err(error) => Answer::failed(context.study, error),
-    }
+    let branches = branches(context.assembly).map_err(NoAnswer::because)?;
+    answer.add(format!("{}.csv", context.name()), table(context.assembly, &branches));
+    let error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
+    answer.conclude(StudyResult::Branches(summary(&branches)), error, None);
+    Ok(answer)
 }
 
 /// Returns a row for each ray, with the rate of every fold angle. On a patch of several cells the names of columns

@@ -13,3 +13,24 @@ pub enum StudyError {
     #[error(transparent)]
     Output(#[from] OutputError),
 }
+
+/// Why a study has no answer.
+pub(crate) enum NoAnswer {
+    /// It finds none, for this reason.
+    Reason(String),
+    /// It cannot be computed.
+    Error(StudyError),
+}
+
+impl NoAnswer {
+    /// The study finds no answer, for this reason.
+    pub(super) fn because(reason: impl ToString) -> Self {
+        Self::Reason(reason.to_string())
+    }
+}
+
+impl<E: Into<StudyError>> From<E> for NoAnswer {
+    fn from(error: E) -> Self {
+        Self::Error(error.into())
+    }
+}

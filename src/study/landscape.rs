@@ -3,7 +3,7 @@
 mod map;
 mod summary;
 
-use super::{Answer, Context, StudyError, StudyResult, energies, relax};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, energies, relax};
 use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::{Assembly, Domain};
@@ -93,7 +93,7 @@ fn uniform(context: &Context<'_>, mode: &Located<Mode>, all: &[f64]) -> Result<V
 }
 
 /// Computes the landscape of every mode, and the map if the scene asks for one.
-pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Answer, NoAnswer> {
     let found: Vec<Along> = spec.modes.iter().map(|mode| along(context, spec, mode)).collect::<Result<_, _>>()?;
     let mut answer = Answer::empty(context.study);
     answer.add(format!("{}.csv", context.name()), table(context.assembly, &found));

@@ -40,6 +40,7 @@ pub mod wells;
 use crate::scene::spec::StudyKind;
 pub use answer::Answer;
 pub use context::{Checkpoints, Context, Observer, PreviousAnswers, Progress};
+pub(crate) use error::NoAnswer;
 pub use error::StudyError;
 pub use summary::{Files, StudyResult, StudySummary};
 pub use surface::left_out;
@@ -83,20 +84,24 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
 /// # Errors
 /// [`StudyError`] if the scene is wrong in a way that [`check`] does not detect, or if files cannot be read or kept.
 pub fn compute(context: &Context<'_>) -> Result<Answer, StudyError> {
-    let mut answer = compute_kind(context)?;
+    let mut answer = match compute_kind(context) {
+        Ok(answer) => answer,
+        Err(NoAnswer::Reason(reason)) => Answer::failed(context.study, reason),
+        Err(NoAnswer::Error(error)) => return Err(error),
+    };
     page::add(&mut answer, context);
     Ok(answer)
 }
 
-fn compute_kind(context: &Context<'_>) -> Result<Answer, StudyError> {
+fn compute_kind(context: &Context<'_>) -> Result<Answer, NoAnswer> {
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::compute(context, spec),
         StudyKind::Modes(spec) => modes::compute(context, spec),
-        StudyKind::Branches(_) => Ok(branches::compute(context)),
+        StudyKind::Branches(_) => branches::compute(context),
         StudyKind::Trace(spec) => trace::compute(context, spec),
-        StudyKind::Surface(spec) => Ok(surface::compute(context, spec)),
+        StudyKind::Surface(spec) => surface::compute(context, spec),
         StudyKind::Landscape(spec) => landscape::compute(context, spec),
-        StudyKind::Bloch(spec) => Ok(bloch::compute(context, spec)),
+        StudyKind::Bloch(spec) => bloch::compute(context, spec),
         StudyKind::Wells(spec) => wells::compute(context, spec),
         StudyKind::Path(spec) | StudyKind::Fold(spec) => path::compute(context, spec),
         StudyKind::Response(spec) => response::compute(context, spec),

@@ -1,13 +1,12 @@
 //! `kind = "modes"`: zero modes and self-stresses of the bars, linear folding modes, the spectrum of the energy.
 
-mod buckling;
 mod summary;
 
-use super::{Answer, Context, StudyError, StudyResult, start, states, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, start, states, supported};
 use crate::analysis::modes::{
-    Modes, ModesError, SPARSE_EIGENVALUES, Vibrations, check_masses, decomposed_dense, modes_at,
+    Modes, ModesError, SPARSE_EIGENVALUES, Vibrations, buckling, check_masses, decomposed_dense, modes_at,
 };
-use crate::model::Gauge;
+use crate::model::{Configuration, Gauge};
 use crate::output::figure::rounded;
 use crate::output::table::Table;
 use crate::scene::spec::ModesSpec;
@@ -17,7 +16,7 @@ pub use summary::ModesSummary;
 /// study asks for.
 pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
     start::check(context, spec.start.as_ref())?;
-    buckling::check(context, spec)?;
+    check_loads(context, spec)?;
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
     supported::drawn_lengths(context, "eigenvalues in the drawn state")?;
     if **count > 0 {
@@ -26,13 +25,9 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
     let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
     let unknowns = drawn.coordinates.len().saturating_sub(drawn.held.len() + terms.pinned());
     let wanted = (**count).min(unknowns);
-    match decomposed_dense(unknowns, wanted, unknowns) {
-        Ok(_) => Ok(()),
-        Err(error) => {
-            let help = format!("ask for at most {SPARSE_EIGENVALUES}, or take fewer cells");
-            Err(context.file.error_at(count.span(), error.to_string(), help).into())
-        }
-    }
+    let Err(error) = decomposed_dense(unknowns, wanted, unknowns) else { return Ok(()) };
+    let help = format!("ask for at most {SPARSE_EIGENVALUES}, or take fewer cells");
+    Err(context.file.error_at(count.span(), error.to_string(), help).into())
 }
 
 /// Checks that every coordinate has a mass, if the scene gives one.
@@ -50,30 +45,22 @@ fn masses(context: &Context<'_>) -> Result<(), StudyError> {
 }
 
 /// Computes the modes of the state that the scene names.
-pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Result<Answer, NoAnswer> {
     let (mut step, mut answer) = (0, Answer::empty(context.study));
     let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let state = model.configuration(&start.x, start.tension);
     let found = modes_at(context.assembly, &state, eigenvalues, &mut || {
         step += 1;
         context.step(step, None)
     });
-    match found {
-        Ok(modes) => {
-            add_files(&mut answer, context, &modes, &state.coordinates);
-            let summary = match buckling::factors(&mut answer, context, spec, &state) {
-                Ok(critical_factors) => ModesSummary { critical_factors, ..summary(&modes) },
-                Err(error) => return Ok(Answer::failed(context.study, error)),
-            };
-            answer.conclude(StudyResult::Modes(summary), modes.gap.map(f64::recip), None);
-            Ok(answer)
-        }
-        Err(error) => Ok(Answer::failed(context.study, error)),
-    }
+    let modes = found.map_err(NoAnswer::because)?;
+    add_files(&mut answer, context, &modes, &state.coordinates);
+    let critical_factors = add_buckling(&mut answer, context, spec, &state).map_err(NoAnswer::because)?;
+    let result = StudyResult::Modes(ModesSummary { critical_factors, ..summary(&modes) });
+    answer.conclude(result, modes.gap.map(f64::recip), None);
+    Ok(answer)
 }
 
 fn summary(modes: &Modes) -> ModesSummary {
@@ -134,4 +121,39 @@ fn add_vibrations(
     };
     let state = format!("vibration {slowest}, {value}, drawn with an amplitude of a tenth of the sheet");
     states::add_figure(answer, context, &shown, &state);
+}
+
+/// Checks that there are loads that could grow.
+fn check_loads(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
+    let Some(wanted) = &spec.buckling else { return Ok(()) };
+    if context.assembly.terms().is_loaded() {
+        return Ok(());
+    }
+    let message = "there are no loads under which the sheet could buckle";
+    Err(context.file.error_at(wanted.span(), message, "add a [[load]] or [[pressure]]").into())
+}
+
+/// Adds a table of the critical factors, and the state with each motion as displacement; the picture is that of the first.
+/// Returns the factors, if the study asks for them.
+fn add_buckling(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    spec: &ModesSpec,
+    state: &Configuration,
+) -> Result<Option<Vec<f64>>, ModesError> {
+    let Some(wanted) = &spec.buckling else { return Ok(None) };
+    let loaded = (!start::is_drawn(spec.start.as_ref())).then_some(state);
+    let found = buckling(context.assembly, loaded, wanted.0 as usize, &mut || context.step(0, None))?;
+    let name = context.name();
+    let mut table = Table::new("mode,factor");
+    found.factors.iter().enumerate().for_each(|(k, factor)| table.push([k.into(), (*factor).into()]));
+    answer.add(format!("{name}-buckling.csv"), table);
+    let motions = (&state.coordinates[..], &found.vectors[..]);
+    let shown = states::add_moving(answer, context, ["_buckling", "-buckling"], motions, 0);
+    if let (Some(factor), Some(shown)) = (found.factors.first(), shown) {
+        let factor = rounded(*factor, 5);
+        let words = format!("buckles at {factor} times the loads, drawn with an amplitude of a tenth of the sheet");
+        states::add_figure_as(&format!("{name}-buckling"), answer, context, (&shown, &words));
+    }
+    Ok(Some(found.factors))
 }

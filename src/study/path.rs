@@ -12,7 +12,7 @@ use self::plot::{Words, event_word, figure};
 use super::sides::RestSides;
 use super::states::{self, Shown};
 use super::supported::small_tolerance;
-use super::{Answer, Context, Progress, StudyError, StudyResult, ratios, start};
+use super::{Answer, Context, NoAnswer, Progress, StudyError, StudyResult, ratios, start};
 use crate::analysis::intersections::Marks;
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
@@ -23,7 +23,7 @@ use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
 use crate::scene::forms::StartSpec;
 use crate::scene::places::Places;
-use crate::scene::spec::{Draw, PathSpec};
+use crate::scene::spec::{CreaseAngle, Draw, PathSpec, ProbeValue};
 use crate::sheet::similar::there_are;
 use std::collections::BTreeSet;
 pub use summary::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
@@ -59,25 +59,21 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
 }
 
 /// Follows the path, and its branches if the scene asks for them.
-pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, NoAnswer> {
     let (drive, stop) = (drive(context, spec)?, stop(context, spec)?);
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let start = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
+    let usual = PathOptions::default();
     let options = PathOptions {
         switch: spec.switch,
         snap: snaps(context, spec),
         stop,
         at: spec.at.iter().map(|value| value.0).collect(),
         then: then(context, spec),
-        ..PathOptions::default()
-    };
-    let options = PathOptions {
-        tolerance: spec.tolerance.as_ref().map_or(options.tolerance, |tolerance| tolerance.0),
-        max_step: spec.max_step.as_ref().map_or(options.max_step, |step| step.0),
-        ..options
+        tolerance: spec.tolerance.as_ref().map_or(usual.tolerance, |tolerance| tolerance.0),
+        max_step: spec.max_step.as_ref().map_or(usual.max_step, |step| step.0),
+        ..usual
     };
     let mut step = 0;
     let mut observe = |_: usize, point: &PathPoint| {
@@ -101,7 +97,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     match (found, fault) {
         (_, Some(fault)) => Err(fault.into()),
         (Ok(branches), None) => Ok(answer(context, (spec, probes(context, spec)?), &drive, &branches)),
-        (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
+        (Err(failure), None) => Err(NoAnswer::because(failure)),
     }
 }
 
@@ -129,33 +125,27 @@ fn probes<'a>(context: &Context<'_>, spec: &'a PathSpec) -> Result<Vec<(&'a str,
 fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> {
     let inside_out = folds(context).then_some(INSIDE_OUT);
     let Some(said) = &spec.stop else { return Ok(PathStop { drive: inside_out, ..PathStop::default() }) };
-    let crease_angle = match &said.crease_angle {
-        None => None,
-        Some(wanted) => {
-            let found = crease_in_middle(context.assembly, wanted.crease.0);
-            let edge = found.ok_or_else(|| {
-                let message = format!("the sheet has no crease {}", wanted.crease.0);
-                let help = "name a crease between two faces as [i, j, n1, n2]";
-                context.file.error_at(wanted.crease.span(), message, help)
-            })?;
-            Some((edge, wanted.angle.radians))
-        }
+    let crease_angle = |wanted: &CreaseAngle| {
+        let edge = crease_in_middle(context.assembly, wanted.crease.0);
+        edge.map(|edge| (edge, wanted.angle.radians)).ok_or_else(|| {
+            let message = format!("the sheet has no crease {}", wanted.crease.0);
+            let help = "name a crease between two faces as [i, j, n1, n2]";
+            context.file.error_at(wanted.crease.span(), message, help)
+        })
     };
-    let displacement = match &said.displacement {
-        None => None,
-        Some(wanted) => {
-            let probes = probes(context, spec)?;
-            let names: Vec<&str> = probes.iter().map(|(name, _)| *name).collect();
-            let found = probes.into_iter().find(|(name, _)| *name == wanted.probe.as_str());
-            let missing = || {
-                let message = format!("no probe is called `{}`", *wanted.probe);
-                context.file.error_at(wanted.probe.span(), message, there_are(&wanted.probe, names))
-            };
-            Some((found.ok_or_else(missing)?.1, wanted.value.0))
-        }
+    let displacement = |wanted: &ProbeValue| -> Result<_, StudyError> {
+        let probes = probes(context, spec)?;
+        let names: Vec<&str> = probes.iter().map(|(name, _)| *name).collect();
+        let found = probes.into_iter().find(|(name, _)| *name == wanted.probe.as_str());
+        let missing = || {
+            let message = format!("no probe is called `{}`", *wanted.probe);
+            context.file.error_at(wanted.probe.span(), message, there_are(&wanted.probe, names))
+        };
+        Ok((found.ok_or_else(missing)?.1, wanted.value.0))
     };
+    let crease_angle = said.crease_angle.as_ref().map(crease_angle).transpose()?;
     Ok(PathStop {
-        displacement,
+        displacement: said.displacement.as_ref().map(displacement).transpose()?,
         drive: said.drive.as_ref().map(|value| value.0).or(inside_out),
         reaction: said.reaction.as_ref().map(|value| value.0),
         states: said.states.as_ref().map(|count| count.0 as usize),
@@ -189,10 +179,7 @@ fn answer(
     let marks = marks(context, branches);
     answer.add(format!("{}.csv", context.name()), table::table(context, (spec, &probes), branches, marks.as_deref()));
     add_pictures(&mut answer, context, drive, branches, marks.as_deref());
-    let result = PathSummary {
-        not_passed: not_passed(spec, branches),
-        ..summary(context, (drive_name(context, spec), drive), branches, marks.as_deref())
-    };
+    let result = summary(context, (spec, drive), branches, marks.as_deref());
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
@@ -286,7 +273,7 @@ fn pictured(branches: &[PathBranch]) -> BTreeSet<usize> {
 
 fn summary(
     context: &Context<'_>,
-    (name, drive): (&str, &Drive),
+    (spec, drive): (&PathSpec, &Drive),
     branches: &[PathBranch],
     marks: Option<&[Vec<Marks>]>,
 ) -> PathSummary {
@@ -295,11 +282,11 @@ fn summary(
         ..branch_summary(number, branch, marks.map(|marks| &marks[number][..]))
     };
     PathSummary {
-        drive: name.to_owned(),
+        drive: drive_name(context, spec).to_owned(),
         driven: Words::new(context, drive).driven.to_owned(),
         to: finite(drive.to),
         branches: branches.iter().enumerate().map(branch).collect(),
-        ..PathSummary::default()
+        not_passed: not_passed(spec, branches),
     }
 }
 

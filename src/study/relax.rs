@@ -1,21 +1,20 @@
 //! `kind = "relax"`: the equilibrium that Newton's method reaches from a start.
 
-mod reason;
 mod summary;
 
-use self::reason::reason;
 use super::states::{self, Shown};
 use super::supported::small_tolerance;
-use super::{Answer, Context, StudyError, StudyResult, branches, energies, start};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::relax::recorder::KeptState;
 use crate::analysis::relax::{RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
 use crate::analysis::restored;
 use crate::analysis::state::State;
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
 use crate::scene::spec::RelaxSpec;
+use crate::sheet::Info;
 use crate::solver::{Failure, Step};
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -27,6 +26,11 @@ const NO_BRANCH: &str = "the start is singular, and the state that bars that str
 /// Advice where forces cannot balance with rigid bars.
 const NO_BALANCE: &str = "the pattern does not fold rigidly as far as its rest angles ask: give bars a finite stiffness, or \
                           facets a lower one";
+
+/// Quality of a triangle below which rounding errors of its shape can matter; 1 for an equilateral triangle.
+const THIN: f64 = 1e-2;
+/// Largest difference between a locked angle and its prescribed value that counts as rounding, in radians.
+const MET: f64 = 1e-9;
 
 /// Checks that the model has an energy and that a start file fits the sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
@@ -42,11 +46,9 @@ pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), Study
 }
 
 /// Computes the equilibrium from the start that the scene names.
-pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, NoAnswer> {
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let first = restored::state_at(&model, &start);
     let mut options = RelaxOptions { method: spec.method, ..RelaxOptions::default() };
     options.keep_every = spec.keep_every.as_ref().and_then(|count| NonZeroUsize::new(count.0 as usize));
@@ -206,4 +208,38 @@ fn history(steps: &[Step], soft: &Range<usize>) -> Vec<IterationSummary> {
         },
     };
     steps.iter().enumerate().map(row).collect()
+}
+
+/// Returns a description of the failure, with its possible cause: a lock that is not satisfied or a thin triangle.
+fn reason(assembly: &Assembly, failure: Failure, state: &State) -> String {
+    let cause = match failure {
+        Failure::Infeasible { .. } => unmet_lock(assembly, state),
+        Failure::Uncertain { force, tolerance, .. } if !(force <= tolerance) => thin_triangle(assembly),
+        Failure::Stuck { .. } | Failure::TooManySteps { .. } => thin_triangle(assembly),
+        _ => None,
+    };
+    match cause {
+        Some(cause) => format!("{failure}; {cause}"),
+        None => failure.to_string(),
+    }
+}
+
+/// Describes the lock whose crease has the largest difference from its prescribed angle in the last state.
+fn unmet_lock(assembly: &Assembly, state: &State) -> Option<String> {
+    let off = |&(edge, angle): &(usize, f64)| {
+        let here = *state.fold_angle.get(edge)?;
+        Some((edge, angle, here)).filter(|_| (angle - here).abs() > MET)
+    };
+    let farther = |a: &(usize, f64, f64), b: &(usize, f64, f64)| (a.1 - a.2).abs().total_cmp(&(b.1 - b.2).abs());
+    let (edge, angle, here) = assembly.terms().locks.iter().filter_map(off).max_by(farther)?;
+    let key = assembly.sheet().edges[assembly.tiling().edges[edge].edge].key;
+    Some(format!("the lock of crease {key} at {angle} rad stays at {here:.6} rad"))
+}
+
+fn thin_triangle(assembly: &Assembly) -> Option<String> {
+    let info = Info::new(assembly.sheet());
+    let quality = info.worst_triangle_quality;
+    let named = info.thinnest.first().map_or(String::new(), |thin| format!(", with the vertices {:?}", thin.vertices));
+    (quality < THIN)
+        .then(|| format!("the worst triangle of the sheet is thin, of quality {quality:.1e} (1: equilateral){named}"))
 }

@@ -2,7 +2,7 @@
 
 mod summary;
 
-use super::{Answer, Context, StudyError, StudyResult, start, states};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, start, states};
 use crate::analysis::response::{
     Field, LinearMode, Moduli, NoRatio, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
 };
@@ -42,16 +42,11 @@ pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), St
 }
 
 /// Computes the response of the state that the scene names.
-pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answer, NoAnswer> {
     let mut model = context.assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let state = model.configuration(&start.x, start.tension);
-    let response = match response_at(context.assembly, &state) {
-        Ok(response) => response,
-        Err(error) => return Ok(Answer::failed(context.study, error)),
-    };
+    let response = response_at(context.assembly, &state).map_err(NoAnswer::because)?;
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     answer.add(format!("{name}.csv"), modes_table(context, &response.modes));
     answer.add(format!("{name}-stresses.csv"), stresses_table(context, &response.stresses));

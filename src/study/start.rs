@@ -5,7 +5,7 @@
 //! state of an earlier study or of a file comes with its tensions where they were kept, so that an equilibrium is one
 //! again.
 
-use super::{Answer, Context, StudyError};
+use super::{Context, NoAnswer, StudyError};
 use crate::analysis::restored::{self, Forces};
 use crate::model::{Configuration, Model};
 use crate::numerics::random::numbers;
@@ -24,8 +24,8 @@ pub(crate) fn check(context: &Context<'_>, start: Option<&Located<StartSpec>>) -
     start.map_or(Ok(()), |start| start_file(context, start).map(|_| ()))
 }
 
-/// Returns the state from which the study starts; the drawn state if the scene names no start. `None` if the study that
-/// it names ended in no state of this model: the answer then is [`unavailable`].
+/// Returns the state from which the study starts; the drawn state if the scene names no start. It is [`unavailable`] if
+/// the study that it names ended in no state of this model.
 ///
 /// The unknowns belong to `model`, whose reference state becomes this state: coordinates held against drift keep the
 /// values that they have in it, and angles continue from those that it was kept with, without jumps of `2 pi`. The
@@ -36,22 +36,23 @@ pub(crate) fn initial_state(
     context: &Context<'_>,
     start: Option<&Located<StartSpec>>,
     model: &mut Model,
-) -> Result<Option<Start>, StudyError> {
-    let Some(start) = start else { return Ok(Some(model.start().into())) };
+) -> Result<Start, NoAnswer> {
+    let Some(start) = start else { return Ok(model.start().into()) };
     let earlier = match &**start {
-        StartSpec::Drawn => return Ok(Some(model.start().into())),
-        StartSpec::Random(random) => return Ok(Some(random_start(random, model).into())),
+        StartSpec::Drawn => return Ok(model.start().into()),
+        StartSpec::Random(random) => return Ok(random_start(random, model).into()),
         StartSpec::File(_) => {
             start_file(context, start)?.map(|(coordinates, mesh)| from_mesh(context, model, coordinates, &mesh))
         }
         StartSpec::Study(name) => from_study(context, name, model),
     };
-    Ok(earlier.map(|(x, forces)| restored::start(model, x, &forces)))
+    let (x, forces) = earlier.ok_or_else(unavailable)?;
+    Ok(restored::start(model, x, &forces))
 }
 
-/// Returns the answer of a study whose start study has no final state.
-pub(crate) fn unavailable(context: &Context<'_>) -> Answer {
-    Answer::failed(context.study, "the study from which it starts did not converge")
+/// Returns why a study has no answer whose start study has no final state.
+pub(crate) fn unavailable() -> NoAnswer {
+    NoAnswer::because("the study from which it starts did not converge")
 }
 
 /// Returns the unknowns of the state in which an earlier study ended, and its forces; `None` if it ended in no state of

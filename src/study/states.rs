@@ -2,7 +2,7 @@
 
 use super::{Answer, Context, energies};
 use crate::analysis::intersections::Marks;
-use crate::analysis::state::{Cylinder, State, cylinder};
+use crate::analysis::state::{State, cylinder};
 use crate::output::artifact::Artifact;
 use crate::output::figure::{Annotations, sheet};
 use crate::output::paraview;
@@ -39,13 +39,9 @@ pub(crate) fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
 
 fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
     let (assembly, state) = (context.assembly, &shown.state);
-    let shape = cylinder(assembly.drawn(), &state.coordinates);
-    let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
     StateRow {
         step: Some(step as i64),
-        curvature: of(|c| c.curvature),
-        theta: [of(|c| c.theta[0]), of(|c| c.theta[1])],
-        strain: [of(|c| c.strain[0]), of(|c| c.strain[1]), of(|c| c.strain[2])],
+        shape: cylinder(assembly.drawn(), &state.coordinates),
         solution: Solution {
             energy: energies::columns(assembly.terms(), state),
             residual_force: shown.residuals.map(|r| r[0]),
@@ -88,13 +84,6 @@ pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Pictur
     picture(context, &Shown { state, residuals: None, marks })
 }
 
-/// Returns the pictures of the state with these coordinates that moves at each of these rates of its coordinates.
-pub(crate) fn moving(context: &Context<'_>, coordinates: &[f64], rates: &[Vec<f64>]) -> Vec<Picture> {
-    let at_rest = picture_at(context, coordinates.to_vec());
-    let velocities = |rates: &Vec<f64>| context.view.velocities(context.assembly.drawn(), coordinates, rates);
-    rates.iter().map(|rates| Picture { displacement: velocities(rates), ..at_rest.clone() }).collect()
-}
-
 /// Adds the VTK series of states, each with the number of its row in the table and its time in the series, and the SVG
 /// picture of one of them, given by its place among these states, with its description, as the study asks.
 pub(crate) fn add<'s>(
@@ -129,7 +118,10 @@ pub(crate) fn add_moving(
     if rates.is_empty() || context.study.draw.is_empty() {
         return None;
     }
-    let pictures = moving(context, coordinates, rates);
+    let at_rest = picture_at(context, coordinates.to_vec());
+    let velocities = |rates: &Vec<f64>| context.view.velocities(context.assembly.drawn(), coordinates, rates);
+    let moving = |rates: &Vec<f64>| Picture { displacement: velocities(rates), ..at_rest.clone() };
+    let pictures: Vec<Picture> = rates.iter().map(moving).collect();
     let shown = pictures.get(shown)?.displaced(0.1);
     add_motions(answer, context, endings, pictures);
     Some(shown)

@@ -94,35 +94,31 @@ pub(super) fn drawn_rigid_hinges(context: &Context<'_>, what: &str) -> Result<()
 /// Checks that the study is one of those that a tube has.
 pub(super) fn of_a_tube(context: &Context<'_>) -> Result<(), StudyError> {
     let Domain::Tube { .. } = context.assembly.domain() else { return Ok(()) };
-    let refused = match &*context.study.kind {
-        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Trace(_) => None,
+    let (message, help) = match &*context.study.kind {
         StudyKind::Wells(wells) if wells.rigid => {
-            Some(("the rigid states of a closed tube are single points", "leave out `rigid`"))
+            ("the rigid states of a closed tube are single points", "leave out `rigid`")
         }
-        StudyKind::Wells(_) => None,
-        StudyKind::Surface(_) => Some((
+        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Trace(_) | StudyKind::Wells(_) => return Ok(()),
+        StudyKind::Surface(_) => (
             "the folded states of a tube are no surface: its closing conditions leave one motion or none",
             MOTIONS_OF_A_TUBE,
-        )),
-        StudyKind::Branches(_) => {
-            Some(("branches leave the drawn state, and a tube is another one", MOTIONS_OF_A_TUBE))
-        }
-        StudyKind::Landscape(_) => {
-            let help = "use domain = \"patch\" or \"torus\"";
-            Some(("a landscape is the energy along folding modes of a periodic sheet, and a tube has none", help))
-        }
-        StudyKind::Bloch(_) => {
-            let help = "use domain = \"screw\", and start from a relaxation or a trajectory";
-            Some(("wavenumbers around a closed tube are whole numbers, and bloch asks for all", help))
-        }
+        ),
+        StudyKind::Branches(_) => ("branches leave the drawn state, and a tube is another one", MOTIONS_OF_A_TUBE),
+        StudyKind::Landscape(_) => (
+            "a landscape is the energy along folding modes of a periodic sheet, and a tube has none",
+            "use domain = \"patch\" or \"torus\"",
+        ),
+        StudyKind::Bloch(_) => (
+            "wavenumbers around a closed tube are whole numbers, and bloch asks for all",
+            "use domain = \"screw\", and start from a relaxation or a trajectory",
+        ),
         StudyKind::Response(_) => {
-            let help = "use domain = \"screw\" or \"torus\"";
-            Some(("strains and curvatures of a closed tube are fixed by its seam", help))
+            ("strains and curvatures of a closed tube are fixed by its seam", "use domain = \"screw\" or \"torus\"")
         }
-        StudyKind::Path(_) | StudyKind::Fold(_) => {
-            let help = "use domain = \"patch\", or relax the tube at every value of a [sweep]";
-            Some(("paths of equilibria of tubes are not known", help))
-        }
+        StudyKind::Path(_) | StudyKind::Fold(_) => (
+            "paths of equilibria of tubes are not known",
+            "use domain = \"patch\", or relax the tube at every value of a [sweep]",
+        ),
     };
-    refused.map_or(Ok(()), |(message, help)| Err(context.refuse(message, help).into()))
+    Err(context.refuse(message, help).into())
 }

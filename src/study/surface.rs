@@ -3,13 +3,13 @@
 mod summary;
 
 use super::trace::enter_folded;
-use super::{Answer, Context, StudyError, StudyResult, energies, states, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, energies, states, supported};
 use crate::analysis::chart::screw_coordinates;
-use crate::analysis::state::State;
+use crate::analysis::state::{Cylinder, State};
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Terms};
-use crate::numerics::{larger, worst};
+use crate::numerics::worst;
 use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
 use crate::output::figure::surface::{self as figure, PathPoint};
@@ -67,7 +67,7 @@ pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
 }
 
 /// Computes the surface of the sheet without its locks.
-pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Result<Answer, NoAnswer> {
     let assembly = context.assembly;
     let unlocked = assembly.with_terms(Terms { locks: Vec::new(), ..assembly.terms().clone() });
     let options = SurfaceOptions {
@@ -76,15 +76,13 @@ pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
         max_curvature: spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(assembly), |most| most.0),
         max_points: MOST_POINTS,
     };
-    let mut surface = match surface(&unlocked, &options, &mut |step| context.step(step, None)) {
-        Ok(surface) => surface,
-        Err(error) => return Answer::failed(context.study, error),
-    };
+    let found = surface(&unlocked, &options, &mut |step| context.step(step, None));
+    let mut surface = found.map_err(NoAnswer::because)?;
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, &unlocked, (&mut surface, options.max_curvature));
     let result = summary(&surface, &options);
     answer.conclude(StudyResult::Surface(result.clone()), result.max_residual, reason(&surface));
-    answer
+    Ok(answer)
 }
 
 /// Returns `1 / sqrt(A)` with the area `A` of the cell; 1 for a sheet without lattice.
@@ -163,14 +161,12 @@ fn add_files(
 }
 
 fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRow {
-    let (shape, state) = (&point.shape, &found.states[k]);
+    let state = &found.states[k];
     StateRow {
         branch: Some(point.branch.0 as i64),
         sign: Some(i64::from(point.branch.1)),
         step: Some(k as i64),
-        curvature: Some(shape.curvature),
-        theta: shape.theta.map(Some),
-        strain: shape.strain.map(Some),
+        shape: Some(Cylinder::from(&point.shape)),
         solution: Solution { energy: energies::columns_if_any(terms, state), ..Solution::default() },
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
         fold: point.angles.clone(),
@@ -204,7 +200,8 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         let studies = context.file.scene.studies.iter().map(|study| &study.name.0);
         let before = studies.take_while(|study| *study != name).filter_map(|study| context.earlier.paths.get(study));
         let mut paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
-        paths.extend(mesh.segments.iter().map(|segment| segment.map(|k| on_curve(&mesh, k)).to_vec()));
+        let on_curve = |k: usize| PathPoint::new(mesh.points[k], mesh.curvature[k], mesh.theta[k]);
+        paths.extend(mesh.segments.iter().map(|segment| segment.map(on_curve).to_vec()));
         let caption = context.caption(format!("all folded states up to a curvature of {}", rounded(max_curvature, 4)));
         answer.add(format!("{name}.svg"), figure::svg(&mesh, &paths, &caption));
     }
@@ -213,13 +210,6 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         answer.add(&file, Artifact::Surface(mesh));
         answer.add(format!("{name}.pvd"), Artifact::Series(vec![(0.0, file)]));
     }
-}
-
-/// Returns a state of a curve as one of a trajectory.
-fn on_curve(mesh: &StrainSurface, k: usize) -> PathPoint {
-    let [theta1, theta2] = mesh.theta[k];
-    let turn = larger(theta1.abs(), theta2.abs());
-    PathPoint { strain: mesh.points[k], curvature: mesh.curvature[k], turn }
 }
 
 /// Returns the pieces of a trajectory whose absolute curvature is at most `max_curvature`.

@@ -6,20 +6,19 @@ mod trajectory;
 use self::trajectory::{Path, is_tube, summary};
 use super::states::{self, Shown};
 use super::supported::small_tolerance;
-use super::{Answer, Context, StudyError, StudyResult, branches, energies, ratios, relax};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, branches, energies, ratios, relax};
 use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::coordinates_in;
 use crate::analysis::intersections::SelfIntersection;
-use crate::analysis::state::State;
+use crate::analysis::state::{Cylinder, State};
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
-use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Model};
-use crate::numerics::{larger, worst};
+use crate::numerics::worst;
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::table::{Solution, StateRow};
 use crate::scene::forms::BranchChoice;
-use crate::scene::spec::{Draw, Engine, TraceSpec};
+use crate::scene::spec::{CreaseAngle, Draw, Engine, TraceSpec};
 use crate::solver::continuation;
 use crate::solver::{Options, Problem};
 pub use summary::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
@@ -54,28 +53,24 @@ pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), Study
 
 fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
     let Some(said) = &spec.stop else { return Ok(Stop::default()) };
-    let crease_angle = match &said.crease_angle {
-        None => None,
-        Some(wanted) => {
-            let key = wanted.crease.0;
-            let found = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
-            let edge = found.ok_or_else(|| {
-                let message = format!("the sheet has no crease {key}");
-                context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
-            })?;
-            Some((edge, wanted.angle.radians))
-        }
+    let crease_angle = |wanted: &CreaseAngle| {
+        let key = wanted.crease.0;
+        let edge = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
+        edge.map(|edge| (edge, wanted.angle.radians)).ok_or_else(|| {
+            let message = format!("the sheet has no crease {key}");
+            context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
+        })
     };
     Ok(Stop {
         arc_length: said.arc_length.as_ref().map(|length| length.0),
         curvature: said.curvature.as_ref().map(|curvature| curvature.0),
-        crease_angle,
+        crease_angle: said.crease_angle.as_ref().map(crease_angle).transpose()?,
         self_intersection: said.self_intersection == Some(true),
     })
 }
 
 /// Follows the trajectories that the scene asks for.
-pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, NoAnswer> {
     let options = TraceOptions {
         max_step: spec.max_step.as_ref().map_or(MAX_STEP, |step| step.0),
         tolerance: spec.tolerance.as_ref().map_or(TOLERANCE, |tolerance| tolerance.0),
@@ -85,10 +80,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
         },
         stop: stop(context, spec)?,
     };
-    let traced = match follow(context, &options) {
-        Ok(traced) => traced,
-        Err(error) => return Ok(Answer::failed(context.study, error)),
-    };
+    let traced = follow(context, &options).map_err(NoAnswer::because)?;
     let relaxations = relaxed(context, spec.engine, &traced);
     context.end_steps();
     let pictures = if context.study.draw.contains(&Draw::Html) { STATES_ON_PAGE } else { PICTURES };
@@ -215,7 +207,8 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
     let mut lines = Vec::new();
     for path in paths {
         let (own, rest) = rows.split_at(path.len());
-        lines.push(own.iter().filter_map(path_point).collect::<Vec<PathPoint>>());
+        let point = |shape: Cylinder| PathPoint::new(shape.strain.into(), shape.curvature, shape.theta);
+        lines.push(own.iter().filter_map(|row| row.shape).map(point).collect::<Vec<PathPoint>>());
         rows = rest;
     }
     if context.draws(Draw::Svg) && !lines.iter().all(Vec::is_empty) {
@@ -225,14 +218,6 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
         answer.add(file, surface::svg(&StrainSurface::default(), &lines, &caption));
     }
     answer.paths = lines;
-}
-
-/// Returns the point of a state in the space of lattice strains; `None` if strain, rotation angles or curvature are
-/// unknown.
-pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
-    let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
-    let turn = larger(theta1?.abs(), theta2?.abs());
-    Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature?, turn })
 }
 
 /// Returns the last state of the first trajectory.
@@ -255,9 +240,8 @@ fn row(
     self_intersecting: Option<bool>,
 ) -> StateRow {
     let shape = match along {
-        None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
-        Some(along) => relaxed_cylinder(assembly.drawn(), folded, along)
-            .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
+        None => folded.shape.as_ref().map(Cylinder::from),
+        Some(along) => relaxed_cylinder(assembly.drawn(), folded, along),
     };
     let branch = path.traced.branch;
     StateRow {
@@ -265,9 +249,7 @@ fn row(
         sign: Some(i64::from(branch.1)),
         step: Some(step as i64),
         arc_length: Some(folded.arc_length),
-        curvature: shape.map(|(curvature, ..)| curvature),
-        theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
-        strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
+        shape,
         solution: Solution {
             energy: energies::columns_if_any(assembly.terms(), state),
             residual_length: along.map(|along| along.relaxed.residual_length),

@@ -5,7 +5,7 @@ mod summary;
 
 use super::states::{self, Shown};
 use super::surface::{check_resolution, curvature_of_cell};
-use super::{Answer, Context, StudyError, StudyResult, start, supported};
+use super::{Answer, Context, NoAnswer, StudyError, StudyResult, start, supported};
 use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::modes::ModesError;
 use crate::analysis::state::State;
@@ -71,35 +71,23 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
 /// The reason for which a pass that was found has no energy.
 const NO_LIMIT: &str = "the pass is singular in rigid bars, and its energies in stiff ones do not tell their limit";
 
-/// Counts of the outcomes of the random starts.
-struct Tally {
-    starts: usize,
-    failed: usize,
-    saddles: usize,
-    failures: Vec<(&'static str, usize)>,
-}
-
-impl Tally {
-    fn of(outcomes: &[Outcome]) -> Self {
-        let failures = failures(outcomes);
-        Self {
-            starts: outcomes.len(),
-            failed: failures.iter().map(|(_, count)| count).sum(),
-            saddles: outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Saddle)).count(),
-            failures,
-        }
-    }
-
-    /// Returns a text with the number of starts that failed, and the reasons.
-    fn failed(&self) -> String {
-        let reasons: Vec<String> = self.failures.iter().map(|(reason, count)| format!("{count}: {reason}")).collect();
-        format!("{} of {} starts failed ({})", self.failed, self.starts, reasons.join("; "))
+/// Counts how the relaxations ended.
+fn tally(outcomes: &[Outcome]) -> WellsSummary {
+    let failed = |(reason, starts): (&str, usize)| FailedStartsSummary { reason: reason.into(), starts };
+    let failures: Vec<FailedStartsSummary> = failures(outcomes).into_iter().map(failed).collect();
+    WellsSummary {
+        starts: outcomes.len(),
+        failed: failures.iter().map(|failed| failed.starts).sum(),
+        saddles: outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Saddle)).count(),
+        failures,
+        ..WellsSummary::default()
     }
 }
 
 /// The results of a study of wells.
 struct FoundWells {
-    tally: Tally,
+    /// How the relaxations ended.
+    tally: WellsSummary,
     /// Stiffness of the sheet's stiffest bars.
     stiffness: f64,
     wells: Vec<Well>,
@@ -111,12 +99,10 @@ struct FoundWells {
 }
 
 /// Finds the wells, and the barriers that the scene asks for.
-pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer, NoAnswer> {
     let assembly = context.assembly;
     let mut model = assembly.model(Gauge::Held);
-    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
-        return Ok(start::unavailable(context));
-    };
+    let start = start::initial_state(context, spec.start.as_ref(), &mut model)?;
     let centre = (!start::is_drawn(spec.start.as_ref())).then(|| model.configuration(&start.x, start.tension));
     let step = AtomicUsize::new(0);
     let watch = |of: Option<usize>| context.step(step.fetch_add(1, Ordering::Relaxed) + 1, of);
@@ -124,7 +110,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer,
     let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
     let starts = Starts { count, seed: spec.seed, spread, options: Options::default() };
     let outcomes = relax_around(assembly, centre.as_ref(), &starts, &|| watch(Some(count)));
-    let tally = Tally::of(&outcomes);
+    let tally = tally(&outcomes);
     let minima = outcomes.into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
@@ -145,8 +131,8 @@ pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer,
     add_files(&mut answer, context, &found);
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let result = found.summary();
-    let largest = error(&result);
-    answer.conclude(StudyResult::Wells(result), largest, interrupted.or_else(|| found.missing(spec)));
+    let (largest, reason) = (error(&result), interrupted.or_else(|| found.missing(spec, &result)));
+    answer.conclude(StudyResult::Wells(result), largest, reason);
     Ok(answer)
 }
 
@@ -170,14 +156,15 @@ fn error(result: &WellsSummary) -> Option<f64> {
 
 impl FoundWells {
     /// Returns the reason for which the answer is incomplete; `None` if it is complete.
-    fn missing(&self, spec: &WellsSpec) -> Option<String> {
+    fn missing(&self, spec: &WellsSpec, result: &WellsSummary) -> Option<String> {
+        let WellsSummary { starts, failed, saddles, .. } = result;
+        let failed_starts = || format!("{failed} of {starts} starts failed ({})", result.reasons());
         let count = self.wells.len();
         if count == 0 {
-            let Tally { saddles, .. } = self.tally;
-            return Some(format!("no well was found: {}, {saddles} ended in no minimum", self.tally.failed()));
+            return Some(format!("no well was found: {}, {saddles} ended in no minimum", failed_starts()));
         }
-        if 2 * self.tally.failed > self.tally.starts {
-            return Some(format!("{}: there may be other wells", self.tally.failed()));
+        if 2 * failed > *starts {
+            return Some(format!("{}: there may be other wells", failed_starts()));
         }
         match &self.in_families {
             Ok(0) => {}
@@ -206,9 +193,8 @@ impl FoundWells {
                 )
             }));
         }
-        let barriers = self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref()));
-        let failed = barriers.into_iter().find_map(|found| Some((found.between, found.reason?)));
-        failed.map(|(between, why)| format!("barrier {between:?}: {why}")).or_else(|| self.not_sampled())
+        let failed = |found: &BarrierSummary| Some(format!("barrier {:?}: {}", found.between, found.reason.as_ref()?));
+        result.barriers.iter().find_map(failed).or_else(|| self.not_sampled())
     }
 
     /// Returns a text about the missing parts of the rigid landscape; `None` if none is missing.
@@ -236,8 +222,6 @@ impl FoundWells {
     }
 
     fn summary(&self) -> WellsSummary {
-        let Tally { starts, failed, saddles, ref failures } = self.tally;
-        let failures = failures.iter().map(|&(reason, starts)| FailedStartsSummary { reason: reason.into(), starts });
         let well = |(well, crossing): (&Well, &bool)| WellSummary {
             energy: well.settled.energy,
             reached: well.reached,
@@ -247,13 +231,10 @@ impl FoundWells {
             rigid: self.among_rigid(well),
         };
         WellsSummary {
-            starts,
-            failed,
-            failures: failures.collect(),
-            saddles,
             wells: self.wells.iter().zip(&self.crossing).map(well).collect(),
             barriers: self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref())).collect(),
             rigid: self.rigid.as_ref().and_then(|found| found.as_ref().ok()).map(rigid),
+            ..self.tally.clone()
         }
     }
 

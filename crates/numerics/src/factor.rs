@@ -113,12 +113,9 @@ impl Symbolic {
         if pattern.size() <= DENSE_LIMIT {
             return Ok(Self { size: pattern.size(), sparse: None });
         }
-        let (size, order) = (pattern.size(), super::order::nested_dissection(node, cliques));
-        let mut inverse = vec![0u32; size];
-        for (new, &old) in order.iter().enumerate() {
-            inverse[old as usize] = new as u32;
-        }
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size));
+        let order = super::order::nested_dissection(node, cliques);
+        let inverse = super::order::inverse(&order);
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, pattern.size()));
         Self::sparse(pattern, pattern.symbolic(), Side::Lower, ordering)
     }
 

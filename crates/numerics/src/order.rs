@@ -53,6 +53,13 @@ pub(super) fn neighbours(
     lists
 }
 
+/// The inverse of a permutation.
+pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut inverse = vec![0; order.len()];
+    (0..).zip(order).for_each(|(place, &old)| inverse[old as usize] = place);
+    inverse
+}
+
 /// List and number of every clique.
 pub(super) fn places<'a>(cliques: &'a [&Cliques]) -> impl Iterator<Item = (usize, usize)> + 'a {
     cliques.iter().enumerate().flat_map(|(list, cliques)| (0..cliques.len()).map(move |clique| (list, clique)))

@@ -111,12 +111,15 @@ impl Executor {
         if in_a_pool && rayon::current_num_threads() > 1 { Self::CurrentPool } else { Self::CallingThread }
     }
 
-    /// Does parallel work in the pool of this place; `None` where that is the calling thread alone.
-    fn share<R: Send>(&self, work: impl FnOnce() -> R + Send) -> Option<R> {
+    /// Does work in this place, and tells it whether that has several threads.
+    fn run<R: Send>(&self, work: impl FnOnce(bool) -> R + Send) -> R {
         match self {
-            Self::CallingThread => None,
-            Self::CurrentPool => Some(work()),
-            Self::Pool(threads) => threads.pool().map(|pool| pool.install(work)),
+            Self::CallingThread => work(false),
+            Self::CurrentPool => work(true),
+            Self::Pool(threads) => match threads.pool() {
+                Some(pool) => pool.install(|| work(true)),
+                None => work(false),
+            },
         }
     }
 }
@@ -124,14 +127,7 @@ impl Executor {
 /// Does work that shares out its parts by itself (`rayon::join`). Whether it may is what it is told: where it is
 /// `worthwhile` and there is more than one thread; then it is done on one of these.
 pub(crate) fn in_pool<R: Send>(worthwhile: bool, work: impl FnOnce(bool) -> R + Send) -> R {
-    match Executor::of_loop(worthwhile) {
-        Executor::CallingThread => work(false),
-        Executor::CurrentPool => work(true),
-        Executor::Pool(threads) => match threads.pool() {
-            Some(pool) => pool.install(|| work(true)),
-            None => work(false),
-        },
-    }
+    Executor::of_loop(worthwhile).run(work)
 }
 
 /// Does the work in the `foreground` on the calling thread, and that in the `background` on another one at the same
@@ -190,7 +186,7 @@ pub fn compute_and_consume<T: Default + Send>(
     for start in (0..count).step_by(ELEMENTS_PER_WAVE) {
         let wave = &mut results[..ELEMENTS_PER_WAVE.min(count - start)];
         let elements = wave.par_iter_mut().with_min_len(ELEMENTS_PER_TASK).enumerate();
-        place.share(|| elements.for_each(|(k, result)| compute(start + k, result)));
+        place.run(|_| elements.for_each(|(k, result)| compute(start + k, result)));
         wave.iter().enumerate().for_each(|(k, result)| consume(start + k, result));
     }
 }
@@ -205,9 +201,11 @@ pub fn map_with_state<S, T: Send>(
     make_state: impl Fn() -> S + Sync + Send,
     compute: impl Fn(&mut S, usize) -> T + Sync + Send,
 ) -> Vec<T> {
-    let pieces = || (0..count).into_par_iter().with_min_len(PIECES_PER_STATE);
-    let shared = Executor::of_loop(count > 1).share(|| pieces().map_init(&make_state, &compute).collect());
-    shared.unwrap_or_else(|| {
+    in_pool(count > 1, |shared| {
+        if shared {
+            let pieces = (0..count).into_par_iter().with_min_len(PIECES_PER_STATE);
+            return pieces.map_init(&make_state, &compute).collect();
+        }
         let mut state = make_state();
         (0..count).map(|k| compute(&mut state, k)).collect()
     })

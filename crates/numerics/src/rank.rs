@@ -20,7 +20,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     for (row, members) in rows.cliques.iter().enumerate() {
         cliques.push(members.iter().copied().chain([(columns + row) as u32]));
     }
-    let blocks = node.iter().max().map_or(0, |last| last + 1);
+    let blocks = super::order::count(node) as u32;
     let node: Vec<u32> = node.iter().copied().chain((0..count as u32).map(|row| blocks + row)).collect();
     let pattern = SparsityPattern::new(size, &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);

@@ -103,16 +103,15 @@ impl Piece {
         self.corners.iter().map(|corner| corner.z).sum::<f64>() / self.corners.len() as f64
     }
 
-    /// Returns the least and the largest distance of the corners from a plane, positive in front of it.
-    fn range(&self, plane: &Plane) -> (f64, f64) {
-        let above = self.corners.iter().map(|corner| plane.above(corner));
-        above.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)))
+    /// Whether the piece has corners behind a plane and in front of it.
+    fn sides(&self, plane: &Plane, limits: &Limits) -> [bool; 2] {
+        let above = || self.corners.iter().map(|corner| plane.above(corner));
+        [above().any(|d| d < -limits.length), above().any(|d| d > limits.length)]
     }
 
     /// Returns the parts in front of a plane and behind it; `None` if the piece lies on one side of it.
     fn cut_by(&self, plane: &Plane, limits: &Limits) -> Option<[Self; 2]> {
-        let (low, high) = self.range(plane);
-        (low < -limits.length && high > limits.length).then(|| [1.0, -1.0].map(|sign| self.part(plane, sign)))
+        (self.sides(plane, limits) == [true, true]).then(|| [1.0, -1.0].map(|sign| self.part(plane, sign)))
     }
 
     fn part(&self, plane: &Plane, sign: f64) -> Self {
@@ -355,14 +354,14 @@ fn cut(group: Vec<Piece>, limits: &Limits, ordered: &mut Vec<Piece>) {
         };
         let (mut behind, mut on, mut front) = (Vec::new(), Vec::new(), Vec::new());
         for piece in pieces {
-            match (piece.cut_by(&plane, limits), piece.range(&plane)) {
-                (Some([before, after]), _) => {
-                    front.push(before);
-                    behind.push(after);
+            match piece.sides(&plane, limits) {
+                [true, true] => {
+                    front.push(piece.part(&plane, 1.0));
+                    behind.push(piece.part(&plane, -1.0));
                 }
-                (None, (low, high)) if low >= -limits.length && high <= limits.length => on.push(piece),
-                (None, (low, _)) if low >= -limits.length => front.push(piece),
-                _ => behind.push(piece),
+                [true, false] => behind.push(piece),
+                [false, true] => front.push(piece),
+                [false, false] => on.push(piece),
             }
         }
         tasks.extend([(front, false), (on, true), (behind, false)]);
@@ -375,17 +374,10 @@ fn fewest_cuts(pieces: &[Piece], limits: &Limits) -> Option<Plane> {
         return None;
     }
     // the corners of a thin piece may have moved off its plane by rounding
-    let is_flat = |piece: &Piece, plane: &Plane| {
-        let (low, high) = piece.range(plane);
-        low >= -limits.length && high <= limits.length
-    };
+    let is_flat = |piece: &Piece, plane: &Plane| piece.sides(plane, limits) == [false, false];
     let planes = pieces.iter().filter_map(|piece| piece.plane.filter(|plane| is_flat(piece, plane)));
     let planes: Vec<Plane> = planes.collect();
-    let is_cut = |piece: &Piece, plane: &Plane| {
-        let (low, high) = piece.range(plane);
-        low < -limits.length && high > limits.length
-    };
-    let cuts = |plane: &Plane| pieces.iter().filter(|piece| is_cut(piece, plane)).count();
+    let cuts = |plane: &Plane| pieces.iter().filter(|piece| piece.sides(plane, limits) == [true, true]).count();
     let every = planes.len().div_ceil(TRIED).max(1);
     planes.into_iter().step_by(every).min_by_key(cuts)
 }

@@ -16,6 +16,7 @@ use super::palette::{CURVATURE, Colour, GRID, INK, PANE, PAPER, SHADOW};
 use super::projection::Projection;
 use super::style::{Area, Font, PaperPoint, Style};
 use crate::math::Vec3;
+use crate::numerics::larger;
 use crate::output::StrainSurface;
 use crate::output::error::ShapeError;
 
@@ -43,6 +44,13 @@ pub struct PathPoint {
     pub curvature: f64,
     /// The larger of the two rotation angles from a cell to the next, in radians.
     pub turn: f64,
+}
+
+impl PathPoint {
+    /// Returns the state with these lattice strains, signed curvature, and rotation angles from a cell to the next.
+    pub(crate) fn new(strain: Vec3, curvature: f64, [theta1, theta2]: [f64; 2]) -> Self {
+        Self { strain, curvature, turn: larger(theta1.abs(), theta2.abs()) }
+    }
 }
 
 /// Returns the figure of a surface with trajectories on it, or of trajectories alone if the surface is empty.

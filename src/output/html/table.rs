@@ -37,13 +37,12 @@ pub(super) struct Fact(String, Value);
 
 impl Column {
     /// Makes a column of numbers if all of its fields are numbers or empty, otherwise one of words.
-    fn new(arrays: &mut Arrays, name: &str, fields: &[&str]) -> Self {
-        let number = |field: &&str| if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() };
+    fn new(arrays: &mut Arrays, name: &str, fields: &[String]) -> Self {
+        let number = |field: &String| if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() };
         let numbers: Option<Vec<f64>> = fields.iter().map(number).collect();
-        let words = || fields.iter().map(|&field| field.to_owned()).collect();
         Self {
             name: name.to_owned(),
-            words: numbers.is_none().then(words),
+            words: numbers.is_none().then(|| fields.to_vec()),
             numbers: numbers.map(|numbers| arrays.scaled(&numbers)),
         }
     }
@@ -60,7 +59,7 @@ impl TableData {
         let field = |row: &Vec<&'_ str>, at: usize| row.get(at).map_or("", |field| field.trim()).to_owned();
         let column = |(at, name): (usize, &&str)| {
             let fields: Vec<String> = rows.iter().map(|row| field(row, at)).collect();
-            Column::new(arrays, name, &fields.iter().map(String::as_str).collect::<Vec<_>>())
+            Column::new(arrays, name, &fields)
         };
         let columns = header.iter().enumerate().take(COLUMNS).map(column).collect();
         Self { name: name.to_owned(), rows: rows.len(), columns, left_out: header.len().saturating_sub(COLUMNS) }
@@ -83,10 +82,7 @@ impl TableData {
             }
             _ => return None,
         };
-        let mut column = |(name, fields): &(&str, Vec<String>)| {
-            Column::new(arrays, name, &fields.iter().map(String::as_str).collect::<Vec<_>>())
-        };
-        let columns: Vec<Column> = columns.iter().map(&mut column).collect();
+        let columns: Vec<Column> = columns.iter().map(|(name, fields)| Column::new(arrays, name, fields)).collect();
         (!columns.is_empty()).then(|| Self { name: name.to_owned(), rows: list.len(), columns, left_out: 0 })
     }
 }

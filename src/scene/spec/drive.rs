@@ -8,8 +8,8 @@ use serde::de::{Error, IntoDeserializer, SeqAccess, Unexpected};
 use super::vertices::VertexSet;
 use crate::scene::Located;
 use crate::scene::values::{EdgeName, Label, Motions, Triple};
-use crate::scene::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::angle::Angle;
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// `[[part]]`: vertices of a patch that move as one rigid body.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -1,6 +1,4 @@
-//! `facets` of `[energy]`: how polygons bend.
-
-use std::ops::Deref;
+//! `creases` and `facets` of `[energy]`: how creases fold and polygons bend.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -13,25 +11,13 @@ use crate::scene::Located;
 use crate::scene::rest::RestSpec;
 use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::values::Fraction;
-use crate::scene::written::{Written, read_as_written, schema_any_of};
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
-/// The model by which quadrilaterals bend, named by the vertices and bars of one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum FacetModel {
-    /// Along the shorter diagonal.
-    #[default]
-    N4B5,
-    /// Along both diagonals, which cross in a vertex of their own.
-    N5B8,
-}
-
-/// `facets = { model, stiffness, rest, fraction, law, yield }`.
+/// `creases = { stiffness, rest, fraction, law, yield }`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FacetsSpec {
-    /// How quadrilaterals bend; left out: `N4B5`.
-    pub model: Option<FacetModel>,
-    /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0. Left out: that of the
+pub struct CreasesSpec {
+    /// Torque per radian and per length of crease; the spring constant is stiffness * L0. Left out: that of the
     /// material.
     pub stiffness: Option<Located<StiffnessSpec>>,
     /// Rest angles; left out: as drawn.
@@ -46,16 +32,44 @@ pub struct FacetsSpec {
     pub yields: Option<Located<HingeYieldSpec>>,
 }
 
-/// [`FacetsSpec`], or the name of its model alone.
+/// The model by which quadrilaterals bend, named by the vertices and bars of one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum FacetModel {
+    /// Along the shorter diagonal.
+    #[default]
+    N4B5,
+    /// Along both diagonals, which cross in a vertex of their own.
+    N5B8,
+}
+
+/// `facets = { model, stiffness, rest, fraction, law, yield }`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct FacetsSpec {
+    /// How quadrilaterals bend; left out: `N4B5`.
+    model: Option<FacetModel>,
+    /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0. Left out: that of the
+    /// material.
+    stiffness: Option<Located<StiffnessSpec>>,
+    /// Rest angles; left out: as drawn.
+    rest: Option<Located<RestSpec>>,
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
+    /// letters.
+    fraction: Option<Located<Fraction>>,
+    /// How the torque grows with the angle; left out: linearly.
+    law: Option<Located<LawForm<HingeLawSpec>>>,
+    /// Where it yields; left out: nowhere.
+    #[serde(rename = "yield")]
+    yields: Option<Located<HingeYieldSpec>>,
+}
+
+/// The model of facets and the keys that they have in common with creases.
 #[derive(Clone, Debug)]
-pub struct FacetsForm(FacetsSpec);
-
-impl Deref for FacetsForm {
-    type Target = FacetsSpec;
-
-    fn deref(&self) -> &FacetsSpec {
-        &self.0
-    }
+pub struct FacetsForm {
+    /// How quadrilaterals bend; left out: `N4B5`.
+    pub model: Option<FacetModel>,
+    /// The keys of hinges.
+    pub hinges: CreasesSpec,
 }
 
 read_as_written!(FacetsForm);
@@ -65,11 +79,13 @@ impl Written for FacetsForm {
 
     fn from_word<E: Error>(word: &str) -> Result<Self, E> {
         let deserializer: StrDeserializer<E> = word.into_deserializer();
-        Ok(Self(FacetsSpec { model: Some(FacetModel::deserialize(deserializer)?), ..FacetsSpec::default() }))
+        Ok(Self { model: Some(FacetModel::deserialize(deserializer)?), hinges: CreasesSpec::default() })
     }
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
-        FacetsSpec::deserialize(MapAccessDeserializer::new(map)).map(Self)
+        let table = FacetsSpec::deserialize(MapAccessDeserializer::new(map))?;
+        let FacetsSpec { model, stiffness, rest, fraction, law, yields } = table;
+        Ok(Self { model, hinges: CreasesSpec { stiffness, rest, fraction, law, yields } })
     }
 }
 

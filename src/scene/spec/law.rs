@@ -10,8 +10,8 @@ use serde::de::{Error as _, SeqAccess, Unexpected};
 use thiserror::Error;
 
 use crate::scene::values::{Exactly, checked, numbers};
-use crate::scene::written::{Written, read_as_written, schema_any_of};
 use crate::sheet::angle::Angle;
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// The reasons for which a number of a law is refused.
 #[derive(Debug, Error)]

@@ -7,8 +7,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error, MapAccess};
 use serde::{Deserialize, Deserializer};
 
-use crate::scene::written::{Written, read};
 use crate::sheet::Assignment;
+use crate::sheet::written::{Written, read};
 
 /// The letters of edges, as messages list them.
 const LETTERS: [&str; 7] = ["M", "V", "F", "U", "B", "C", "J"];

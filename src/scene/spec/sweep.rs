@@ -12,7 +12,7 @@ use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess};
 use crate::scene::Located;
 use crate::scene::forms::FileName;
 use crate::scene::values::Exactly;
-use crate::scene::written::{Written, read_as_written};
+use crate::sheet::written::{Written, read_as_written};
 
 /// The key of a sweep whose value is a table of points.
 const POINTS: &str = "points";
@@ -83,10 +83,8 @@ impl SweepRange {
 
     fn of_logarithms(range: [f64; 3]) -> Result<Self, String> {
         let found = Self::new(range)?;
-        match found.ends.iter().find(|end| !(**end > 0.0)) {
-            Some(end) => Err(format!("a logarithmic range has an end at {end}, expected numbers above 0")),
-            None => Ok(found),
-        }
+        let Some(end) = found.ends.iter().find(|end| !(**end > 0.0)) else { return Ok(found) };
+        Err(format!("a logarithmic range has an end at {end}, expected numbers above 0"))
     }
 }
 
@@ -123,16 +121,15 @@ impl Written for SweepValues {
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
         let AxisTable { linear, log, seeds, file, others } = AxisTable::deserialize(MapAccessDeserializer::new(map))?;
+        if let Some(key) = others.keys().next() {
+            return Err(A::Error::custom(format!("`{key}` is no form of values, expected {}", Self::FORMS)));
+        }
         let found = match (linear, log, seeds, file) {
             (Some(Exactly(range)), None, None, None) => SweepRange::new(range).map(Self::Linear),
             (None, Some(Exactly(range)), None, None) => SweepRange::of_logarithms(range).map(Self::Log),
             (None, None, Some(Exactly(seeds)), None) => Self::seeds(seeds),
             (None, None, None, Some(file)) => Ok(Self::File(file)),
             _ => Err(format!("the axis has no values, or values in several forms, expected {}", Self::FORMS)),
-        };
-        let found = match others.keys().next() {
-            Some(key) => Err(format!("`{key}` is no form of values, expected {}", Self::FORMS)),
-            None => found,
         };
         found.map_err(A::Error::custom)
     }

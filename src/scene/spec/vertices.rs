@@ -6,7 +6,7 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 
 use crate::scene::values::Exactly;
-use crate::scene::written::{Written, read_as_written, schema_any_of};
+use crate::sheet::written::{Written, read_as_written, schema_any_of};
 
 /// A set of vertices of a patch.
 #[derive(Clone, Debug, PartialEq)]

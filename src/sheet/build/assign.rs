@@ -73,10 +73,9 @@ fn fault(
     match (assignment, found.kind) {
         (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => Some(Problem::BoundaryInside { edge, ends }),
         (Assignment::Join, EdgeKind::Boundary) => Some(Problem::JoinAtRim { edge, ends }),
-        (Assignment::Mountain, EdgeKind::Crease) if folded && drawn > 0.0 => {
-            Some(Problem::OtherSide { edge, ends, letter: assignment, drawn })
-        }
-        (Assignment::Valley, EdgeKind::Crease) if folded && drawn < 0.0 => {
+        (Assignment::Mountain | Assignment::Valley, EdgeKind::Crease)
+            if folded && assignment != Assignment::of_side(drawn) =>
+        {
             Some(Problem::OtherSide { edge, ends, letter: assignment, drawn })
         }
         _ => None,

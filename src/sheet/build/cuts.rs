@@ -58,13 +58,9 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
     }
     let uses = uses(polygons);
     cuts.retain(|key, _| uses.get(key) == Some(&2));
-    match cuts.values().min() {
-        Some(&edge) if drawn.is_repeated() => {
-            let ends = drawn.edge_name(drawn.assignments[edge].0);
-            Err(Defect::new(MeshPart::Edge(edge), Problem::PeriodicCut { edge, ends }))
-        }
-        _ => Ok(cuts),
-    }
+    let Some(&edge) = cuts.values().min().filter(|_| drawn.is_repeated()) else { return Ok(cuts) };
+    let ends = drawn.edge_name(drawn.assignments[edge].0);
+    Err(Defect::new(MeshPart::Edge(edge), Problem::PeriodicCut { edge, ends }))
 }
 
 /// Returns the number of polygons that have each edge.

@@ -56,14 +56,12 @@ fn one_sided(polygons: usize, sides: &[Side]) -> Vec<bool> {
 }
 
 fn check_uses(drawn: &Drawing, side: &Side, one_sided: &[bool]) -> Result<(), Defect> {
-    match side.uses[..] {
-        [(f, a), (g, b)] if a == b && !one_sided[f] => {
-            let problem =
-                Problem::Orientation { edge: drawn.edge_name(side.drawn), faces: [f, g].map(|f| drawn.name(f)) };
-            Err(Defect::new(MeshPart::Face(g), problem))
-        }
-        _ => Ok(()),
+    let [(f, a), (g, b)] = side.uses[..] else { return Ok(()) };
+    if a != b || one_sided[f] {
+        return Ok(());
     }
+    let problem = Problem::Orientation { edge: drawn.edge_name(side.drawn), faces: [f, g].map(|f| drawn.name(f)) };
+    Err(Defect::new(MeshPart::Face(g), problem))
 }
 
 /// Checks that in a periodic sheet the edges of one face are exactly the sides of the listed openings.

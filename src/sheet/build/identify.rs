@@ -10,7 +10,7 @@
 use std::collections::HashMap;
 
 use super::{Defect, Drawing, MeshPart, Problem};
-use crate::math::Vec3;
+use crate::math::{Vec3, bounds};
 use crate::sheet::ScrewLattice;
 use crate::sheet::cell::Corner;
 
@@ -194,8 +194,7 @@ struct Metric {
 
 impl Metric {
     fn finite(coords: &[Vec3]) -> Self {
-        let low = coords.iter().fold(coords[0], |m, x| m.inf(x));
-        let high = coords.iter().fold(coords[0], |m, x| m.sup(x));
+        let [low, high] = bounds(coords);
         let tolerance = (1e-9 * (high - low).norm()).max(f64::MIN_POSITIVE);
         Self { tolerance, axes: [Vec3::x(), Vec3::y(), Vec3::z()], width: [2.0 * tolerance; 3], period: [None; 3] }
     }

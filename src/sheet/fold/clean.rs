@@ -9,6 +9,7 @@ use super::frames::Frame;
 use super::locate::Source;
 use super::read::{ReadFrame, Rows};
 use super::record;
+use crate::math::bounds;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::Drawing;
 use crate::sheet::cell::Sheet;
@@ -45,10 +46,8 @@ pub(super) fn sheet(
     };
     let lines: Vec<Line> = parts.iter().map(line).collect();
     let head = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
-    let mut sheet = sheet_of_lines(&lines, cleanup, &head).map_err(|(line, problem)| match line {
-        Some(line) => source.at(places[line], *problem),
-        None => source.at_start(*problem),
-    })?;
+    let mut sheet = sheet_of_lines(&lines, cleanup, &head)
+        .map_err(|(line, problem)| source.at_value(line.map(|line| places[line]), *problem))?;
     edges.rebuilt = true;
     sheet.record = FileRecord { redrawing: sheet.record.redrawing, ..record::record(frame, &edges, false) };
     let lost = LOST.into_iter().filter(|key| frame.values.get(key).is_some());
@@ -79,8 +78,7 @@ pub(super) fn needed((drawn, rows, edges): &ReadFrame) -> Option<Cleanup> {
 
 /// Returns what a drawing is if it is not a flat crease pattern.
 fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
-    let first = drawn.coords.first().copied().unwrap_or_default();
-    let [low, high] = drawn.coords.iter().fold([first; 2], |[low, high], x| [low.inf(x), high.sup(x)]);
+    let [low, high] = bounds(&drawn.coords);
     if drawn.is_repeated() {
         Some("this sheet is periodic")
     } else if drawn.folded {

@@ -21,10 +21,8 @@ pub(super) struct Frame<'a> {
 pub(super) fn choose<'a>(source: &Source<'a>, number: Option<usize>) -> Result<Frame<'a>, SheetError> {
     let top: Values<'a> = read(source, source.text)?;
     let list = top.get("file_frames");
-    let rows: Vec<&RawValue> = match list {
-        Some(list) => source.typed(list, || "`file_frames`".into(), "a list of frames, [{..}, ...]")?,
-        None => vec![],
-    };
+    let rows = list.map(|list| source.typed(list, || "`file_frames`".into(), "a list of frames, [{..}, ...]"));
+    let rows: Vec<&RawValue> = rows.transpose()?.unwrap_or_default();
     let further = rows.iter().enumerate().map(|(k, row)| {
         let what = || format!("frame {} of `file_frames`", k + 1);
         source.typed(row, what, "an object of keys and values, {..}")
@@ -86,10 +84,7 @@ impl<'a> Frames<'_, 'a> {
             let Some(parent) = self.parent(own, at)? else { break };
             if seen.contains(&parent) {
                 let problem = Problem::FrameCycle { frame: number };
-                return Err(match own.get("frame_parent") {
-                    Some(place) => self.source.at(place, problem),
-                    None => self.source.at_start(problem),
-                });
+                return Err(self.source.at_value(own.get("frame_parent"), problem));
             }
             seen.push(parent);
             at = parent;
@@ -101,11 +96,9 @@ impl<'a> Frames<'_, 'a> {
 
     /// Returns the number of the frame from which a frame inherits.
     fn parent(&self, own: &Values<'a>, number: usize) -> Result<Option<usize>, SheetError> {
-        let inherits = match own.get("frame_inherit") {
-            Some(value) => self.source.typed(value, || "`frame_inherit`".into(), "true or false")?,
-            None => false,
-        };
-        if number == 0 || !inherits {
+        let inherits = own.get("frame_inherit");
+        let inherits = inherits.map(|value| self.source.typed(value, || "`frame_inherit`".into(), "true or false"));
+        if !inherits.transpose()?.unwrap_or(false) || number == 0 {
             return Ok(None);
         }
         let Some(value) = own.get("frame_parent") else { return Ok(Some(0)) };

@@ -3,6 +3,7 @@
 use serde_json::value::RawValue;
 
 use crate::sheet::error::{Problem, SheetError};
+use crate::sheet::text::{line_and_column, shortened};
 
 /// A text and the name of its file.
 pub(super) struct Source<'a> {
@@ -13,21 +14,18 @@ pub(super) struct Source<'a> {
 impl<'a> Source<'a> {
     /// Returns the error that a value of the text has this problem.
     pub(crate) fn at(&self, value: &RawValue, problem: Problem) -> SheetError {
-        let offset = (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
-        self.at_offset(offset.min(self.text.len()), problem)
+        self.at_value(Some(value), problem)
     }
 
     /// Returns the error that the text as a whole has this problem.
     pub(crate) fn at_start(&self, problem: Problem) -> SheetError {
-        self.at_offset(0, problem)
+        self.at_value(None, problem)
     }
 
-    fn at_offset(&self, offset: usize, problem: Problem) -> SheetError {
-        let before = &self.text.as_bytes()[..offset];
-        let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
-        let start = before.iter().rposition(|&b| b == b'\n').map_or(0, |k| k + 1);
-        let column = String::from_utf8_lossy(&before[start..]).chars().count() + 1;
-        SheetError::bad(self.name, [line, column], problem)
+    /// Returns the error that a value has this problem, or the text as a whole where no value is given.
+    pub(crate) fn at_value(&self, value: Option<&RawValue>, problem: Problem) -> SheetError {
+        let offset = |value: &RawValue| (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
+        SheetError::bad(self.name, line_and_column(self.text, value.map_or(0, offset)), problem)
     }
 
     /// Returns the error of the JSON parser, without the position in its message.
@@ -50,7 +48,7 @@ impl<'a> Source<'a> {
 
     /// Returns the error that `value` is not what it should be, although its JSON type may be right.
     pub(crate) fn mistyped(&self, value: &RawValue, what: String, right: &'static str) -> SheetError {
-        self.at(value, Problem::Type { what, found: shortened(value.get()), right })
+        self.at(value, Problem::Type { what, found: on_one_line(value.get()), right })
     }
 
     /// Reads a list of vertex numbers below `count`.
@@ -70,21 +68,17 @@ impl<'a> Source<'a> {
             Ok(number) if number < count => Ok(number),
             _ if !text.is_empty() && text.trim_start_matches('-').bytes().all(|b| b.is_ascii_digit()) => {
                 let last = count.saturating_sub(1);
-                Err(self.at(entry, Problem::Index { what: what(), found: shortened(text), first: 0, last }))
+                Err(self.at(entry, Problem::Index { what: what(), found: on_one_line(text), first: 0, last }))
             }
             _ => {
                 let what = format!("a vertex number of {}", what());
-                Err(self.at(entry, Problem::Type { what, found: shortened(text), right: "a whole number" }))
+                Err(self.at(entry, Problem::Type { what, found: on_one_line(text), right: "a whole number" }))
             }
         }
     }
 }
 
 /// Returns a value's text on one line, cut after 40 characters.
-fn shortened(text: &str) -> String {
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match words.char_indices().nth(40) {
-        Some((end, _)) => format!("{}...", &words[..end]),
-        None => words,
-    }
+fn on_one_line(text: &str) -> String {
+    shortened(&text.split_whitespace().collect::<Vec<_>>().join(" "), 40)
 }

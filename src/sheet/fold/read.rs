@@ -196,8 +196,5 @@ fn located(source: &Source, keys: &Values, rows: &Rows, edges: &Edges, defect: D
         MeshPart::Hole(h) => rows.holes.get(h).copied(),
     };
     let whole = keys.get("faces_vertices").or(keys.get("edges_vertices")).or(keys.get("vertices_coords"));
-    match row.or(whole) {
-        Some(value) => source.at(value, *defect.problem),
-        None => source.at_start(*defect.problem),
-    }
+    source.at_value(row.or(whole), *defect.problem)
 }

@@ -4,8 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use super::super::angle::radians;
 use super::error::{GenerateError, angle_between, angle_from, count, length};
-use super::grid::VertexGrid;
-use super::parts::{Parts, parameters};
+use super::parts::{Parts, VertexGrid, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 

@@ -14,7 +14,6 @@
 mod eggbox;
 mod error;
 mod four_parallelogram;
-mod grid;
 mod hypar;
 mod kresling;
 mod miura;

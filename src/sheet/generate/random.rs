@@ -1,8 +1,7 @@
 //! Random triangulated cells.
 
 use super::error::{GenerateError, between, count, from};
-use super::grid::VertexGrid;
-use super::parts::{Parts, parameters};
+use super::parts::{Parts, VertexGrid, parameters};
 use crate::math::Vec3;
 use crate::numerics::random::symmetric;
 use crate::sheet::cell::{Corner, Sheet};

@@ -5,8 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 use super::error::{GenerateError, count, from};
-use super::grid::VertexGrid;
-use super::parts::{Parts, parameters};
+use super::parts::{Parts, VertexGrid, parameters};
 use super::random::split;
 use crate::math::Vec3;
 use crate::numerics::random::symmetric;

@@ -4,9 +4,8 @@ use std::f64::consts::{FRAC_PI_3, PI};
 
 use super::super::angle::radians;
 use super::error::{GenerateError, between};
-use super::grid::VertexGrid;
 use super::miura::{Miura, MiuraShape};
-use super::parts::{Parts, parameters};
+use super::parts::{Parts, VertexGrid, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 

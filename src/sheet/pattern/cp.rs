@@ -1,9 +1,10 @@
 //! `.cp` files of ORIPA and Oriedita: a line of text for each line of the pattern, `type x1 y1 x2 y2`.
 
-use super::line::{DrawnLines, Line, Lines, flip, offset, place};
+use super::line::{DrawnLines, Line, Lines, flip, offset};
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
+use crate::sheet::text::line_and_column;
 
 /// A type of lines: its number, letter, target angle in degrees, and whether the line is auxiliary.
 pub(super) type LineType = (i64, Assignment, Option<f64>, bool);
@@ -49,7 +50,7 @@ pub(super) fn lines(text: &str) -> Lines {
     for row in text.lines() {
         let words: Vec<&str> = row.split_whitespace().collect();
         let at = offset(text, row.trim_start());
-        let located = |fault: PatternFault| (place(text, at), fault.into());
+        let located = |fault: PatternFault| (line_and_column(text, at), fault.into());
         match words[..] {
             [] => {}
             [type_, ref numbers @ ..] if numbers.len() == 4 => {

@@ -14,10 +14,11 @@ use kurbo::{Affine, Arc, BezPath, Circle, Point, Shape, Vec2};
 use super::bspline::BSpline;
 use super::colour;
 use super::cp::number;
-use super::line::{DrawnLines, Line, Lines, Misread, offset, place};
+use super::line::{DrawnLines, Line, Lines, Misread, offset};
 use super::outline::{self, Outline};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
+use crate::sheet::text::line_and_column;
 
 /// Parts of names of layers in small letters, and what the lines of such a layer are; `None` for auxiliary lines. The
 /// first part that is found counts.
@@ -62,6 +63,8 @@ const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
 /// Number that is 1 for entities that are not drawn, and for those of a page beside the drawing.
 const INVISIBLE: i32 = 60;
 const ON_PAGE: i32 = 67;
+/// Flag of a polyline that is closed.
+const CLOSED: u32 = 1;
 /// Flag of a layer that is frozen, and of a corner that only shapes the curve through others.
 const FROZEN: u32 = 1;
 const OF_FRAME: u32 = 16;
@@ -85,7 +88,7 @@ pub(super) fn lines(text: &str) -> Lines {
     let mut grey = 0;
     let (mut section, mut open) = ("", None);
     for entity in &entities {
-        let located = |fault: PatternFault| (place(text, entity.at), fault.into());
+        let located = |fault: PatternFault| (line_and_column(text, entity.at), fault.into());
         match (entity.name, section) {
             ("SECTION", _) => section = entity.first(2).unwrap_or_default(),
             ("ENDSEC", _) => section = "",
@@ -108,7 +111,7 @@ pub(super) fn lines(text: &str) -> Lines {
                 grey += usize::from(line.auxiliary && !named);
                 let placed = entity.placed().map_err(located)?;
                 if name == "POLYLINE" {
-                    open = Some(Polyline { corners: vec![], closed: entity.is_closed(), placed, line, named });
+                    open = Some(Polyline { corners: vec![], closed: entity.has_flag(CLOSED), placed, line, named });
                 } else {
                     outlines.push(Outline { path: placed * entity.outline().map_err(located)?, line, named });
                 }
@@ -193,10 +196,6 @@ impl<'t> Entity<'t> {
         self.first(FLAGS).and_then(|flags| flags.parse::<u32>().ok()).is_some_and(|flags| flags & flag != 0)
     }
 
-    fn is_closed(&self) -> bool {
-        self.has_flag(1)
-    }
-
     /// Whether the entity is not displayed: by itself, on a page, or on a layer that is frozen or off.
     fn is_hidden(&self, layers: &HashSet<String>) -> bool {
         let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
@@ -221,7 +220,7 @@ impl<'t> Entity<'t> {
     fn outline(&self) -> Result<BezPath, PatternFault> {
         match self.name {
             "LINE" => Ok(polyline(&[(self.point(FIRST)?, 0.0), (self.point(SECOND)?, 0.0)], false)),
-            "LWPOLYLINE" => Ok(polyline(&self.corners()?, self.is_closed())),
+            "LWPOLYLINE" => Ok(polyline(&self.corners()?, self.has_flag(CLOSED))),
             "CIRCLE" => {
                 let radius = self.number(RADIUS)?;
                 Ok(Circle::new(self.point(FIRST)?, radius).to_path(ROUND * radius.abs()))

@@ -1,5 +1,6 @@
 //! The flat drawing of a sheet, as files of lines need it.
 
+use crate::math::bounds;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{draw, drawn_sides, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};
@@ -50,10 +51,8 @@ fn check(sheet: &Sheet) -> Result<(), NotFlat> {
     if sheet.is_repeated() {
         return Err(NotFlat::Periodic);
     }
-    let first = sheet.vertices.first().copied().unwrap_or_default();
-    let [low, high] = sheet.vertices.iter().fold([first; 2], |[low, high], x| [low.inf(x), high.sup(x)]);
-    let extent = (high - low).max();
-    if high.z - low.z > FLAT * extent {
+    let [low, high] = bounds(&sheet.vertices);
+    if high.z - low.z > FLAT * (high - low).max() {
         return Err(NotFlat::Raised { low: low.z, high: high.z });
     }
     let up = |corners: [Corner; 3]| {

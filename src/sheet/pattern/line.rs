@@ -4,7 +4,7 @@ use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::Problem;
 use crate::sheet::pattern_fault::{LineName, PatternFault};
-use crate::sheet::redrawing::Redrawing;
+use crate::sheet::record::Redrawing;
 
 /// The lines of a file, or an error with its line and column.
 pub(super) type Lines = Result<DrawnLines, Misread>;
@@ -74,13 +74,6 @@ impl Line {
 /// Returns the place in bytes of a part of a text.
 pub(super) fn offset(text: &str, part: &str) -> usize {
     (part.as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
-}
-
-/// Returns the line and column, from 1, of a place in a text.
-pub(super) fn place(text: &str, at: usize) -> [usize; 2] {
-    let before = text.get(..at).unwrap_or_default();
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    [1 + before.matches('\n').count(), 1 + before[line_start..].chars().count()]
 }
 
 /// Returns the coordinate along the other direction of y; zero has no sign.

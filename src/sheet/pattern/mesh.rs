@@ -14,7 +14,7 @@ use crate::sheet::build::{Drawing, build_identified, listed_order, rebuild_faces
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem};
 use crate::sheet::pattern_fault::PatternFault;
-use crate::sheet::redrawing::{Gap, Redrawing};
+use crate::sheet::record::{Gap, Redrawing};
 use crate::sheet::sides::{sorted, uses_of_sides};
 
 /// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little

@@ -135,8 +135,10 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         title = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     }
     let head = Drawing { title, ..Drawing::default() };
-    let mut sheet = sheet_of_lines(&lines, &Cleanup { split: true, ..*cleanup }, &head)
-        .map_err(|(line, problem)| bad(line.map_or([1, 1], |line| line::place(text, lines[line].at)), problem))?;
+    let mut sheet =
+        sheet_of_lines(&lines, &Cleanup { split: true, ..*cleanup }, &head).map_err(|(line, problem)| {
+            bad(line.map_or([1, 1], |line| text::line_and_column(text, lines[line].at)), problem)
+        })?;
     let found = &mut sheet.record.redrawing;
     (found.curves, found.grey, found.not_finite) = (redrawing.curves, redrawing.grey, redrawing.not_finite);
     Ok(sheet)

@@ -11,8 +11,9 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::cp::{self, LineType, typed};
-use super::line::{DrawnLines, Line, Lines, offset, place};
+use super::line::{DrawnLines, Line, Lines, offset};
 use crate::sheet::pattern_fault::PatternFault;
+use crate::sheet::text::line_and_column;
 
 /// The format as messages name it.
 const FORMAT: &str = "an ORI file of Oriedita, which is JSON";
@@ -49,8 +50,9 @@ pub(super) fn lines(text: &str) -> Lines {
         DrawnLines { title: save.title.filter(|title| title != "_").unwrap_or_default(), ..DrawnLines::default() };
     for raw in save.segments {
         let at = offset(text, raw.get());
-        let segment: Segment = serde_json::from_str(raw.get()).map_err(|error| (place(text, at), syntax(&error)))?;
-        drawn.push(line(&segment, at).map_err(|fault| (place(text, at), fault.into()))?);
+        let segment: Segment =
+            serde_json::from_str(raw.get()).map_err(|error| (line_and_column(text, at), syntax(&error)))?;
+        drawn.push(line(&segment, at).map_err(|fault| (line_and_column(text, at), fault.into()))?);
     }
     Ok(drawn)
 }

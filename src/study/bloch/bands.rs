@@ -52,20 +52,15 @@ pub(super) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
         let help = format!("give bars a finite stiffness and facets too, or leave out `{key}`");
         return Err(file.error_at(span, "bands need an energy of springs", help).into());
     }
-    match (&spec.density, &file.scene.mass) {
-        (Some(density), None) => {
-            let help = "give the sheet a mass, mass = { vertex = 1.0 } above [sheet], or leave out `density`";
-            Err(file.error_at(density.span(), "a density of states is one of frequencies", help).into())
-        }
-        (_, Some(mass)) => match masses(assembly).and_then(|masses| masses.iter().position(|mass| *mass <= 0.0)) {
-            Some(vertex) => {
-                let message = format!("vertex {vertex} of the cell belongs to no face: a mass per area gives it none");
-                Err(file.error_at(mass.span(), message, "give every vertex a mass, mass = { vertex = 1.0 }").into())
-            }
-            None => Ok(()),
-        },
-        (None, None) => Ok(()),
-    }
+    let Some(mass) = &file.scene.mass else {
+        let Some(density) = &spec.density else { return Ok(()) };
+        let help = "give the sheet a mass, mass = { vertex = 1.0 } above [sheet], or leave out `density`";
+        return Err(file.error_at(density.span(), "a density of states is one of frequencies", help).into());
+    };
+    let massless = masses(assembly).and_then(|masses| masses.iter().position(|mass| *mass <= 0.0));
+    let Some(vertex) = massless else { return Ok(()) };
+    let message = format!("vertex {vertex} of the cell belongs to no face: a mass per area gives it none");
+    Err(file.error_at(mass.span(), message, "give every vertex a mass, mass = { vertex = 1.0 }").into())
 }
 
 /// Returns the mass of every vertex of the cell; `None` without mass.
@@ -77,7 +72,7 @@ fn masses(assembly: &Assembly) -> Option<Vec<f64>> {
 /// if they differ. One number is read from the scene since the model of a patch lacks the diagonals that are cut by its
 /// rim.
 pub(super) fn facet_stiffness(file: &SceneFile, assembly: &Assembly) -> Option<f64> {
-    let given = file.scene.energy.facets.as_ref().and_then(|facets| facets.stiffness.as_deref());
+    let given = file.scene.energy.hinges()[1].and_then(|facets| facets.stiffness.as_deref());
     match given {
         Some(StiffnessSpec::Number(stiffness)) => Some(*stiffness),
         None if file.scene.material.is_none() => Some(f64::INFINITY),
@@ -146,13 +141,10 @@ pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<
 /// Checks that no wave grows: a density of states counts frequencies.
 fn stable(all: &[Vec<f64>], [n1, n2]: [usize; 2]) -> Result<(), BlochError> {
     let lowest = all.iter().map(|frequencies| frequencies.first().copied().unwrap_or(0.0));
-    match lowest.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((number, rate)) if rate < 0.0 => {
-            let q = [wavenumber(number % n1, n1), wavenumber(number / n1, n2)];
-            Err(BlochError::Unstable { rate: -rate, q })
-        }
-        _ => Ok(()),
-    }
+    let lowest = lowest.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((number, rate)) = lowest.filter(|(_, rate)| *rate < 0.0) else { return Ok(()) };
+    let q = [wavenumber(number % n1, n1), wavenumber(number / n1, n2)];
+    Err(BlochError::Unstable { rate: -rate, q })
 }
 
 fn grid(density: &Located<DensitySpec>) -> [usize; 2] {

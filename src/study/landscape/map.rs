@@ -47,13 +47,10 @@ pub(crate) fn compute(context: &Context<'_>, spec: &MapSpec, answer: &mut Answer
     let net = sphere::Net::new(rings);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let (rows, mut reason) = sampled(context, answer, &points, amplitude)?;
-    let (cone, cone_distance) = match cone(context.assembly, amplitude) {
-        Ok(found) => found,
-        Err(error) => {
-            reason.get_or_insert(error.to_string());
-            Default::default()
-        }
-    };
+    let (cone, cone_distance) = cone(context.assembly, amplitude).unwrap_or_else(|error| {
+        reason.get_or_insert(error.to_string());
+        Default::default()
+    });
     let cone_points = cone.iter().map(Vec::len).sum();
     if cone_points < 2 * CONE && reason.is_none() {
         reason = Some(format!("{} of {} points of the exact cone were not found", 2 * CONE - cone_points, 2 * CONE));
@@ -117,10 +114,9 @@ fn row(point: &Vec3, sample: Result<Sample, SampleError>) -> Row {
     let nan = f64::NAN;
     sample.map_or([k11, k22, k12, nan, nan, nan, nan, nan, 0.0], |sample| {
         let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
-        let residuals = [relaxed.residual_force, relaxed.residual_length];
-        let energies = [state.energy_bars, state.energy_creases, state.total()];
-        let [bars, creases, total] = energies;
-        [k11, k22, k12, bars, creases, total, residuals[0], residuals[1], sample.iterations as f64]
+        let [bars, creases, total] = [state.energy_bars, state.energy_creases, state.total()];
+        let [force, length] = [relaxed.residual_force, relaxed.residual_length];
+        [k11, k22, k12, bars, creases, total, force, length, sample.iterations as f64]
     })
 }
 

@@ -32,13 +32,9 @@ pub(super) fn snaps(context: &Context<'_>, spec: &PathSpec) -> bool {
 
 /// Checks that a sheet that snaps, which is on one branch, is to follow no others.
 pub(super) fn stays_on_one_branch(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
-    match spec.snap.as_ref().filter(|snap| ***snap && spec.switch) {
-        Some(snap) => {
-            let help = "leave out snap or switch";
-            Err(context.file.error_at(snap.span(), "a sheet that snaps follows no other branches", help).into())
-        }
-        None => Ok(()),
-    }
+    let Some(snap) = spec.snap.as_ref().filter(|snap| ***snap && spec.switch) else { return Ok(()) };
+    let help = "leave out snap or switch";
+    Err(context.file.error_at(snap.span(), "a sheet that snaps follows no other branches", help).into())
 }
 
 /// Returns the name of the drive that the study names, or of the only one of the scene.

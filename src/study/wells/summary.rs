@@ -142,6 +142,11 @@ impl WellsSummary {
         let count = counted(self.wells.len(), "well");
         format!("{count} ({energies}){}{}", barriers.collect::<String>(), failures(self))
     }
+
+    /// Returns the reasons for which starts failed, each with the number of them.
+    pub(super) fn reasons(&self) -> String {
+        self.failures.iter().map(|one| format!("{}: {}", one.starts, one.reason)).collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// Describes how many random starts ended in no minimum, and how many failed with the reasons; empty if there are none.
@@ -153,6 +158,5 @@ fn failures(found: &WellsSummary) -> String {
     if found.failed == 0 {
         return saddles;
     }
-    let reasons: Vec<String> = found.failures.iter().map(|one| format!("{}: {}", one.starts, one.reason)).collect();
-    format!("{saddles}; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
+    format!("{saddles}; {} of {} failed ({})", found.failed, counted(found.starts, "start"), found.reasons())
 }

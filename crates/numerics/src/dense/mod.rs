@@ -290,14 +290,11 @@ pub(super) fn check_square<T: Number>(matrix: &DMatrix<T>) -> Result<(usize, usi
 }
 
 fn check_finite<T: Number>(matrix: &DMatrix<T>) -> Result<(), DenseError> {
-    match matrix.iter().position(|value| !nalgebra::ComplexField::is_finite(value)) {
-        None => Ok(()),
-        Some(at) => {
-            let (row, column, entry) = (at % matrix.nrows(), at / matrix.nrows(), matrix[at]);
-            let value = if entry.imaginary() == 0.0 { entry.real() } else { entry.modulus() };
-            Err(DenseError::NotFinite { row, column, value })
-        }
-    }
+    let wrong = matrix.iter().position(|value| !nalgebra::ComplexField::is_finite(value));
+    let Some(at) = wrong else { return Ok(()) };
+    let (row, column, entry) = (at % matrix.nrows(), at / matrix.nrows(), matrix[at]);
+    let value = if entry.imaginary() == 0.0 { entry.real() } else { entry.modulus() };
+    Err(DenseError::NotFinite { row, column, value })
 }
 
 pub(super) fn view<T: Number>(matrix: &DMatrix<T>) -> MatRef<'_, T> {

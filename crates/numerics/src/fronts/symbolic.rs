@@ -2,7 +2,9 @@
 
 use super::dense::PIVOTS_AT_ONCE;
 use super::supernodes::{NONE, Supernodes};
+use crate::order::inverse;
 use crate::sparse::SparsityPattern;
+use crate::sparse::incidence::group;
 use faer::sparse::linalg::cholesky::SymbolicCholesky;
 use std::ops::Range;
 
@@ -221,25 +223,15 @@ impl Tree {
                 } else {
                     front.width() + rows[front.rows.clone()].partition_point(|other| *other < row)
                 };
-                found.push((number, local + (column as usize - front.pivots.start) * front.height()));
+                let in_panel = local + (column as usize - front.pivots.start) * front.height();
+                found.push((number, [found.len() as u32, in_panel as u32]));
             }
         }
-        self.sort_entries(&found);
-    }
-
-    /// Puts the entries, of which these are the fronts and the places in their panels, in order.
-    fn sort_entries(&mut self, found: &[(u32, usize)]) {
-        let mut next = vec![0; self.fronts.len() + 1];
-        found.iter().for_each(|(front, _)| next[*front as usize + 1] += 1);
-        for (k, front) in self.fronts.iter_mut().enumerate() {
-            front.entries = next[k]..next[k] + next[k + 1];
-            next[k + 1] += next[k];
+        let (starts, entries) = group(self.fronts.len(), found.into_iter());
+        for (front, ends) in self.fronts.iter_mut().zip(starts.windows(2)) {
+            front.entries = ends[0] as usize..ends[1] as usize;
         }
-        self.entries = vec![[0; 2]; found.len()];
-        for (slot, (front, place)) in (0..).zip(found) {
-            self.entries[next[*front as usize]] = [slot, *place as u32];
-            next[*front as usize] += 1;
-        }
+        self.entries = entries;
     }
 
     /// Returns the children of a front, the last one first.
@@ -319,11 +311,4 @@ impl Tree {
         }
         Room { even: room[0] + branch.copy, odd: room[1] }
     }
-}
-
-/// Returns the inverse of a permutation.
-fn inverse(order: &[u32]) -> Vec<u32> {
-    let mut inverse = vec![0; order.len()];
-    (0..).zip(order).for_each(|(place, &old)| inverse[old as usize] = place);
-    inverse
 }

@@ -4,7 +4,7 @@ use super::cliques::{Cliques, FIXED};
 
 /// The items with each key from 0 to `n - 1`, one key after the other, in the order in which they come; and where those
 /// of each key begin. Items with the key [`FIXED`] are left out.
-pub(super) fn group<T: Copy + Default>(n: usize, items: impl Iterator<Item = (u32, T)> + Clone) -> (Vec<u32>, Vec<T>) {
+pub(crate) fn group<T: Copy + Default>(n: usize, items: impl Iterator<Item = (u32, T)> + Clone) -> (Vec<u32>, Vec<T>) {
     let items = items.filter(|(key, _)| *key != FIXED);
     let mut starts = vec![0u32; n + 1];
     items.clone().for_each(|(key, _)| starts[key as usize + 1] += 1);

@@ -5,7 +5,7 @@
 //! that blocks are added in place. [`Rows`] keeps one row a clique: the Jacobian of scalar measures.
 
 mod cliques;
-mod incidence;
+pub(crate) mod incidence;
 mod pattern;
 mod rows;
 mod slots;

@@ -1,4 +1,4 @@
-//! Reading of values that a scene can write in more than one form: as a word, a number, a list or a table.
+//! Reading of values that a file can write in more than one form: as a word, a number, a list or a table.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -7,7 +7,7 @@ use serde::Deserializer;
 use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
 
 /// A value with more than one written form. A form that the value does not have is refused, with the forms that it has.
-pub(super) trait Written: Sized {
+pub(crate) trait Written: Sized {
     /// The forms, as they stand after "expected" in messages.
     const FORMS: &'static str;
 
@@ -26,6 +26,11 @@ pub(super) trait Written: Sized {
         Self::from_number(number as f64, Unexpected::Signed(number))
     }
 
+    /// Reads a number without a sign, as JSON has it; in TOML only those that are too large for an `i64`.
+    fn from_unsigned<E: Error>(number: u64) -> Result<Self, E> {
+        Err(E::invalid_type(Unexpected::Unsigned(number), &Self::FORMS))
+    }
+
     /// Reads a list in brackets.
     fn from_list<'de, A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
         Err(A::Error::invalid_type(Unexpected::Seq, &Self::FORMS))
@@ -38,7 +43,7 @@ pub(super) trait Written: Sized {
 }
 
 /// Reads a value in the form in which it is written.
-pub(super) fn read<'de, T: Written, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+pub(crate) fn read<'de, T: Written, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
     deserializer.deserialize_any(AnyForm(PhantomData))
 }
 
@@ -47,12 +52,12 @@ macro_rules! read_as_written {
     ($($type:ty),+) => {$(
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                $crate::scene::written::read(deserializer)
+                $crate::sheet::written::read(deserializer)
             }
         }
     )+};
 }
-pub(super) use read_as_written;
+pub(crate) use read_as_written;
 
 /// Implements the schema "any of these forms" for a type, to match the visitor that reads the forms.
 macro_rules! schema_any_of {
@@ -68,7 +73,7 @@ macro_rules! schema_any_of {
         }
     };
 }
-pub(super) use schema_any_of;
+pub(crate) use schema_any_of;
 
 struct AnyForm<T>(PhantomData<T>);
 
@@ -89,6 +94,10 @@ impl<'de, T: Written> Visitor<'de> for AnyForm<T> {
 
     fn visit_i64<E: Error>(self, number: i64) -> Result<T, E> {
         T::from_whole(number)
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<T, E> {
+        T::from_unsigned(number)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<T, A::Error> {
