@@ -208,6 +208,16 @@ impl Model {
         coordinate.checked_sub(first).map_or(1.0, |shared| self.units[shared])
     }
 
+    /// Returns for each unknown of a free gauge how much its coordinate changes where it moves points by a length of 1,
+    /// about, at the reference state: 1 but for shared coordinates that are no lengths.
+    pub(crate) fn units_of_length(&self) -> Vec<f64> {
+        let Equations { domain, mean_edge, .. } = &*self.equations;
+        let units = domain.units(&self.base[..self.points()], *mean_edge);
+        let first = self.points() - units.len();
+        let unit = |k: &u32| (*k as usize).checked_sub(first).and_then(|shared| units.get(shared)).unwrap_or(&1.0);
+        self.free.iter().map(unit).copied().collect()
+    }
+
     /// Returns the unknowns of the pose of every rigid part.
     pub(crate) fn poses(&self) -> Vec<Vec<usize>> {
         let mut poses = vec![vec![]; self.equations.bodies.coordinates() / POSE];

@@ -98,7 +98,12 @@ pub(super) fn of_a_tube(context: &Context<'_>) -> Result<(), StudyError> {
         StudyKind::Wells(wells) if wells.rigid => {
             ("the rigid states of a closed tube are single points", "leave out `rigid`")
         }
-        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Trace(_) | StudyKind::Wells(_) => return Ok(()),
+        StudyKind::Relax(_)
+        | StudyKind::Modes(_)
+        | StudyKind::Trace(_)
+        | StudyKind::Wells(_)
+        | StudyKind::Path(_)
+        | StudyKind::Fold(_) => return Ok(()),
         StudyKind::Surface(_) => (
             "the folded states of a tube are no surface: its closing conditions leave one motion or none",
             MOTIONS_OF_A_TUBE,
@@ -115,10 +120,6 @@ pub(super) fn of_a_tube(context: &Context<'_>) -> Result<(), StudyError> {
         StudyKind::Response(_) => {
             ("strains and curvatures of a closed tube are fixed by its seam", "use domain = \"screw\" or \"torus\"")
         }
-        StudyKind::Path(_) | StudyKind::Fold(_) => (
-            "paths of equilibria of tubes are not known",
-            "use domain = \"patch\", or relax the tube at every value of a [sweep]",
-        ),
     };
     Err(context.refuse(message, help).into())
 }

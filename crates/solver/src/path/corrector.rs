@@ -132,9 +132,11 @@ fn bettered<P: ParametrizedProblem>(
 
 /// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
 fn relieved<P: ParametrizedProblem>(
-    problem: &P,
+    problem: &mut P,
     bordered: &mut Bordered,
     found: Corrected,
+    plane: &Plane,
+    again: Option<f64>,
 ) -> Result<Corrected, FactorError> {
     let tension = &found.at.tension;
     let least = if !problem.compliance().contains(&0.0) {
@@ -149,9 +151,17 @@ fn relieved<P: ParametrizedProblem>(
     let Some(tension) = least else { return Ok(found) };
     bordered.linearize(problem, &found.at.x, &tension);
     let residuals = Residuals::new(problem, &bordered.at, &tension);
+    let at = Guess { tension, ..found.at.clone() };
     if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {
         bordered.factor()?;
-        return Ok(Corrected { at: Guess { tension, ..found.at }, residuals, ..found });
+        return Ok(Corrected { at, residuals, ..found });
+    }
+    // the self stress is so large that its rounding errors hid what the other forces left
+    if let Some(tolerance) = again
+        && let Some(corrected) = correct(problem, bordered, at, plane, tolerance)?
+    {
+        bordered.factor()?;
+        return relieved(problem, bordered, Corrected { off: found.off, ..corrected }, plane, None);
     }
     bordered.linearize(problem, &found.at.x, &found.at.tension);
     bordered.factor()?;
@@ -165,11 +175,11 @@ pub(super) fn complete<P: ParametrizedProblem>(
     bordered: &mut Bordered,
     found: Corrected,
     plane: &Plane,
-    arc_length: f64,
+    (arc_length, tolerance): (f64, f64),
 ) -> Result<PathState, FactorError> {
     bordered.factor()?;
     let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } =
-        relieved(problem, bordered, found)?;
+        relieved(problem, bordered, found, plane, Some(tolerance))?;
     let negative_eigenvalues = bordered.negative_eigenvalues()?;
     let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
     let (mut tangent, _) = bordered.solve(&forces, &stretches, 1.0, plane);

@@ -88,7 +88,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         let Self { problem, bordered, settings, .. } = self;
         let Some(found) = correct(*problem, bordered, guess, plane, settings.tolerance)? else { return Ok(None) };
         let off = found.off;
-        Ok(Some((complete(*problem, bordered, found, plane, arc)?, off)))
+        Ok(Some((complete(*problem, bordered, found, plane, (arc, settings.tolerance))?, off)))
     }
 
     /// One step from the last of two states (or the only one) of about this length. Returns the state and the length
