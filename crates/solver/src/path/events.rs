@@ -111,6 +111,20 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         for piece in states.windows(2) {
             found.extend(self.own_marks([from, to], [&piece[0], &piece[1]])?);
         }
+        found.extend(self.marks_asked_for([from, to], watched, watch)?);
+        found.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
+        Ok(found)
+    }
+
+    /// Locates the sign changes of the watched functions between two states, and the listed parameters, function by
+    /// function.
+    pub(super) fn marks_asked_for(
+        &mut self,
+        [from, to]: [&PathState; 2],
+        watched: [&[f64]; 2],
+        watch: &mut dyn Watch<P>,
+    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
+        let mut found = vec![];
         for function in (0..watched[0].len()).filter(|&k| changed(watched[0][k], watched[1][k])) {
             let mut value = |problem: &P, state: &PathState| watch.values(problem, state)[function];
             if let Some(state) = self.locate([from, to], &mut value)? {
@@ -126,7 +140,6 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 found.push((state, PathMark::Listed));
             }
         }
-        found.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
         Ok(found)
     }
 

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// A path on its way, with all its branches.
 pub(super) struct Run<'a, P: ParametrizedProblem> {
     pub follower: Follower<'a, P>,
-    watch: &'a mut dyn Watch<P>,
+    pub watch: &'a mut dyn Watch<P>,
     observer: &'a mut dyn PathObserver<P>,
     /// Results of an interrupted run.
     record: PathRecord,
@@ -53,16 +53,17 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     pub fn main_branch(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<(), PathError> {
         let state = self.follower.begin(x, tension, sign)?;
         let first = self.marked(state, None, 0.0);
-        self.branch(vec![first])
+        self.branch(vec![first], None)
     }
 
-    /// Follows one branch from its first states to its end; of what is recorded nothing is computed again.
-    pub fn branch(&mut self, states: Vec<MarkedState>) -> Result<(), PathError> {
+    /// Follows one branch from its first states to its end, which they may reach already; of what is recorded nothing is
+    /// computed again.
+    pub fn branch(&mut self, states: Vec<MarkedState>, end: Option<BranchEnd>) -> Result<(), PathError> {
         let number = self.branches.len();
         self.branches.push(Branch { states: vec![], end: BranchEnd::Interrupted, half_branches: BTreeMap::new() });
         let (recorded, mut way) = (self.record.take(number, &states), Way::default());
         let next_step = self.follower.first_step();
-        let begin = PathEntry { branch: number, begins: true, states, next_step, end: None };
+        let begin = PathEntry { branch: number, begins: true, states, next_step, end };
         let goes_on = if recorded.is_empty() {
             self.found(begin, None, &mut way)
         } else {
@@ -157,17 +158,11 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             None if self.retraces(number, &next)? => (next, Some(BranchEnd::Retraced), Some(work)),
             None => (next, None, Some(work)),
         };
-        self.follower.problem.set_parameter(to.parameter);
-        let values = self.watch.values(self.follower.problem, &to);
+        let values = self.watched(&to);
         let marks = self.follower.marks([last, &to], middle.as_ref(), [&way.watched, &values], self.watch)?;
         let (mut states, mut from) = (vec![], last.clone());
-        for (state, mark) in marks {
-            states.push(self.worked(number, &states, &from, state.clone(), Some(mark), None)?);
-            let before = self.branches[number].states.iter().chain(&states);
-            if self.watch.ends(&before.filter_map(|marked| marked.mark).collect::<Vec<_>>()) {
-                return Ok(ended(states, BranchEnd::Marked));
-            }
-            from = state;
+        if self.meets(number, &mut states, &mut from, marks)? {
+            return Ok(ended(states, BranchEnd::Marked));
         }
         let work = work.filter(|_| states.is_empty());
         states.push(self.worked(number, &states, &from, to, None, work)?);
@@ -181,9 +176,40 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Ok((PathEntry { branch: number, begins: false, states, next_step: longer, end }, values))
     }
 
+    /// Appends the marked states of a step to those before, from the last of which the step goes on; returns whether its
+    /// branch ends at the last one.
+    pub fn meets(
+        &mut self,
+        number: usize,
+        states: &mut Vec<MarkedState>,
+        from: &mut PathState,
+        marks: Vec<(PathState, PathMark)>,
+    ) -> Result<bool, PathError> {
+        for (state, mark) in marks {
+            states.push(self.worked(number, states, from, state.clone(), Some(mark), None)?);
+            let before = self.states(number).iter().chain(&*states);
+            if self.watch.ends(&before.filter_map(|marked| marked.mark).collect::<Vec<_>>()) {
+                return Ok(true);
+            }
+            *from = state;
+        }
+        Ok(false)
+    }
+
+    /// Values of the watched functions at a state.
+    pub fn watched(&mut self, state: &PathState) -> Vec<f64> {
+        self.follower.problem.set_parameter(state.parameter);
+        self.watch.values(self.follower.problem, state)
+    }
+
+    /// The states of a branch; none of one that has not begun.
+    fn states(&self, number: usize) -> &[MarkedState] {
+        self.branches.get(number).map_or(&[], |branch| &branch.states)
+    }
+
     /// How often the parameter of a branch has begun to go another way.
     fn turns(&self, number: usize) -> usize {
-        self.branches[number].states.iter().filter(|marked| marked.mark == Some(PathMark::Turned)).count()
+        self.states(number).iter().filter(|marked| marked.mark == Some(PathMark::Turned)).count()
     }
 
     /// The parameter to which a branch goes now.
@@ -235,7 +261,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     }
 
     /// The state between two others at which the branch ends, if there is one.
-    fn end_between(
+    pub fn end_between(
         &mut self,
         number: usize,
         last: &PathState,
@@ -260,7 +286,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
 
     /// A state with the work up to it, that from the state before it included, which may be known; `states` are those of
     /// the same step so far.
-    fn worked(
+    pub fn worked(
         &mut self,
         number: usize,
         states: &[MarkedState],
@@ -271,7 +297,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     ) -> Result<MarkedState, PathError> {
         self.follower.measure(&state);
         let work = known.map_or_else(|| self.follower.work(from, &state).map(|worked| worked.on_path()), Ok)?;
-        let before = states.last().or(self.branches[number].states.last()).map_or(0.0, |marked| marked.work);
+        let before = states.last().or(self.states(number).last()).map_or(0.0, |marked| marked.work);
         Ok(self.marked(state, mark, before + work))
     }
 

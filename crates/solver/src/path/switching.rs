@@ -9,6 +9,8 @@ use super::run::Run;
 
 /// Largest number of branches.
 const MOST_BRANCHES: usize = 64;
+/// Part of the parameter's way within which a branch point is at the end of the path itself.
+const AT_THE_POINT: f64 = 1e-6;
 
 impl<P: ParametrizedProblem> Run<'_, P> {
     /// Follows the branches that leave at the branch points found, theirs too.
@@ -80,9 +82,22 @@ impl<P: ParametrizedProblem> Run<'_, P> {
         let rate = (first.conjugate[0] - from.conjugate[0]) / first.arc_length;
         let conjugate = [from.conjugate[0], rate];
         let begin = PathState { tangent: chord.scaled(1.0 / first.arc_length), conjugate, ..from };
-        let work = point.work + self.follower.work(&begin, &first)?.on_path();
-        let first = self.marked(first, None, work);
-        self.branch(vec![MarkedState { state: begin, ..point }, first])
+        let number = self.branches.len();
+        let beside = AT_THE_POINT * self.follower.problem.parameter_scale();
+        let is_apart = |value: f64| (begin.parameter - value).abs() > beside;
+        let ends = is_apart(self.follower.settings.target) && is_apart(self.follower.origin);
+        let end = if ends { self.end_between(number, &begin, &first)? } else { None };
+        let (to, end) = end.map_or((first, None), |(state, end)| (state, Some(end)));
+        let watched = [self.watched(&begin), self.watched(&to)];
+        let watched = [&watched[0][..], &watched[1]];
+        let mut marks = self.follower.marks_asked_for([&begin, &to], watched, self.watch)?;
+        marks.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
+        let (mut states, mut from) = (vec![MarkedState { state: begin.clone(), ..point }], begin);
+        if self.meets(number, &mut states, &mut from, marks)? {
+            return self.branch(states, Some(BranchEnd::Marked));
+        }
+        states.push(self.worked(number, &states, &from, to, None, None)?);
+        self.branch(states, end)
     }
 
     /// Whether a state is on a branch that has been followed.
