@@ -67,7 +67,7 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let length = norm_blocked(&step.x).hypot(step.parameter / bordered.unit());
         let small = length <= ROUNDING * larger(max_abs(&at.x), bordered.length());
         // from one side of a kink to the other steps may become longer
-        let contracts = problem.has_kinks() || length <= SLOWEST_CONTRACTION * last;
+        let contracts = problem.may_have_kinks() || length <= SLOWEST_CONTRACTION * last;
         if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || contracts) {
             // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
             let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), bordered.length());

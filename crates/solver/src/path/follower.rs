@@ -155,6 +155,13 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         let cubic = Cubic::new(from, to);
         let plane = self.plane(&cubic.chord(), self.problem.has_kinks());
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
+        if let Some((state, _)) = self.settle(cubic.at(part), &plane, arc_length)? {
+            return Ok(Some(state));
+        }
+        if !self.kinks {
+            return Ok(None);
+        }
+        let plane = self.plane(&cubic.chord(), true);
         Ok(self.settle(cubic.at(part), &plane, arc_length)?.map(|(state, _)| state))
     }
 
