@@ -29,8 +29,7 @@ fn main() {
     let (rounds, rings) = if measuring() { (5, 11) } else { (1, 1) };
     let sheet = fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold").unwrap();
     let patch = Assembly::patch(sheet, [6, 6]).bars(RIGID).creases(1.0).build().unwrap();
-    let make = || HeldSheet::patch(&patch);
-    let held = make().unwrap();
+    let held = HeldSheet::patch(&patch).unwrap();
     let courses = TaylorPaths::new(&held).unwrap();
     let rates = held.named([0.8, -0.3, 0.4]).unwrap();
     let edges = patch.tiling().edges.iter().zip(patch.drawn_angles());
@@ -47,7 +46,7 @@ fn main() {
     };
     let map = |threads: usize| {
         let clock = Instant::now();
-        let found = Threads::new(Some(threads)).install(|| samples(&make, &courses, &points, AMPLITUDE, &|| true));
+        let found = Threads::new(Some(threads)).install(|| samples(&held, &courses, &points, AMPLITUDE, &|| true));
         assert!(found.iter().all(|sample| sample.as_ref().is_some_and(Result::is_ok)));
         clock.elapsed().as_secs_f64() / points.len() as f64
     };

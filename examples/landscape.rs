@@ -13,10 +13,10 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     let sheet = foldwell::sheet::fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold")?;
     let assembly = Assembly::patch(sheet, [6, 6]).bars(RIGID).creases(1.0).build()?;
-    let mut held = HeldSheet::patch(&assembly)?;
+    let held = HeldSheet::patch(&assembly)?;
     for curvature in [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0]] {
         let rates = held.named(curvature)?;
-        let found = landscape(&mut held, rates, &[0.005, 0.01, 0.02], &mut |_| true)?;
+        let found = landscape(&held, rates, &[0.005, 0.01, 0.02], &mut |_| true)?;
         println!(
             "curvatures k11, k22, k12 in the ratio {curvature:?}: predicted E/a^4 = {:.6e}",
             found.predicted.fourth

@@ -121,13 +121,13 @@ struct Along {
 /// Computes the landscape along one mode, by increasing amplitude.
 fn along(context: &Context<'_>, spec: &LandscapeSpec, mode: &Located<Mode>) -> Result<Along, StudyError> {
     let refuse = |error: LandscapeError| context.file.error_at(mode.span(), error.to_string(), MODES);
-    let mut held = HeldSheet::new(context.assembly).map_err(refuse)?;
+    let held = HeldSheet::new(context.assembly).map_err(refuse)?;
     let rates = rates(context, &held, mode)?;
     let curvature = match &**mode {
         Mode::Curvature(curvature) => Some(*curvature),
         _ => held.curvature(&rates),
     };
-    let landscape = landscape(&mut held, rates, &amplitudes(spec), &mut relax::watcher(context));
+    let landscape = landscape(&held, rates, &amplitudes(spec), &mut relax::watcher(context));
     Ok(Along { mode: (**mode).clone(), curvature, landscape })
 }
 

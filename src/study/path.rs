@@ -73,7 +73,6 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         then: then(context, spec),
         tolerance: spec.tolerance.as_ref().map_or(usual.tolerance, |tolerance| tolerance.0),
         max_step: spec.max_step.as_ref().map_or(usual.max_step, |step| step.0),
-        ..usual
     };
     let mut step = 0;
     let mut observe = |_: usize, point: &PathPoint| {

@@ -109,14 +109,14 @@ fn costs(trial: &Trial, seed: u64, report: &mut Report, what: &str) {
         facets: case.facets(trial.facets).filter(|_| case.count(EdgeKind::Facet) > 0),
         ..Terms::bars_and_creases(trial.bars, 1.0, case.drawn_angles().to_vec())
     };
-    let mut held = match HeldSheet::patch(&case.with_terms(terms)) {
+    let held = match HeldSheet::patch(&case.with_terms(terms)) {
         Ok(held) => held,
         Err(error) => return report.unanswered("landscape", &error.to_string()),
     };
     let mut numbers = Numbers::new(seed);
     let mode = [0; 3].map(|_| numbers.within(1.0));
     let found = held.named(mode);
-    let found = found.and_then(|rates| landscape(&mut held, rates, &[2e-3, 3e-3, 5e-3, 8e-3], &mut |_| true));
+    let found = found.and_then(|rates| landscape(&held, rates, &[2e-3, 3e-3, 5e-3, 8e-3], &mut |_| true));
     let found = match found {
         Ok(found) => found,
         Err(error) => return report.unanswered("landscape", &error.to_string()),

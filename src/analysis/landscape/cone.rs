@@ -87,12 +87,12 @@ impl<'a> Cone<'a> {
 ///
 /// # Errors
 /// [`SampleError`] where a sample beside the point does not converge.
-pub fn distance(held: &mut HeldSheet, courses: &TaylorPaths, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
+pub fn distance(held: &HeldSheet, courses: &TaylorPaths, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
     let Direction { polar, azimuth } = Direction::of(point);
     let at = |off: f64| Direction { polar: polar + off, azimuth }.point();
     let (mut middle, mut window) = (0.0, WINDOW);
     for narrowed in 0..WINDOWS {
-        let mut root = |off: f64| -> Result<f64, SampleError> {
+        let root = |off: f64| -> Result<f64, SampleError> {
             Ok(sphere::sample(held, courses, &at(off), amplitude)?.relaxed.state.total().sqrt())
         };
         let (below, above) = (root(middle - window)?, root(middle + window)?);

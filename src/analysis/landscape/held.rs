@@ -15,6 +15,7 @@ const OFF: f64 = 1e-6;
 ///
 /// Rest angles are named by the edges of the piece of sheet that repeats: the edges of a cell on a patch, where all
 /// cells have the same, and all edges on a torus.
+#[derive(Clone)]
 pub struct HeldSheet {
     /// The modes: orthonormal rates of rest angles as columns, a row for each edge of the piece that repeats.
     pub basis: DenseMatrix,

@@ -83,8 +83,8 @@ pub enum SampleError {
 }
 
 /// Samples along one mode, each from the one before.
-pub struct Samples<'a> {
-    held: &'a mut HeldSheet,
+pub struct Samples {
+    held: HeldSheet,
     course: TaylorPath,
     last: Place,
 }
@@ -115,9 +115,10 @@ impl Place {
     }
 }
 
-impl<'a> Samples<'a> {
+impl Samples {
     /// Along this course, from the drawn state.
-    pub fn new(held: &'a mut HeldSheet, course: TaylorPath) -> Self {
+    pub fn new(held: &HeldSheet, course: TaylorPath) -> Self {
+        let mut held = held.clone();
         let at = HeldState { x: held.drawn(), ..held.still() };
         Self { held, course, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0 } }
     }
@@ -131,7 +132,7 @@ impl<'a> Samples<'a> {
         let (mut next, mut left, mut iterations) = (amplitude, MOST_BETWEEN, 0);
         loop {
             let (model, from) = (self.held.model.clone(), self.last.clone());
-            let found = self.from_last(next, observe);
+            let found = self.step_to(next, observe);
             let is_interrupted = matches!(found, Err(SampleError::Relaxation(Failure::Interrupted)));
             let continues = found.is_ok() && self.last.continues(&from);
             iterations += found.as_ref().map_or(0, |sample| sample.iterations);
@@ -147,7 +148,7 @@ impl<'a> Samples<'a> {
     }
 
     /// The sample at an amplitude, in one step from the last one.
-    fn from_last(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
+    fn step_to(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let Place { amplitude: from, at: mut place, .. } = self.last.clone();
         self.course.advance(&mut place, from, amplitude);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
@@ -167,9 +168,9 @@ impl<'a> Samples<'a> {
             // in the unknowns of the course, whatever the relaxation held
             let Start { x, tension } = self.held.model.enter(&relaxed.configuration);
             place = HeldState { x, tension: tension.unwrap_or_default(), rest: place.rest };
-            torque = unbalanced(self.held, &directions, &place);
+            torque = unbalanced(&self.held, &directions, &place);
             if torque <= BALANCED {
-                let (rest, rounding) = (rest.as_slice().to_vec(), rounding(self.held, &place));
+                let (rest, rounding) = (rest.as_slice().to_vec(), rounding(&self.held, &place));
                 let sample = Sample { amplitude, relaxed, rest, iterations, rounds, rounding };
                 let energy = if sample.below_rounding() { f64::NAN } else { sample.relaxed.state.total() };
                 let rate = self.rate(&place);
@@ -202,7 +203,7 @@ impl<'a> Samples<'a> {
         for steps in 1..=JOINT {
             self.held.set_rest(self.rest(place, amplitude).as_slice());
             let at = (place.x.as_slice(), place.tension.as_slice());
-            let step = Settling::new(self.held, at, HessianKind::Full, ROUGH)?.joint(at, LONGEST_ANGLE_STEP_RAD)?;
+            let step = Settling::new(&self.held, at, HessianKind::Full, ROUGH)?.joint(at, LONGEST_ANGLE_STEP_RAD)?;
             place.add(1.0, &step);
             if step.rest.amax() <= CLOSE * place.rest.amax() {
                 return Ok(steps);
@@ -251,7 +252,7 @@ pub struct Landscape {
 /// # Errors
 /// [`LandscapeError`] where the response of the sheet cannot be computed.
 pub fn landscape(
-    held: &mut HeldSheet,
+    held: &HeldSheet,
     rates: Vec<f64>,
     amplitudes: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,

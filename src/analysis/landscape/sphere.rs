@@ -6,7 +6,7 @@
 //! cylinders is the rings at 45 degrees and the equator has opposite curvatures.
 
 use super::samples::{Sample, SampleError, Samples};
-use super::{HeldSheet, LandscapeError, TaylorPaths};
+use super::{HeldSheet, TaylorPaths};
 use crate::math::Vec3;
 use crate::numerics::parallel;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
@@ -82,7 +82,7 @@ impl Net {
 
 /// The sample in a direction, relaxed from where third order says it is: nothing of other samples enters.
 pub(crate) fn sample(
-    held: &mut HeldSheet,
+    held: &HeldSheet,
     courses: &TaylorPaths,
     direction: &Vec3,
     amplitude: f64,
@@ -95,18 +95,11 @@ pub(crate) fn sample(
 /// Samples at points of the unit sphere, shared out over the threads; the same numbers for any number of threads.
 /// `go_on` is asked before each; those that come after it said no are `None`.
 pub fn samples(
-    make: &(dyn Fn() -> Result<HeldSheet, LandscapeError> + Sync),
+    held: &HeldSheet,
     courses: &TaylorPaths,
     points: &[Vec3],
     amplitude: f64,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Option<Result<Sample, SampleError>>> {
-    parallel::map_with_state(points.len(), make, |held, k| {
-        go_on().then(|| match held {
-            Ok(held) => sample(held, courses, &points[k], amplitude),
-            Err(_) => {
-                make().map_err(SampleError::from).and_then(|mut held| sample(&mut held, courses, &points[k], amplitude))
-            }
-        })
-    })
+    parallel::map_with_state(points.len(), || (), |(), k| go_on().then(|| sample(held, courses, &points[k], amplitude)))
 }

@@ -174,9 +174,12 @@ impl ConstrainedProblem for IntrinsicModel {
     }
 }
 
+/// The springs of all bars, and of the hinges that there are, by edge, and the topology.
+type Collected = (Vec<Spring>, Vec<Option<Spring>>, Topology);
+
 /// Collects the springs of all bars and hinges by their edges, and the topology that follows from their vertices. A
 /// lock comes before a crease on the same edge.
-fn collected(model: &Model) -> Result<(Vec<Spring>, Vec<Option<Spring>>, Topology), Unsupported> {
+fn collected(model: &Model) -> Result<Collected, Unsupported> {
     let edges = model.edges();
     let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
     let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());

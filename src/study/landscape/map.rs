@@ -80,9 +80,9 @@ fn sampled(
     points: &[Vec3],
     amplitude: f64,
 ) -> Result<(Vec<Row>, Option<String>), StudyError> {
-    let make = || HeldSheet::new(context.assembly);
-    let courses = match make().and_then(|held| TaylorPaths::new(&held)) {
-        Ok(courses) => courses,
+    let with_courses = |held: HeldSheet| TaylorPaths::new(&held).map(|courses| (held, courses));
+    let (held, courses) = match HeldSheet::new(context.assembly).and_then(with_courses) {
+        Ok(found) => found,
         Err(error) => return Ok((Vec::new(), Some(error.to_string()))),
     };
     let kept = context.checkpoints.log(&format!("{}.map.jsonl", context.name()))?;
@@ -92,7 +92,7 @@ fn sampled(
     let go_on = || context.step(done.fetch_add(1, Ordering::Relaxed) + 1, Some(points.len()));
     while rows.len() < points.len() && reason.is_none() {
         let batch = &points[rows.len()..points.len().min(rows.len() + BATCH)];
-        let found = sphere::samples(&make, &courses, batch, amplitude, &go_on);
+        let found = sphere::samples(&held, &courses, batch, amplitude, &go_on);
         for (point, sample) in batch.iter().zip(found) {
             match sample {
                 Some(sample) if reason.is_none() => {
@@ -144,7 +144,7 @@ fn table(rows: &[Row]) -> Table {
 /// Returns the exact cone, as a closed curve on each nappe, and the largest angle between its points and the zeros of
 /// the energy, in radians.
 fn cone(assembly: &Assembly, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f64>), SampleError> {
-    let mut held = HeldSheet::new(assembly)?;
+    let held = HeldSheet::new(assembly)?;
     let courses = TaylorPaths::new(&held)?;
     let modes = held.bending.clone().ok_or(LandscapeError::NoCurvatures)?;
     let exact = Cone::new(assembly.sheet(), &modes, &assembly.rigid_facets_of_cell()).map_err(LandscapeError::from)?;
@@ -154,7 +154,7 @@ fn cone(assembly: &Assembly, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f
         let at = |k: usize| exact.point(k as f64 * TAU / CONE as f64, nappe, amplitude);
         let curve: Vec<Vec3> = (0..CONE).filter_map(at).collect();
         for point in curve.iter().step_by(CONE / PROBES) {
-            let off = distance(&mut held, &courses, point, amplitude)?;
+            let off = distance(&held, &courses, point, amplitude)?;
             largest = Some(largest.map_or(off, |most| most.max(off)));
         }
         curves.push(curve);

@@ -106,9 +106,9 @@ fn relaxations_cost_what_is_predicted() {
     let amplitudes = [2e-4, 3e-4, 5e-4, 8e-4, 1.2e-3];
     for bars in [f64::INFINITY, 1e8, 1e4] {
         for mode in [MODES[0], MODES[2]] {
-            let mut patch = open_star(6, bars);
+            let patch = open_star(6, bars);
             let rates = patch.named(mode).unwrap();
-            let found = landscape(&mut patch, rates, &amplitudes, &mut |_| true).unwrap();
+            let found = landscape(&patch, rates, &amplitudes, &mut |_| true).unwrap();
             assert!(found.failure.is_none(), "{:?}", found.failure);
             let energies: Vec<(f64, f64)> =
                 found.samples.iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
@@ -125,9 +125,9 @@ fn relaxations_cost_what_is_predicted() {
 /// 1e-2.
 #[test]
 fn cylinders_cost_sixth_order() {
-    let mut patch = open_star(6, f64::INFINITY);
+    let patch = open_star(6, f64::INFINITY);
     let rates = patch.named(CYLINDERS[0]).unwrap();
-    let found = landscape(&mut patch, rates, &[2e-3, 3e-3, 5e-3], &mut |_| true).unwrap();
+    let found = landscape(&patch, rates, &[2e-3, 3e-3, 5e-3], &mut |_| true).unwrap();
     let energies: Vec<(f64, f64)> =
         found.samples.iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
     let slope = exponent(&energies).unwrap();
@@ -142,10 +142,10 @@ fn cylinders_cost_sixth_order() {
 #[test]
 fn next_orders_are_predicted() {
     for (bars, mode) in [(f64::INFINITY, MODES[0]), (f64::INFINITY, MODES[2]), (1e4, MODES[1]), (1e4, MODES[2])] {
-        let mut patch = open_star(4, bars);
+        let patch = open_star(4, bars);
         let rates = patch.named(mode).unwrap();
         let expected = expansion(&patch, &rates);
-        let found = landscape(&mut patch, rates, &[1e-3, 2e-3, 4e-3], &mut |_| true).unwrap();
+        let found = landscape(&patch, rates, &[1e-3, 2e-3, 4e-3], &mut |_| true).unwrap();
         let left: Vec<f64> = found
             .samples
             .iter()
@@ -167,10 +167,10 @@ fn next_orders_are_predicted() {
 #[test]
 fn sixth_order_of_cylinders_is_predicted() {
     for mode in CYLINDERS {
-        let mut patch = open_star(4, f64::INFINITY);
+        let patch = open_star(4, f64::INFINITY);
         let rates = patch.named(mode).unwrap();
         let expected = expansion(&patch, &rates);
-        let found = landscape(&mut patch, rates, &[5e-4, 1e-3, 2e-3], &mut |_| true).unwrap();
+        let found = landscape(&patch, rates, &[5e-4, 1e-3, 2e-3], &mut |_| true).unwrap();
         let sixths: Vec<f64> = found.samples.iter().map(|s| s.relaxed.state.total() / s.amplitude.powi(6)).collect();
         let at_zero = (8.0 * sixths[0] - 6.0 * sixths[1] + sixths[2]) / 3.0; // extrapolated by a parabola
         println!("{mode:?}: {expected:?}, relaxed {sixths:?} -> {at_zero}");

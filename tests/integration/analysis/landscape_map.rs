@@ -46,7 +46,7 @@ fn the_net_is_a_sphere() {
 #[test]
 fn energy_vanishes_on_the_exact_cone() {
     let case = patch("open-star", [4, 4]);
-    let mut held = held(&case);
+    let held = held(&case);
     let courses = TaylorPaths::new(&held).unwrap();
     let modes = held.bending.clone().unwrap();
     let cone = Cone::new(case.sheet(), &modes, &[]).unwrap();
@@ -56,7 +56,7 @@ fn energy_vanishes_on_the_exact_cone() {
             let exact = cone.point(f64::from(k) * TAU / 8.0, nappe, amplitude).unwrap();
             let straight = Direction { polar: FRAC_PI_4, ..Direction::of(&(exact * f64::from(nappe))) };
             linear = linear.max((straight.point() * f64::from(nappe) - exact).norm());
-            largest = largest.max(distance(&mut held, &courses, &exact, amplitude).unwrap());
+            largest = largest.max(distance(&held, &courses, &exact, amplitude).unwrap());
         }
         println!("amplitude {amplitude}: exact cone off by {largest:.1e}, linear one by {linear:.1e}");
         assert!(largest <= 1e-6 && linear >= 1e-4, "{largest:e} {linear:e}");
@@ -85,7 +85,7 @@ fn courses_are_forms_of_the_mode() {
         let mut off = |amplitude: f64| {
             let mut place = HeldState { x: sheet.drawn(), ..sheet.still() };
             formed.advance(&mut place, 0.0, amplitude);
-            let sample = Samples::new(&mut sheet, formed.clone()).at(amplitude, &mut |_| true).unwrap();
+            let sample = Samples::new(&sheet, formed.clone()).at(amplitude, &mut |_| true).unwrap();
             let x = sheet.model.unknowns(&sample.relaxed.state.coordinates);
             let change = x.iter().zip(&place.x).map(|(a, b)| (a - b).powi(2));
             change.sum::<f64>().sqrt()
@@ -107,21 +107,20 @@ fn samples_do_not_know_each_other() {
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let amplitude = 5e-4;
     let run = |threads: usize| -> Vec<(f64, usize)> {
-        let make = || HeldSheet::patch(&case.with_terms(terms(&case)));
-        let found = Threads::new(Some(threads)).install(|| samples(&make, &courses, &points, amplitude, &|| true));
+        let found = Threads::new(Some(threads)).install(|| samples(&sheet, &courses, &points, amplitude, &|| true));
         found.into_iter().map(|s| s.unwrap().unwrap()).map(|s| (s.relaxed.state.total(), s.iterations)).collect()
     };
     let (one, two) = (run(1), run(2));
     assert!(one.iter().zip(&two).all(|(a, b)| a.0.to_bits() == b.0.to_bits() && a.1 == b.1));
     let mut cold = 0;
     for (at, (energy, _)) in points.iter().zip(&one) {
-        let mut sheet = held(&case);
+        let sheet = held(&case);
         let rates = sheet.named(curvature(at)).unwrap();
         let expected = Expansion::with_course(&sheet, &rates).unwrap().0.fourth * amplitude.powi(4);
         assert!((energy - expected).abs() <= 0.01 * expected.max(1e-10), "{energy:e} {expected:e}");
         let mut course = courses.along(&sheet, &rates);
         course.orders.fill(sheet.still());
-        cold += Samples::new(&mut sheet, course).at(amplitude, &mut |_| true).unwrap().iterations;
+        cold += Samples::new(&sheet, course).at(amplitude, &mut |_| true).unwrap().iterations;
     }
     let warm: usize = one.iter().map(|(_, iterations)| iterations).sum();
     println!("{} samples: {warm} Newton steps from third order, {cold} from the drawn sheet", points.len());

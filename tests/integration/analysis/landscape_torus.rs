@@ -76,10 +76,10 @@ fn tuned_cells(count: usize) -> Vec<(Sheet, [i32; 2], usize)> {
 fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
     for (sheet, wave, vertex) in tuned_cells(6) {
         let [fixed, free] = LATTICES.map(|boundary| {
-            let (case, mut held) = torus(&sheet, 5, boundary);
+            let (case, held) = torus(&sheet, 5, boundary);
             let rates = held.wave(case.tiling(), wave).unwrap();
             let (expected, _) = Expansion::with_course(&held, &rates).unwrap();
-            let found = landscape(&mut held, rates, &[2e-4, 4e-4, 8e-4], &mut |_| true).unwrap();
+            let found = landscape(&held, rates, &[2e-4, 4e-4, 8e-4], &mut |_| true).unwrap();
             assert!(found.failure.is_none(), "{:?}", found.failure);
             let energies: Vec<(f64, f64)> =
                 found.samples.iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
@@ -112,8 +112,8 @@ fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
         let mut moved = sheet.clone();
         moved.vertices[vertex].z += height;
         let moved = on(moved, [n, n], Boundary::FreeTorus).with_terms(terms.clone());
-        let mut other = held.for_sheet(&moved).unwrap();
-        let sample = Samples::new(&mut other, course.clone()).at(amplitude, &mut |_| true).unwrap();
+        let other = held.for_sheet(&moved).unwrap();
+        let sample = Samples::new(&other, course.clone()).at(amplitude, &mut |_| true).unwrap();
         sample.relaxed.state.total()
     };
     let untuned = energy(0.0);

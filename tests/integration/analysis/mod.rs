@@ -34,5 +34,6 @@ mod stressed_bands;
 pub(crate) mod surface;
 mod trace;
 mod tube_scenes;
+mod turned_sheets;
 mod vibrations;
 mod wells;

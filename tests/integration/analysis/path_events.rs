@@ -121,6 +121,20 @@ fn all_half_branches_of_a_loaded_dome_are_found() {
     }
 }
 
+/// Claim: branches end where the drive does, also beside their branch point, before their first ordinary state: here 6e-5
+/// beyond the double point. Before, all eight ran on to eight times the way. Exact.
+#[test]
+fn branches_end_with_the_drive_beside_their_branch_point() {
+    let (quantity, to) = (Driven::Vertices { vertices: vec![4], direction: Vec3::z() }, DOUBLE_POINT - 6e-5);
+    let options = PathOptions { switch: true, ..PathOptions::default() };
+    let branches = followed(&pyramid(4, 0.3, false), &Drive { quantity, to }, &options);
+    assert_eq!(branches.len(), 9);
+    for branch in branches {
+        let last = branch.points.last().unwrap();
+        assert!(branch.end == PathEnd::Arrived && last.drive == to, "{:?} at {}", branch.end, last.drive);
+    }
+}
+
 /// A dome of seven sides, of a ring of vertices and an apex within its pinned rim, turned about its axis by an angle,
 /// under a load at the apex: bars and soft creases.
 fn ringed_dome(turn: f64) -> Assembly {

@@ -3,6 +3,7 @@
 mod assemblies;
 mod barriers;
 mod bloch_runs;
+mod corners;
 mod coupled_tubes;
 mod drums;
 mod empty_answers;

@@ -1,0 +1,64 @@
+//! Paths over corners of bilinear laws, where stiffness jumps.
+//!
+//! Source: a pyramid of bars of `EA = 1` on a ring of radius 1 whose strain is `-0.02` has the length `l = 0.98 L` and
+//! bears `N 0.02 z / l` at the height `z` of its apex. Behind that corner the bars have 0.02 of their stiffness. A pyramid
+//! of height 1/2 then bears less, so that its load is largest there; one of height 5/2 bears more, but its apex is no
+//! longer stable across the axis, where bars of tension `t` and stiffness `k` have `(t / l) (1 - 1/(2 l^2)) + k / (2 l^2 L)`
+//! each: two eigenvalues change their sign.
+
+use crate::common::Scene;
+use foldwell::math::Vec3;
+use std::f64::consts::TAU;
+
+/// Returns a pyramid of bars that its load presses down and up again, and the load at the corner.
+fn pyramid(bars: usize, height: f64, max_step: f64, keys: &str) -> (Scene, f64) {
+    let ring = (0..bars).map(|k| {
+        let (sin, cos) = (0.3 + TAU * k as f64 / bars as f64).sin_cos();
+        [cos, sin, 0.0]
+    });
+    let points: Vec<[f64; 3]> = std::iter::once([0.0, 0.0, height]).chain(ring).collect();
+    let edges: Vec<[usize; 2]> = (1..=bars).map(|k| [0, k]).collect();
+    let pins: Vec<usize> = (1..=bars).collect();
+    let mesh = format!("{{\"vertices_coords\": {points:?}, \"faces_vertices\": [], \"edges_vertices\": {edges:?}}}");
+    let text = format!(
+        "[energy]\nbars = {{ stiffness = 1.0, law = {{ kind = \"bilinear\", ratio = 0.02, at = [-0.02, 0.05] }} }}\n\
+         [[pin]]\nvertices = {pins:?}\n[[load]]\nvertex = 0\nforce = [0.0, 0.0, -1.0]\n\
+         [[drive]]\nname = \"load\"\nload = true\nto = 0.4\n\
+         [[study]]\nname = \"p\"\nkind = \"path\"\ndraw = []\nmax_step = {max_step:?}\n{keys}"
+    );
+    let length = 0.98 * Vec3::new(1.0, 0.0, height).norm();
+    let load = 0.02 * bars as f64 * (length * length - 1.0).sqrt() / length;
+    (Scene::on("mesh = \"pyramid.fold\"", &text).with("pyramid.fold", mesh), load)
+}
+
+/// Claim: the largest load at a corner is found whatever the longest step, and the pyramid snaps there; before or after it
+/// two eigenvalues vanish at the same corner. Tolerance: 1e-9, to which a sign change is located.
+#[test]
+fn a_load_is_largest_at_a_corner() {
+    for max_step in [0.02, 0.05, 0.1, 0.2] {
+        let (scene, load) = pyramid(3, 0.5, max_step, "snap = true");
+        let ran = scene.converged();
+        let events = &ran.path("p").branches[0].events;
+        let events: Vec<_> = events.iter().filter(|event| event.event != "branch-point").collect();
+        let [limit, snap] = events[..] else { panic!("{max_step}: {events:?}") };
+        assert_eq!([&limit.event[..], &snap.event], ["limit-load", "snap"], "{max_step}");
+        let drive = limit.drive.unwrap();
+        assert!((drive - load).abs() <= 1e-9, "{max_step}: {drive} for {load}");
+    }
+}
+
+/// Claim: the branch points at the corner, on the way down and on the way up, are found whatever the longest step, with
+/// two eigenvalues. Tolerance: 1e-9, as above.
+#[test]
+fn branch_points_at_a_corner_do_not_depend_on_the_step() {
+    for max_step in [0.011, 0.05, 0.1, 0.2] {
+        let (scene, load) = pyramid(5, 2.5, max_step, "");
+        let ran = scene.ran();
+        let events = &ran.path("p").branches[0].events;
+        let points = events.iter().filter(|event| event.event == "branch-point");
+        let found: Vec<(f64, Option<usize>)> = points.map(|event| (event.drive.unwrap(), event.multiplicity)).collect();
+        let [down, up] = found[..] else { panic!("{max_step}: {found:?}") };
+        assert!(down.1 == Some(2) && up.1 == Some(2), "{max_step}: {found:?}");
+        assert!((down.0 - load).abs() <= 1e-9 && (up.0 + load).abs() <= 1e-9, "{max_step}: {found:?} for {load}");
+    }
+}
