@@ -285,6 +285,11 @@ impl Domain {
     /// direction by that times the curvature. The factor of the direction is therefore bounded at curvatures below
     /// [`STRAIGHT`]; above, both coordinates are found with the same error.
     pub(crate) fn units(&self, x: &[f64], length: f64) -> Vec<f64> {
+        self.units_above(x, length, STRAIGHT)
+    }
+
+    /// Returns the same with the factor of the direction bounded below another curvature times the unit length.
+    pub(crate) fn units_above(&self, x: &[f64], length: f64, straight: f64) -> Vec<f64> {
         if let Self::Tube { kept, .. } = self {
             let (turn, shift) = (1.0 / length, 1.0);
             let free = [(!kept.rise).then_some(shift), (!kept.turn).then_some(turn)];
@@ -295,7 +300,7 @@ impl Domain {
         }
         let Some(Turns { kappa, .. }) = self.turns(x) else { return vec![] };
         let curvature = 1.0 / (length * length);
-        vec![curvature / f64::max(kappa.abs(), STRAIGHT / length), curvature, 1.0, 1.0, 1.0, 1.0]
+        vec![curvature / f64::max(kappa.abs(), straight / length), curvature, 1.0, 1.0, 1.0, 1.0]
     }
 
     /// Moves the coordinates of a screw away from the singular places of the chart, and returns whether they were

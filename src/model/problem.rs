@@ -28,6 +28,9 @@ pub(super) use bodies::Bodies;
 use bodies::POSE;
 pub(crate) use support::Support;
 
+/// Curvature times the mean edge below which a change of the direction of a screw's axis counts as at this curvature, in
+/// eigenvalues: at a straight state it moves nothing.
+const NEARLY_STRAIGHT: f64 = 0.01;
 /// Ranges of the coordinates of a hinge's two wings among the coordinates of its element.
 pub(super) const LEFT_WING: Range<u32> = 6..9;
 pub(super) const RIGHT_WING: Range<u32> = 9..12;
@@ -209,10 +212,11 @@ impl Model {
     }
 
     /// Returns for each unknown of a free gauge how much its coordinate changes where it moves points by a length of 1,
-    /// about, at the reference state: 1 but for shared coordinates that are no lengths.
-    pub(crate) fn units_of_length(&self) -> Vec<f64> {
+    /// about, at the reference state: 1 but for shared coordinates that are no lengths. The direction of the axis of a
+    /// screw counts as at a curvature of `NEARLY_STRAIGHT` at least.
+    pub fn units_of_length(&self) -> Vec<f64> {
         let Equations { domain, mean_edge, .. } = &*self.equations;
-        let units = domain.units(&self.base[..self.points()], *mean_edge);
+        let units = domain.units_above(&self.base[..self.points()], *mean_edge, NEARLY_STRAIGHT);
         let first = self.points() - units.len();
         let unit = |k: &u32| (*k as usize).checked_sub(first).and_then(|shared| units.get(shared)).unwrap_or(&1.0);
         self.free.iter().map(unit).copied().collect()

@@ -171,7 +171,12 @@ fn eigenvalues(trial: &Trial, report: &mut Report, what: &str) {
     let terms = Terms { loads: vec![], ..Terms::bars_and_creases(trial.bars, 1.0, case.drawn_angles().to_vec()) };
     let terms = Terms { facets: trial.terms(&case).facets, ..terms };
     let model = case.model_of(&terms, Gauge::Free);
-    let expected = common::eigenvalues(common::energy_hessian(&model, &model.start()));
+    let (mut hessian, units) = (common::energy_hessian(&model, &model.start()), model.units_of_length());
+    for (k, unit) in units.into_iter().enumerate() {
+        hessian.row_mut(k).scale_mut(unit);
+        hessian.column_mut(k).scale_mut(unit);
+    }
+    let expected = common::eigenvalues(hessian);
     let Ok(found) = case.modes_of(&terms, 10) else { return report.count("eigenvalues", false) };
     // a lattice that is fixed holds the only vertex of a cell: then all vanish but for rounding errors of the bars'
     // stiffness
