@@ -10,6 +10,7 @@ use super::taylor_path::HeldState;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
 use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
+use crate::numerics::vector::{moved, norm_blocked};
 use crate::solver::{Failure, HessianKind, Options, Start, Step};
 use nalgebra::DVector;
 use std::ops::RangeInclusive;
@@ -36,6 +37,8 @@ const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 /// off by 3 and more; and the largest number of amplitudes tried on the way to a sample.
 const EXPONENTS: RangeInclusive<f64> = 3.0..=7.0;
 const OFF_POWER: f64 = 0.2;
+/// Distance from the predicted place, over that from the drawn one, within which the first sample is on its course.
+const ON_COURSE: f64 = 0.1;
 const MOST_BETWEEN: usize = 16;
 
 /// Rounding errors of an angle or a length in its evaluation.
@@ -97,6 +100,8 @@ struct Place {
     /// The energy, not a number where it may be rounding, and its rate by the amplitude: the torque on the mode.
     energy: f64,
     rate: f64,
+    /// How far it is from where its course predicted it, over its distance from the drawn state.
+    off_course: f64,
 }
 
 impl Place {
@@ -108,7 +113,8 @@ impl Place {
             return true;
         }
         if from.amplitude == 0.0 {
-            return EXPONENTS.contains(&exponent(self));
+            // next to a mode that costs nothing the energy is no power, but the course is known
+            return self.off_course <= ON_COURSE || EXPONENTS.contains(&exponent(self));
         }
         let growth = 0.5 * (exponent(from) + exponent(self)) * (self.amplitude / from.amplitude).ln();
         ((self.energy / from.energy).ln() - growth).abs() <= OFF_POWER
@@ -120,7 +126,7 @@ impl Samples {
     pub fn new(held: &HeldSheet, course: TaylorPath) -> Self {
         let mut held = held.clone();
         let at = HeldState { x: held.drawn(), ..held.still() };
-        Self { held, course, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0 } }
+        Self { held, course, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0, off_course: 0.0 } }
     }
 
     /// The sample at an amplitude, from the last one; by way of amplitudes in between where one step leads to another
@@ -151,6 +157,7 @@ impl Samples {
     fn step_to(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let Place { amplitude: from, at: mut place, .. } = self.last.clone();
         self.course.advance(&mut place, from, amplitude);
+        let predicted = place.x.clone();
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
         for rounds in 0..ROUNDS {
@@ -174,7 +181,9 @@ impl Samples {
                 let sample = Sample { amplitude, relaxed, rest, iterations, rounds, rounding };
                 let energy = if sample.below_rounding() { f64::NAN } else { sample.relaxed.state.total() };
                 let rate = self.rate(&place);
-                self.last = Place { amplitude, at: place, energy, rate };
+                let off = |other: &[f64]| norm_blocked(&moved(&place.x, -1.0, other));
+                let off_course = off(&predicted) / off(&self.last.at.x);
+                self.last = Place { amplitude, at: place, energy, rate, off_course };
                 return Ok(sample);
             }
         }
