@@ -8,7 +8,7 @@
 use super::settling::{Settling, TermValues};
 use super::taylor_path::HeldState;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
-use crate::analysis::relax::{Relaxed, relax_from};
+use crate::analysis::relax::{Relaxed, relax_model};
 use crate::numerics::larger;
 use crate::numerics::vector::{moved, norm_blocked};
 use crate::solver::{Failure, HessianKind, Options, Start, Step};
@@ -33,12 +33,13 @@ const CLOSE: f64 = 1e-3;
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
 /// Exponents of the energy between the drawn state and the first sample, about 4 or 6 where the sheet stays in its
-/// minimum; what the energy may be off a power of the amplitude between two others, as its logarithm: other minima are
-/// off by 3 and more; and the largest number of amplitudes tried on the way to a sample.
+/// minimum; and what the energy may be off a power of the amplitude between two others, as its logarithm: other minima
+/// are off by 3 and more.
 const EXPONENTS: RangeInclusive<f64> = 3.0..=7.0;
 const OFF_POWER: f64 = 0.2;
 /// Distance from the predicted place, over that from the drawn one, within which the first sample is on its course.
 const ON_COURSE: f64 = 0.1;
+/// Largest number of amplitudes tried on the way to a sample.
 const MOST_BETWEEN: usize = 16;
 
 /// Rounding errors of an angle or a length in its evaluation.
@@ -89,6 +90,8 @@ pub enum SampleError {
 pub struct Samples {
     held: HeldSheet,
     course: TaylorPath,
+    /// What is held against rigid motions in the unknowns of the course.
+    gauge: Vec<bool>,
     last: Place,
 }
 
@@ -126,7 +129,8 @@ impl Samples {
     pub fn new(held: &HeldSheet, course: TaylorPath) -> Self {
         let mut held = held.clone();
         let at = HeldState { x: held.drawn(), ..held.still() };
-        Self { held, course, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0, off_course: 0.0 } }
+        let gauge = held.model.held();
+        Self { held, course, gauge, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0, off_course: 0.0 } }
     }
 
     /// The sample at an amplitude, from the last one; by way of amplitudes in between where one step leads to another
@@ -136,6 +140,7 @@ impl Samples {
     /// [`SampleError`] where the relaxation does not converge.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let (mut next, mut left, mut iterations) = (amplitude, MOST_BETWEEN, 0);
+        let mut elsewhere = None;
         loop {
             let (model, from) = (self.held.model.clone(), self.last.clone());
             let found = self.step_to(next, observe);
@@ -143,8 +148,18 @@ impl Samples {
             let continues = found.is_ok() && self.last.continues(&from);
             iterations += found.as_ref().map_or(0, |sample| sample.iterations);
             if !continues && left > 0 && !is_interrupted {
+                if let (Ok(sample), true) = (found, next == amplitude) {
+                    elsewhere = Some((sample, self.held.model.clone(), self.last.clone()));
+                }
                 next = if from.amplitude > 0.0 { (from.amplitude * next).sqrt() } else { 0.5 * next };
                 (self.held.model, self.last, left) = (model, from, left - 1);
+            } else if found.is_err()
+                && !is_interrupted
+                && let Some((sample, model, last)) = elsewhere.take()
+            {
+                // no smaller steps lead on: another minimum is one nevertheless
+                (self.held.model, self.last) = (model, last);
+                return Ok(Sample { iterations, ..sample });
             } else if next == amplitude || found.is_err() {
                 return found.map(|sample| Sample { iterations, ..sample });
             } else {
@@ -156,7 +171,9 @@ impl Samples {
     /// The sample at an amplitude, in one step from the last one.
     fn step_to(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let Place { amplitude: from, at: mut place, .. } = self.last.clone();
-        self.course.advance(&mut place, from, amplitude);
+        if self.held.model.held() == self.gauge {
+            self.course.advance(&mut place, from, amplitude);
+        }
         let predicted = place.x.clone();
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
@@ -169,12 +186,12 @@ impl Samples {
             let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
             let start = Start { x: place.x, tension: Some(place.tension) };
-            let relaxed = relax_from(&self.held.model, start, OPTIONS, observe)
+            let (relaxed, model, x) = relax_model(self.held.model.clone(), start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
+            self.held.model = model;
             iterations += relaxed.iterations;
-            // in the unknowns of the course, whatever the relaxation held
-            let Start { x, tension } = self.held.model.enter(&relaxed.configuration);
-            place = HeldState { x, tension: tension.unwrap_or_default(), rest: place.rest };
+            let tension = relaxed.configuration.tension.clone().unwrap_or_default();
+            place = HeldState { x, tension, rest: place.rest };
             torque = unbalanced(&self.held, &directions, &place);
             if torque <= BALANCED {
                 let (rest, rounding) = (rest.as_slice().to_vec(), rounding(&self.held, &place));

@@ -131,6 +131,7 @@ fn bettered<P: ParametrizedProblem>(
 }
 
 /// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
+/// With a tolerance, a state that is none without it is corrected once more.
 fn relieved<P: ParametrizedProblem>(
     problem: &mut P,
     bordered: &mut Bordered,

@@ -77,7 +77,8 @@ impl Level {
     }
 }
 
-/// The verdict on a supposed branch point by the stiffness of its softest motion across the path, which vanishes at a true one.
+/// The verdict on a supposed branch point by the stiffness of its softest motion across the path, which vanishes at a
+/// true one.
 enum Crossing {
     /// It vanishes at this part of the way, in this state.
     At(f64, Box<PathState>),
@@ -227,9 +228,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Locates a branch point near this part of the way where the stiffness of the softest motion across the path
-    /// vanishes, by inverse interpolation between states around it. At the point itself neither Newton's method nor a count of signs is
-    /// exact: rounding errors move a state along the null vector, and stiffnesses that are rounding errors count as
-    /// positive.
+    /// vanishes, by inverse interpolation between states around it. At the point itself neither Newton's method nor a
+    /// count of signs is exact: rounding errors move a state along the null vector, and stiffnesses that are rounding
+    /// errors count as positive.
     fn refined(&mut self, [from, to]: [&PathState; 2], mut at: f64) -> Result<Crossing, PathError> {
         let (cubic, mut guess) = (Cubic::new(from, to), guesses(from.x.len()).next().unwrap_or_default());
         for _ in 0..MOST_SHIFTS {
