@@ -235,7 +235,7 @@ impl Track<'_> {
         let angles = model.angles_among(&self.angles);
         let (here, is_held_as_drawn) = model.enter_well_held(&Configuration::new(coordinates, angles, None));
         let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
-        let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));
+        let start = ahead.map_or(here, |ahead| model.unknowns(&ahead).into());
         let (relaxed, model, _) = relax_model(model, start, self.options, observe)
             .map_err(|error| AlongFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());

@@ -131,13 +131,7 @@ fn begin(
 ) -> Result<(DrivenModel, Start), PathFailure> {
     let drawn = model.values(&model.start());
     let restarted = start.is_some();
-    let tension = start.and_then(|state| {
-        let Start { x, tension } = model.enter(&state);
-        if !model.gauge_is_valid(&x) {
-            model.rebase_gauge(state.coordinates);
-        }
-        tension
-    });
+    let tension = start.and_then(|state| model.enter_well_held(&state).0.tension);
     let mut driven = DrivenModel::new(model, drive, drawn, restarted)?;
     let x = driven.model.start();
     let (x, tension) = if let Some(tension) = tension {

@@ -23,8 +23,8 @@ pub struct FileRecord {
     pub redrawing: Redrawing,
 }
 
-/// What was done to the lines of a drawing so that they make a crease pattern, and what remains in doubt. Lengths are
-/// in units of the file.
+/// A record of how the lines of a drawing were made a crease pattern: what was joined, cut and left out, and what remains
+/// in doubt. Lengths are in units of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Redrawing {
     /// Distance within which points were merged, and the first one that was tried, with which the lines were no crease

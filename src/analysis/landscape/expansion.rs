@@ -30,7 +30,8 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// Of the mode with these rates of the rest angles, in the drawn state, and where the sheet goes.
+    /// Returns the expansion, at the drawn state, of the energy along the mode that has these rates of the rest angles, and
+    /// the path on which the sheet follows them, to third order.
     ///
     /// # Errors
     /// [`LandscapeError`] where the response of the sheet cannot be computed.

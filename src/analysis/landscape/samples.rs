@@ -90,7 +90,7 @@ pub enum SampleError {
 pub struct Samples {
     held: HeldSheet,
     course: TaylorPath,
-    /// What is held against rigid motions in the unknowns of the course.
+    /// Coordinates that are held against rigid motions in the drawn sheet: the course is one of the others.
     gauge: Vec<bool>,
     last: Place,
 }
@@ -103,7 +103,7 @@ struct Place {
     /// The energy, not a number where it may be rounding, and its rate by the amplitude: the torque on the mode.
     energy: f64,
     rate: f64,
-    /// How far it is from where its course predicted it, over its distance from the drawn state.
+    /// Distance from where its course predicted it, over that from the place before.
     off_course: f64,
 }
 
@@ -140,6 +140,7 @@ impl Samples {
     /// [`SampleError`] where the relaxation does not converge.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let (mut next, mut left, mut iterations) = (amplitude, MOST_BETWEEN, 0);
+        // the first sample at the amplitude that is another minimum, should no smaller steps lead there
         let mut elsewhere = None;
         loop {
             let (model, from) = (self.held.model.clone(), self.last.clone());
@@ -148,7 +149,7 @@ impl Samples {
             let continues = found.is_ok() && self.last.continues(&from);
             iterations += found.as_ref().map_or(0, |sample| sample.iterations);
             if !continues && left > 0 && !is_interrupted {
-                if let (Ok(sample), true) = (found, next == amplitude) {
+                if let (Ok(sample), true, None) = (found, next == amplitude, &elsewhere) {
                     elsewhere = Some((sample, self.held.model.clone(), self.last.clone()));
                 }
                 next = if from.amplitude > 0.0 { (from.amplitude * next).sqrt() } else { 0.5 * next };
@@ -157,7 +158,6 @@ impl Samples {
                 && !is_interrupted
                 && let Some((sample, model, last)) = elsewhere.take()
             {
-                // no smaller steps lead on: another minimum is one nevertheless
                 (self.held.model, self.last) = (model, last);
                 return Ok(Sample { iterations, ..sample });
             } else if next == amplitude || found.is_err() {
@@ -171,10 +171,11 @@ impl Samples {
     /// The sample at an amplitude, in one step from the last one.
     fn step_to(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let Place { amplitude: from, at: mut place, .. } = self.last.clone();
+        let before = self.held.model.coordinates(&place.x);
         if self.held.model.held() == self.gauge {
             self.course.advance(&mut place, from, amplitude);
         }
-        let predicted = place.x.clone();
+        let predicted = self.held.model.coordinates(&place.x);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
         for rounds in 0..ROUNDS {
@@ -198,8 +199,8 @@ impl Samples {
                 let sample = Sample { amplitude, relaxed, rest, iterations, rounds, rounding };
                 let energy = if sample.below_rounding() { f64::NAN } else { sample.relaxed.state.total() };
                 let rate = self.rate(&place);
-                let off = |other: &[f64]| norm_blocked(&moved(&place.x, -1.0, other));
-                let off_course = off(&predicted) / off(&self.last.at.x);
+                let off = |other: &[f64]| norm_blocked(&moved(&sample.relaxed.state.coordinates, -1.0, other));
+                let off_course = off(&predicted) / off(&before);
                 self.last = Place { amplitude, at: place, energy, rate, off_course };
                 return Ok(sample);
             }

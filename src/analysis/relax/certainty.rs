@@ -15,9 +15,6 @@ const UNBALANCED: f64 = 1e-9;
 /// axis has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a
 /// state under torques has a residual that is no rounding error of theirs.
 pub(super) fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
-    if !model.gauge_is_valid(&found.x) {
-        return Some(f64::INFINITY);
-    }
     let last = found.history.last()?;
     if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
         return None;

@@ -10,18 +10,16 @@ use crate::model::problem::Gauge;
 use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::{Cliques, FIXED};
 use crate::sheet::pieces::pieces;
-use crate::solver::Layout;
+use crate::solver::{Layout, Start};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// Least separation of the rigid motions by the held coordinates, relative to that of newly chosen ones; below it the
-/// held coordinates may constrain the shape too.
-const LEAST_SEPARATION_RATIO: f64 = 1e-3;
-/// The same for a state from which steps are made.
+/// Least separation of the rigid motions by the held coordinates, relative to that of newly chosen ones, for a state from
+/// which steps are made.
 const WELL_HELD: f64 = 0.5;
-/// The same for a state from which a path goes on, whose states are compared with each other where the same is held. A
-/// longest step takes up to 0.2 of it: from less a step may pass the state at which it vanishes, beyond which the same
-/// shapes follow once more, and the path would seem to turn back.
+/// The same for a state from which a path or a relaxation goes on; states of a path are compared with each other where
+/// the same is held. A longest step takes up to 0.2 of it: from less a step may pass the state at which it vanishes,
+/// beyond which the same shapes follow once more, and the path would seem to turn back.
 const STILL_HELD: f64 = 0.3;
 /// Largest change of a unit with which a path goes on. Turning the axis moves points in proportion to the curvature: in
 /// the unit of a straight sheet, the stiffness of a curved one against it is so large that all others drown in its
@@ -152,20 +150,14 @@ impl Model {
         self.rebase_gauge(coordinates)
     }
 
-    /// Whether the held coordinates remove the rigid motions of the state `x` nearly as well as newly chosen ones
-    /// would. If they do not, they may constrain the shape, and a state that seems to be an equilibrium need not be
-    /// one.
-    pub(crate) fn gauge_is_valid(&self, x: &[f64]) -> bool {
-        self.gauge_quality(x) >= LEAST_SEPARATION_RATIO
-    }
-
     /// Makes a state the reference state, as [`enter`](Self::enter) does, and chooses anew what is held if it would not
-    /// hold rigid motions well: steps from here may then have no room. Returns the unknowns, and whether the same is
-    /// held.
-    pub(crate) fn enter_well_held(&mut self, state: &Configuration) -> (Vec<f64>, bool) {
-        let x = self.enter(state).x;
+    /// hold rigid motions well: steps from here may then have no room. Returns the unknowns with the tensions, and whether
+    /// the same is held.
+    pub(crate) fn enter_well_held(&mut self, state: &Configuration) -> (Start, bool) {
+        let Start { x, tension } = self.enter(state);
         let is_well_held = self.gauge_quality(&x) >= WELL_HELD;
-        (if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) }, is_well_held)
+        let x = if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) };
+        (Start { x, tension }, is_well_held)
     }
 
     /// Chooses anew what is held where it would soon hold the shape instead of rigid motions, and the units of unknowns

@@ -93,15 +93,15 @@ impl<'a, P: Problem> Newton<'a, P> {
         self.problem.hold(&self.tension, &mut self.tangent.at);
     }
 
-    /// Goes on in other unknowns where the problem chooses them anew.
-    pub(super) fn choose_anew(&mut self) -> Result<(), Failure> {
+    /// Goes on in other unknowns where the problem chooses them anew; returns whether it does.
+    pub(super) fn choose_anew(&mut self) -> Result<bool, Failure> {
         let no_rates = vec![0.0; self.x.len()];
-        let Some([x, _]) = self.problem.choose_anew(&self.x, &no_rates) else { return Ok(()) };
+        let Some([x, _]) = self.problem.choose_anew(&self.x, &no_rates) else { return Ok(false) };
         let made = (self.tangent.system.factorizations, self.tangent.system.solves);
         self.tangent = Tangent::new(self.problem)?;
         (self.tangent.system.factorizations, self.tangent.system.solves) = made;
         (self.x, self.certified) = (x, None);
-        Ok(())
+        Ok(true)
     }
 
     /// The record of the present state, reached by this fraction of a Newton step.

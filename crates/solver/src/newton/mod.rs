@@ -79,6 +79,12 @@ fn run<P: Problem>(
         let (force, length) = (step.residual_force, step.residual_length);
         let met = length <= options.tolerance;
         if met && (force <= options.tolerance || (newton.exhausted(&step) && newton.is_at_rest())) {
+            if newton.choose_anew()? {
+                // a start may be in balance only with what it holds
+                newton.linearize();
+                fraction = 0.0;
+                continue;
+            }
             let last = if finished { None } else { newton.finishing_step(&step) };
             let Some(trial) = last else { return newton.certify() };
             newton.take(trial, 1.0, &step);

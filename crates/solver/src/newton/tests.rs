@@ -1,4 +1,5 @@
-//! A start whose way back onto its stiff measures leads through a wall of infinite energy.
+//! Starts whose way back onto their stiff measures leads through a wall of infinite energy, and starts that are in balance
+//! only with what is held.
 
 use crate::{HessianKind, Layout, Linearization, Options, Problem, SoftElement, minimize};
 use foldwell_numerics::sparse::Cliques;
@@ -71,5 +72,67 @@ fn a_start_behind_a_wall_is_taken_as_it_is() {
         let distance = WALL - found.x[0];
         assert!((distance / expected - 1.0).abs() < 1e-7, "from {start}: {distance} instead of {expected}");
         assert!((found.tension[0] * distance.powi(2) + 1.0).abs() < 1e-7, "tension {}", found.tension[0]);
+    }
+}
+
+/// A point on a spring of stiffness 1 that is at rest at `(0, 1)`. Its second coordinate is held at 0 until the unknowns
+/// are chosen anew.
+struct HeldPoint {
+    layout: Arc<Layout>,
+    free: bool,
+}
+
+impl HeldPoint {
+    fn new(free: bool) -> Self {
+        let mut soft = Cliques::new();
+        soft.push(0..if free { 2 } else { 1 });
+        Self { layout: Layout::new(vec![0; if free { 2 } else { 1 }], soft, Cliques::new()), free }
+    }
+
+    /// How far the point is off rest.
+    fn off(&self, x: &[f64]) -> [f64; 2] {
+        [x[0], if self.free { x[1] - 1.0 } else { -1.0 }]
+    }
+}
+
+impl Problem for HeldPoint {
+    fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+    fn compliance(&self) -> &[f64] {
+        &[]
+    }
+    fn gap_scale(&self) -> &[f64] {
+        &[]
+    }
+    fn energy(&self, x: &[f64]) -> f64 {
+        self.off(x).iter().map(|off| 0.5 * off * off).sum()
+    }
+    fn gaps(&self, _x: &[f64]) -> Vec<f64> {
+        vec![]
+    }
+    fn linearize(&self, x: &[f64], _tension: &[f64], kind: HessianKind, out: &mut Linearization) {
+        out.clear(kind);
+        (out.energy, out.largest_force) = (self.energy(x), 1.0);
+        let hessian = if self.free { &[1.0, 0.0, 1.0][..] } else { &[1.0] };
+        let gradient = &self.off(x)[..x.len()];
+        out.add_soft(0, &SoftElement { stiffness: 0.0, excess: 0.0, force: 1.0, size: 1.0, gradient, hessian });
+    }
+    fn accept(&mut self, _x: &mut [f64]) {}
+    fn choose_anew(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let written = |first: &[f64]| vec![first[0], 0.0];
+        let chosen = (!self.free).then(|| [written(x), written(rates)])?;
+        *self = Self::new(true);
+        Some(chosen)
+    }
+}
+
+/// Claim: a start that is in balance only with what it holds is no equilibrium: the point goes to where its spring rests.
+/// Exact to rounding.
+#[test]
+fn a_start_in_balance_with_what_it_holds_is_none() {
+    for start in [0.0, 0.3] {
+        let found = minimize(&mut HeldPoint::new(false), vec![start], Options::default(), &mut |_| true).unwrap();
+        assert!(found.x.len() == 2 && found.x[0].abs() < 1e-15 && (found.x[1] - 1.0).abs() < 1e-15, "{:?}", found.x);
     }
 }

@@ -131,13 +131,13 @@ fn bettered<P: ParametrizedProblem>(
 }
 
 /// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
-/// With a tolerance, a state that is none without it is corrected once more.
+/// Where forces do not balance without it, Newton's method goes on from there to `tolerance`, once, if that is given.
 fn relieved<P: ParametrizedProblem>(
     problem: &mut P,
     bordered: &mut Bordered,
     found: Corrected,
     plane: &Plane,
-    again: Option<f64>,
+    tolerance: Option<f64>,
 ) -> Result<Corrected, FactorError> {
     let tension = &found.at.tension;
     let least = if !problem.compliance().contains(&0.0) {
@@ -158,7 +158,7 @@ fn relieved<P: ParametrizedProblem>(
         return Ok(Corrected { at, residuals, ..found });
     }
     // the self stress is so large that its rounding errors hid what the other forces left
-    if let Some(tolerance) = again
+    if let Some(tolerance) = tolerance
         && let Some(corrected) = correct(problem, bordered, at, plane, tolerance)?
     {
         bordered.factor()?;

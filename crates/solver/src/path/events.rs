@@ -97,7 +97,7 @@ fn zero_of(values: &[[f64; 2]]) -> f64 {
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// Locates the marks between two states in order, of which one in the middle may be known: two in one step may leave
+    /// Locates the marks between two states, of which one in the middle may be known: two in one step may leave
     /// what tells of them as it was. `watched` are the values of the watched functions at both ends.
     pub(super) fn marks(
         &mut self,
@@ -113,7 +113,6 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             found.extend(self.own_marks([from, to], [&piece[0], &piece[1]])?);
         }
         found.extend(self.marks_asked_for([from, to], watched, watch)?);
-        found.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
         Ok(found)
     }
 

@@ -153,16 +153,16 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// The state of the path at a part of the way from one state to the next.
     pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Result<Option<PathState>, PathError> {
         let cubic = Cubic::new(from, to);
-        let plane = self.plane(&cubic.chord(), self.problem.has_kinks());
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
-        if let Some((state, _)) = self.settle(cubic.at(part), &plane, arc_length)? {
-            return Ok(Some(state));
+        // where there may be a kink only the plane across the unknowns may meet the path, as in a step
+        let (jumps, kinks) = (self.problem.has_kinks(), self.kinks);
+        for at_kink in [false, true].into_iter().filter(|at_kink| if *at_kink { kinks } else { !jumps }) {
+            let plane = self.plane(&cubic.chord(), at_kink);
+            if let Some((state, _)) = self.settle(cubic.at(part), &plane, arc_length)? {
+                return Ok(Some(state));
+            }
         }
-        if !self.kinks {
-            return Ok(None);
-        }
-        let plane = self.plane(&cubic.chord(), true);
-        Ok(self.settle(cubic.at(part), &plane, arc_length)?.map(|(state, _)| state))
+        Ok(None)
     }
 
     /// The state of the path with this parameter next to a part of the way from one state to the next.

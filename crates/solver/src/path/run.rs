@@ -153,7 +153,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             return Ok(ended(vec![self.worked(number, &[], last, state, point.mark, None)?], BranchEnd::Returned));
         }
         // beyond its end a path may mean nothing: marks are sought before it
-        let (to, end, work) = match self.end_between(number, last, &next)? {
+        let (to, end, work) = match self.end_between(number, [last, &next], 0.0)? {
             Some((state, end)) => (state, Some(end), None),
             None if self.retraces(number, &next)? => (next, Some(BranchEnd::Retraced), Some(work)),
             None => (next, None, Some(work)),
@@ -176,15 +176,16 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Ok((PathEntry { branch: number, begins: false, states, next_step: longer, end }, values))
     }
 
-    /// Appends the marked states of a step to those before, from the last of which the step goes on; returns whether its
-    /// branch ends at the last one.
+    /// Appends the marked states of a step in order to those before, and moves `from` to the last of them; returns whether
+    /// the branch ends there.
     pub fn meets(
         &mut self,
         number: usize,
         states: &mut Vec<MarkedState>,
         from: &mut PathState,
-        marks: Vec<(PathState, PathMark)>,
+        mut marks: Vec<(PathState, PathMark)>,
     ) -> Result<bool, PathError> {
+        marks.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
         for (state, mark) in marks {
             states.push(self.worked(number, states, from, state.clone(), Some(mark), None)?);
             let before = self.states(number).iter().chain(&*states);
@@ -260,14 +261,16 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Ok(false)
     }
 
-    /// The state between two others at which the branch ends, if there is one.
+    /// The state between two others at which the branch ends, if there is one. It does not end at a parameter from which
+    /// the first of them is no farther than `beside`.
     pub fn end_between(
         &mut self,
         number: usize,
-        last: &PathState,
-        next: &PathState,
+        [last, next]: [&PathState; 2],
+        beside: f64,
     ) -> Result<Option<(PathState, BranchEnd)>, PathError> {
-        let passed = |value: f64| (last.parameter - value) * (next.parameter - value) <= 0.0 && last.parameter != value;
+        let [from, to] = [last.parameter, next.parameter];
+        let passed = |value: f64| (from - value) * (to - value) <= 0.0 && (from - value).abs() > beside;
         let (target, most) = (self.target(number), self.follower.settings.length);
         let (origin, returns) = (self.follower.origin, number > 0 || self.follower.settings.returns);
         for (value, end, applies) in [(target, BranchEnd::Target, true), (origin, BranchEnd::Returned, returns)] {

@@ -84,14 +84,11 @@ impl<P: ParametrizedProblem> Run<'_, P> {
         let begin = PathState { tangent: chord.scaled(1.0 / first.arc_length), conjugate, ..from };
         let number = self.branches.len();
         let beside = AT_THE_POINT * self.follower.problem.parameter_scale();
-        let is_apart = |value: f64| (begin.parameter - value).abs() > beside;
-        let ends = is_apart(self.follower.settings.target) && is_apart(self.follower.origin);
-        let end = if ends { self.end_between(number, &begin, &first)? } else { None };
+        let end = self.end_between(number, [&begin, &first], beside)?;
         let (to, end) = end.map_or((first, None), |(state, end)| (state, Some(end)));
         let watched = [self.watched(&begin), self.watched(&to)];
         let watched = [&watched[0][..], &watched[1]];
-        let mut marks = self.follower.marks_asked_for([&begin, &to], watched, self.watch)?;
-        marks.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
+        let marks = self.follower.marks_asked_for([&begin, &to], watched, self.watch)?;
         let (mut states, mut from) = (vec![MarkedState { state: begin.clone(), ..point }], begin);
         if self.meets(number, &mut states, &mut from, marks)? {
             return self.branch(states, Some(BranchEnd::Marked));
