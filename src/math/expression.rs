@@ -63,6 +63,9 @@ const FUNCTIONS: [NamedFunction; 13] = [
     ("tanh", |x| [x.tanh(), x.cosh().powi(-2), -2.0 * x.tanh() * x.cosh().powi(-2)]),
 ];
 
+/// Functions whose values or slopes jump where their argument changes its sign.
+const JUMPING: [&str; 2] = ["abs", "sign"];
+
 fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
 }
@@ -79,6 +82,12 @@ impl Expression {
             None => Ok(Self { operations: parser.operations }),
             Some(_) => Err(parser.unexpected("an operator, or the end")),
         }
+    }
+
+    /// Whether its values or slopes may jump.
+    pub(crate) fn may_jump(&self) -> bool {
+        let jumps = |function: usize| JUMPING.contains(&FUNCTIONS[function].0);
+        self.operations.iter().any(|step| matches!(*step, Operation::Apply(function) if jumps(function)))
     }
 
     /// Returns the value where the variables are these, and its derivatives while they move.

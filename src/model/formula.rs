@@ -97,6 +97,10 @@ impl Law for Formula {
         [energy, force, stiffness]
     }
 
+    fn has_kinks(&self) -> bool {
+        self.force.may_jump()
+    }
+
     /// The lower end of the integral moves too; the force there is 0, and its derivative by rest -1.
     fn by_rest(&self, value: f64, rest: f64) -> [f64; 3] {
         let derivatives = |m: f64| {

@@ -121,17 +121,34 @@ fn all_half_branches_of_a_loaded_dome_are_found() {
     }
 }
 
-/// Claim: branches end where the drive does, also beside their branch point, before their first ordinary state: here 6e-5
-/// beyond the double point. Before, all eight ran on to eight times the way. Exact.
+/// Claim: branches end where the drive or `stop` does, and list what `at` asks for, also beside their branch point, before
+/// their first ordinary state: here 3e-5 and 6e-5 beyond the double point. Before, all eight ran on to eight times the
+/// way. Tolerance: exact, and 1e-9, to which the stop is located.
 #[test]
 fn branches_end_with_the_drive_beside_their_branch_point() {
     let (quantity, to) = (Driven::Vertices { vertices: vec![4], direction: Vec3::z() }, DOUBLE_POINT - 6e-5);
-    let options = PathOptions { switch: true, ..PathOptions::default() };
-    let branches = followed(&pyramid(4, 0.3, false), &Drive { quantity, to }, &options);
+    let beside = DOUBLE_POINT - 3e-5;
+    let drive = |to| Drive { quantity: quantity.clone(), to };
+    let options = PathOptions { switch: true, at: vec![beside], ..PathOptions::default() };
+    let branches = followed(&pyramid(4, 0.3, false), &drive(to), &options);
     assert_eq!(branches.len(), 9);
     for branch in branches {
         let last = branch.points.last().unwrap();
         assert!(branch.end == PathEnd::Arrived && last.drive == to, "{:?} at {}", branch.end, last.drive);
+        assert!(branch.points.iter().any(|point| point.drive == beside), "no state at {beside}");
+    }
+    let stop = PathStop { drive: Some(beside), ..PathStop::default() };
+    let options = PathOptions { at: vec![], stop, ..options };
+    let branches = followed(&pyramid(4, 0.3, false), &drive(-0.5), &options);
+    assert_eq!(branches.len(), 9);
+    for branch in branches {
+        let last = branch.points.last().unwrap();
+        assert!(
+            branch.end == PathEnd::Stopped && (last.drive - beside).abs() <= 1e-9,
+            "{:?} at {}",
+            branch.end,
+            last.drive
+        );
     }
 }
 

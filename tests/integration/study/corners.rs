@@ -1,4 +1,4 @@
-//! Paths over corners of bilinear laws, where stiffness jumps.
+//! Paths over corners of laws, where stiffness jumps.
 //!
 //! Source: a pyramid of bars of `EA = 1` on a ring of radius 1 whose strain is `-0.02` has the length `l = 0.98 L` and
 //! bears `N 0.02 z / l` at the height `z` of its apex. Behind that corner the bars have 0.02 of their stiffness. A pyramid
@@ -10,8 +10,14 @@ use crate::common::Scene;
 use foldwell::math::Vec3;
 use std::f64::consts::TAU;
 
-/// Returns a pyramid of bars that its load presses down and up again, and the load at the corner.
-fn pyramid(bars: usize, height: f64, max_step: f64, keys: &str) -> (Scene, f64) {
+/// The law with the corner at a strain of -0.02, as one of two stiffnesses and as a formula.
+const LAWS: [&str; 2] = [
+    "kind = \"bilinear\", ratio = 0.02, at = [-0.02, 0.05]",
+    "kind = \"formula\", force = \"k*(0.51*(m - m0) + 0.49*(abs(m - 0.98*m0) - 0.02*m0))\"",
+];
+
+/// Returns a pyramid of bars of this law that its load presses down and up again, and the load at the corner.
+fn pyramid(law: &str, bars: usize, height: f64, max_step: f64, keys: &str) -> (Scene, f64) {
     let ring = (0..bars).map(|k| {
         let (sin, cos) = (0.3 + TAU * k as f64 / bars as f64).sin_cos();
         [cos, sin, 0.0]
@@ -21,7 +27,7 @@ fn pyramid(bars: usize, height: f64, max_step: f64, keys: &str) -> (Scene, f64) 
     let pins: Vec<usize> = (1..=bars).collect();
     let mesh = format!("{{\"vertices_coords\": {points:?}, \"faces_vertices\": [], \"edges_vertices\": {edges:?}}}");
     let text = format!(
-        "[energy]\nbars = {{ stiffness = 1.0, law = {{ kind = \"bilinear\", ratio = 0.02, at = [-0.02, 0.05] }} }}\n\
+        "[energy]\nbars = {{ stiffness = 1.0, law = {{ {law} }} }}\n\
          [[pin]]\nvertices = {pins:?}\n[[load]]\nvertex = 0\nforce = [0.0, 0.0, -1.0]\n\
          [[drive]]\nname = \"load\"\nload = true\nto = 0.4\n\
          [[study]]\nname = \"p\"\nkind = \"path\"\ndraw = []\nmax_step = {max_step:?}\n{keys}"
@@ -35,15 +41,15 @@ fn pyramid(bars: usize, height: f64, max_step: f64, keys: &str) -> (Scene, f64) 
 /// two eigenvalues vanish at the same corner. Tolerance: 1e-9, to which a sign change is located.
 #[test]
 fn a_load_is_largest_at_a_corner() {
-    for max_step in [0.02, 0.05, 0.1, 0.2] {
-        let (scene, load) = pyramid(3, 0.5, max_step, "snap = true");
+    for (law, max_step) in LAWS.into_iter().flat_map(|law| [0.02, 0.05, 0.1, 0.2].map(|step| (law, step))) {
+        let (scene, load) = pyramid(law, 3, 0.5, max_step, "snap = true");
         let ran = scene.converged();
         let events = &ran.path("p").branches[0].events;
         let events: Vec<_> = events.iter().filter(|event| event.event != "branch-point").collect();
         let [limit, snap] = events[..] else { panic!("{max_step}: {events:?}") };
-        assert_eq!([&limit.event[..], &snap.event], ["limit-load", "snap"], "{max_step}");
+        assert_eq!([&limit.event[..], &snap.event], ["limit-load", "snap"], "{law}, {max_step}");
         let drive = limit.drive.unwrap();
-        assert!((drive - load).abs() <= 1e-9, "{max_step}: {drive} for {load}");
+        assert!((drive - load).abs() <= 1e-9, "{law}, {max_step}: {drive} for {load}");
     }
 }
 
@@ -52,7 +58,7 @@ fn a_load_is_largest_at_a_corner() {
 #[test]
 fn branch_points_at_a_corner_do_not_depend_on_the_step() {
     for max_step in [0.011, 0.05, 0.1, 0.2] {
-        let (scene, load) = pyramid(5, 2.5, max_step, "");
+        let (scene, load) = pyramid(LAWS[0], 5, 2.5, max_step, "");
         let ran = scene.ran();
         let events = &ran.path("p").branches[0].events;
         let points = events.iter().filter(|event| event.event == "branch-point");
@@ -60,5 +66,37 @@ fn branch_points_at_a_corner_do_not_depend_on_the_step() {
         let [down, up] = found[..] else { panic!("{max_step}: {found:?}") };
         assert!(down.1 == Some(2) && up.1 == Some(2), "{max_step}: {found:?}");
         assert!((down.0 - load).abs() <= 1e-9 && (up.0 + load).abs() <= 1e-9, "{max_step}: {found:?} for {load}");
+    }
+}
+
+/// Claim: `stop = { states = n }` ends a branch with so many states, also where a located event falls into its last step.
+/// Exact.
+#[test]
+fn a_branch_ends_with_the_states_asked_for() {
+    for states in 2..=12 {
+        let (scene, _) = pyramid(LAWS[0], 3, 0.5, 0.2, &format!("stop = {{ states = {states} }}"));
+        assert_eq!(scene.converged().path("p").branches[0].steps, states);
+    }
+}
+
+/// Claim: a cable net that is drawn without force, where cables that shorten have no stiffness, follows its load either
+/// way. Its energy is convex: the state under a load is one. Source: two cables along a line of length 2, pulled at their
+/// joint across it by `P`: `2 EA (sqrt(1 + d^2) - 1) d / sqrt(1 + d^2) = P`; and pulled along it by `P`, of which one
+/// cable alone bears `EA d = P`. Tolerance: 1e-9, that of the path.
+#[test]
+fn a_net_without_force_follows_its_load() {
+    let mesh = "{\"vertices_coords\": [[-1, 0, 0], [1, 0, 0], [0, 0, 0], [0, -1, 0]], \"faces_vertices\": [],\
+                \"edges_vertices\": [[0, 2], [2, 1], [2, 3]]}";
+    for to in [0.2, -0.2] {
+        let text = format!(
+            "[energy]\nbars = {{ stiffness = 10.0, law = {{ kind = \"bilinear\", ratio = 0.0, at = [0, inf] }} }}\n\
+             [[pin]]\nvertices = [0, 1, 3]\n[[pin]]\nvertex = 2\naxes = \"z\"\n\
+             [[load]]\nvertex = 2\nforce = [0.3, 1.0, 0.0]\n[[drive]]\nname = \"load\"\nload = true\nto = {to:?}\n\
+             [[study]]\nname = \"p\"\nkind = \"path\"\ndraw = []\n[[study]]\nname = \"r\"\nkind = \"relax\"\ndraw = []\n"
+        );
+        let ran = Scene::on("mesh = \"net.fold\"", &text).with("net.fold", mesh).converged();
+        let branch = &ran.path("p").branches[0];
+        println!("{to} {} {:?} {:?}", branch.steps, branch.drive, branch.energy);
+        assert_eq!(branch.drive, Some(to));
     }
 }

@@ -131,13 +131,10 @@ fn bettered<P: ParametrizedProblem>(
 }
 
 /// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
-/// Where forces do not balance without it, Newton's method goes on from there to `tolerance`, once, if that is given.
 fn relieved<P: ParametrizedProblem>(
     problem: &mut P,
     bordered: &mut Bordered,
     found: Corrected,
-    plane: &Plane,
-    tolerance: Option<f64>,
 ) -> Result<Corrected, FactorError> {
     let tension = &found.at.tension;
     let least = if !problem.compliance().contains(&0.0) {
@@ -157,13 +154,6 @@ fn relieved<P: ParametrizedProblem>(
         bordered.factor()?;
         return Ok(Corrected { at, residuals, ..found });
     }
-    // the self stress is so large that its rounding errors hid what the other forces left
-    if let Some(tolerance) = tolerance
-        && let Some(corrected) = correct(problem, bordered, at, plane, tolerance)?
-    {
-        bordered.factor()?;
-        return relieved(problem, bordered, Corrected { off: found.off, ..corrected }, plane, None);
-    }
     bordered.linearize(problem, &found.at.x, &found.at.tension);
     bordered.factor()?;
     Ok(found)
@@ -176,11 +166,11 @@ pub(super) fn complete<P: ParametrizedProblem>(
     bordered: &mut Bordered,
     found: Corrected,
     plane: &Plane,
-    (arc_length, tolerance): (f64, f64),
+    arc_length: f64,
 ) -> Result<PathState, FactorError> {
     bordered.factor()?;
     let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } =
-        relieved(problem, bordered, found, plane, Some(tolerance))?;
+        relieved(problem, bordered, found)?;
     let negative_eigenvalues = bordered.negative_eigenvalues()?;
     let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
     let (mut tangent, _) = bordered.solve(&forces, &stretches, 1.0, plane);

@@ -88,7 +88,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         let Self { problem, bordered, settings, .. } = self;
         let Some(found) = correct(*problem, bordered, guess, plane, settings.tolerance)? else { return Ok(None) };
         let off = found.off;
-        Ok(Some((complete(*problem, bordered, found, plane, (arc, settings.tolerance))?, off)))
+        Ok(Some((complete(*problem, bordered, found, plane, arc)?, off)))
     }
 
     /// One step from the last of two states (or the only one) of about this length. Returns the state and the length
@@ -104,9 +104,13 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
             let at_kink = self.kinks && length < KINK_STEP * self.settings.max_step;
-            // at a kink the path may go on either way
-            for of_unknowns in [false, true].into_iter().filter(|of_unknowns| at_kink || !of_unknowns) {
-                let plane = self.plane(&last.tangent, of_unknowns);
+            // at a kink the path may go on either way, but from its beginning only as the parameter does
+            let begins = before.is_none() && self.kinks;
+            let sign = last.tangent.parameter.signum();
+            let of_parameter = || Plane::of_parameter(last.x.len(), sign);
+            let [across, of_unknowns] = [false, true].map(|of_unknowns| self.plane(&last.tangent, of_unknowns));
+            let planes = [Some(across), at_kink.then_some(of_unknowns), begins.then(of_parameter)];
+            for plane in planes.into_iter().flatten() {
                 let Some((mut state, off)) = self.settle(guess.clone(), &plane, 0.0)? else { continue };
                 let chord = Cubic::new(last, &state).chord();
                 let way = self.size(&chord);
@@ -115,7 +119,8 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
                 let error = off / (unit_of_length * length);
                 let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
                 let is_short = folds <= LARGEST_MEASURE_CHANGE && self.problem.admits(&last.x, &state.x);
-                if is_short && (is_smooth || at_kink) {
+                let leads_on = !begins || sign * chord.parameter >= 0.0;
+                if leads_on && is_short && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
                     let factor = (WANTED_ERROR / error.max(1e-12)).powf(1.0 / 3.0);

@@ -64,26 +64,27 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let (recorded, mut way) = (self.record.take(number, &states), Way::default());
         let next_step = self.follower.first_step();
         let begin = PathEntry { branch: number, begins: true, states, next_step, end };
-        let goes_on = if recorded.is_empty() {
+        let mut goes_on = if recorded.is_empty() {
             self.found(begin, None, &mut way)
         } else {
             let mut states = recorded.into_iter();
             states.try_fold(true, |on, entry| Ok::<_, PathError>(on && self.was_found(entry, &mut way)?))?
         };
-        while goes_on && self.branches[number].states.len() < self.follower.settings.steps {
+        while goes_on {
             let (entry, watched) = self.step(number, &way)?;
-            if !self.found(entry, Some(watched), &mut way) {
-                return Ok(());
-            }
-        }
-        if goes_on {
-            self.branches[number].end = BranchEnd::Steps;
+            goes_on = self.found(entry, Some(watched), &mut way);
         }
         Ok(())
     }
 
-    /// Shows new states to the observer and appends them to their branch; returns whether the branch goes on.
-    fn found(&mut self, entry: PathEntry, watched: Option<Vec<f64>>, way: &mut Way) -> bool {
+    /// Shows new states, as many as the branch may have, to the observer and appends them to their branch; returns whether
+    /// the branch goes on.
+    fn found(&mut self, mut entry: PathEntry, watched: Option<Vec<f64>>, way: &mut Way) -> bool {
+        let room = self.follower.settings.steps.saturating_sub(self.branches[entry.branch].states.len());
+        if entry.states.len() > room || (entry.states.len() == room && entry.end.is_none()) {
+            entry.states.truncate(room);
+            entry.end = Some(BranchEnd::Steps);
+        }
         if !self.observer.entry(&entry) {
             return false;
         }
