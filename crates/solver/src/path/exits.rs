@@ -7,7 +7,6 @@
 //! where Newton's system is singular, nothing could be decided.
 
 use super::bordered::Plane;
-use super::corrector::Guess;
 use super::follower::Follower;
 use super::interpolant::Cubic;
 use super::outcome::{MarkedState, PathError};
@@ -74,7 +73,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// The interpolant between two states beside another one, and what leads from it to that; `None` where the other
     /// state is not beside the way, farther from it than the two from each other, or written in another way.
-    fn beside(&self, [from, to]: [&PathState; 2], state: &PathState) -> Option<(Guess, Rates)> {
+    fn beside(&self, [from, to]: [&PathState; 2], state: &PathState) -> Option<(Rates, Rates)> {
         if [from, to].iter().any(|end| end.choice != state.choice) {
             return None;
         }

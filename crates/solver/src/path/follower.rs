@@ -1,7 +1,6 @@
 //! Steps along a path: predictor, corrector, and the length of the next step.
 
 use super::bordered::{Bordered, Plane};
-use super::corrector::{Guess, complete, correct};
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
@@ -55,7 +54,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
     pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<PathState, PathError> {
         let plane = Plane::of_parameter(x.len(), sign);
-        let guess = Guess { x, tension, parameter: self.problem.parameter() };
+        let guess = Rates { x, tension, parameter: self.problem.parameter() };
         let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
         self.problem.accept(&mut state.x);
         Ok(state)
@@ -81,14 +80,6 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         let work_along = last.work_along * per_length;
         let choice = self.problem.choice();
         Ok(Some(PathState { x, tangent: tangent.scaled(per_length), conjugate, work_along, choice, ..last.clone() }))
-    }
-
-    /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
-    pub fn settle(&mut self, guess: Guess, plane: &Plane, arc: f64) -> Result<Option<(PathState, f64)>, PathError> {
-        let Self { problem, bordered, settings, .. } = self;
-        let Some(found) = correct(*problem, bordered, guess, plane, settings.tolerance)? else { return Ok(None) };
-        let off = found.off;
-        Ok(Some((complete(*problem, bordered, found, plane, (arc, settings.tolerance))?, off)))
     }
 
     /// One step from the last of two states (or the only one) of about this length. Returns the state and the length
@@ -173,7 +164,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         parameter: f64,
     ) -> Result<Option<PathState>, PathError> {
         let part = (parameter - from.parameter) / (to.parameter - from.parameter);
-        let guess = Guess { parameter, ..Cubic::new(from, to).at(part) };
+        let guess = Rates { parameter, ..Cubic::new(from, to).at(part) };
         let plane = Plane::of_parameter(from.x.len(), (to.parameter - from.parameter).signum());
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
         if let Some((state, _)) = self.settle(guess, &plane, arc_length)? {
@@ -187,7 +178,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
 }
 
 /// The state predicted at this arc length beyond the last of two states, or beyond the only one.
-fn predicted(before: Option<&PathState>, last: &PathState, length: f64) -> Guess {
+fn predicted(before: Option<&PathState>, last: &PathState, length: f64) -> Rates {
     if let Some(before) = before {
         let part = 1.0 + length / (last.arc_length - before.arc_length);
         // far beyond the interval a cubic is worth less than the tangent

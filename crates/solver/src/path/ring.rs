@@ -13,7 +13,6 @@
 //! states are found on a wide ring: it is narrowed.
 
 use super::bordered::{Plane, Planes, REFUSED_RESIDUAL};
-use super::corrector::Guess;
 use super::follower::Follower;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState, Rates};
@@ -56,7 +55,7 @@ struct Ring<'a> {
 #[derive(Clone)]
 struct OnRing {
     angle: f64,
-    at: Guess,
+    at: Rates,
     pull: f64,
     residual: f64,
 }
@@ -78,7 +77,7 @@ impl Ring<'_> {
     }
 
     /// A guess moved to another angle.
-    fn turned(&self, mut at: Guess, [from, to]: [[f64; 2]; 2]) -> Guess {
+    fn turned(&self, mut at: Rates, [from, to]: [[f64; 2]; 2]) -> Rates {
         for (null, (from, to)) in self.nulls.iter().zip(from.into_iter().zip(to)) {
             at.add(to - from, null);
         }
@@ -151,7 +150,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// The state on a ring at this angle, by Newton's method from a guess.
-    fn on_ring(&mut self, ring: &Ring<'_>, angle: f64, mut at: Guess) -> Result<Option<OnRing>, PathError> {
+    fn on_ring(&mut self, ring: &Ring<'_>, angle: f64, mut at: Rates) -> Result<Option<OnRing>, PathError> {
         let (sin, cos) = angle.sin_cos();
         let mut along: Vec<f64> = ring.nulls[1].x.iter().map(|x| cos * x).collect();
         add_scaled(&mut along, -sin, &ring.nulls[0].x);
