@@ -265,11 +265,8 @@ fn table(assembly: &Assembly, found: &[Along]) -> Table {
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
             let relaxed = &sample.relaxed;
-            let solution = Solution {
-                energy: energies::columns(assembly.terms(), &relaxed.state),
-                residual_force: Some(relaxed.residual_force),
-                residual_length: Some(relaxed.residual_length),
-            };
+            let residuals = [relaxed.residual_force, relaxed.residual_length];
+            let solution = Solution::new(energies::columns(assembly.terms(), &relaxed.state), Some(residuals));
             let mode = [0, 1, 2].map(|k| along.curvature.map(|curvature| curvature[k]).into());
             let first = [number.into()].into_iter().chain(mode).chain([sample.amplitude.into()]);
             let rounds = [sample.iterations, sample.rounds].map(Value::from);
