@@ -2,7 +2,7 @@
 
 use super::bordered::{Plane, REFUSED_RESIDUAL};
 use super::follower::Follower;
-use super::outcome::PathError;
+use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::problem::Residuals;
 use crate::self_stress::without_self_stress;
@@ -37,7 +37,7 @@ struct Corrected {
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
     /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
-    pub fn settle(&mut self, guess: Rates, plane: &Plane, arc: f64) -> Result<Option<(PathState, f64)>, PathError> {
+    pub fn settle(&mut self, guess: Rates, plane: &Plane, arc: f64) -> Found<Option<(PathState, f64)>> {
         let Some(found) = self.correct(guess, plane)? else { return Ok(None) };
         let off = found.off;
         Ok(Some((self.complete(found, plane, arc)?, off)))
@@ -50,7 +50,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         for iterations in 0..=MOST_STEPS {
             self.problem.set_parameter(at.parameter);
             self.bordered.linearize(self.problem, &at.x, &at.tension);
-            let residuals = Residuals::new(self.problem, &self.bordered.at, &at.tension);
+            let residuals = Residuals::new(self.problem, &self.bordered.tangent.at, &at.tension);
             let size = larger(residuals.force, residuals.length);
             // no step makes residuals smaller that rounding errors of the unknowns make
             let rounding = larger(MOST_ROUNDING, self.bordered.rounding_force(max_abs(&at.x)));
@@ -63,8 +63,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 break;
             }
             self.bordered.factor()?;
-            let (force, missing) =
-                (self.bordered.at.force(&at.tension), self.bordered.at.missing(&at.tension, self.problem.compliance()));
+            let (force, missing) = (
+                self.bordered.tangent.at.force(&at.tension),
+                self.bordered.tangent.at.missing(&at.tension, self.problem.compliance()),
+            );
             let (step, residual) = self.bordered.solve(&force, &missing, 0.0, plane);
             let length = norm_blocked(&step.x).hypot(step.parameter / self.bordered.unit());
             let small = length <= ROUNDING * larger(max_abs(&at.x), self.bordered.length());
@@ -95,7 +97,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// Returns a state whose gaps are within the tolerance, but not those that very stiff measures have by their tensions,
     /// after one step more: a self stress of theirs would be that of the guess.
     fn precise(&mut self, found: Corrected, plane: &Plane) -> Result<Corrected, FactorError> {
-        let missing = self.bordered.at.missing(&found.at.tension, self.problem.compliance());
+        let missing = self.bordered.tangent.at.missing(&found.at.tension, self.problem.compliance());
         let stretched = self
             .problem
             .compliance()
@@ -106,7 +108,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             return Ok(found);
         }
         self.bordered.factor()?;
-        let force = self.bordered.at.force(&found.at.tension);
+        let force = self.bordered.tangent.at.force(&found.at.tension);
         let (step, residual) = self.bordered.solve(&force, &missing, 0.0, plane);
         Ok(if residual <= REFUSED_RESIDUAL { self.bettered(found, &step) } else { found })
     }
@@ -117,7 +119,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         at.add(1.0, step);
         self.problem.set_parameter(at.parameter);
         self.bordered.linearize(self.problem, &at.x, &at.tension);
-        let residuals = Residuals::new(self.problem, &self.bordered.at, &at.tension);
+        let residuals = Residuals::new(self.problem, &self.bordered.tangent.at, &at.tension);
         if larger(residuals.force, residuals.length) < larger(kept.residuals.force, kept.residuals.length) {
             return Corrected { at, residuals, off: kept.off, iterations: kept.iterations + 1 };
         }
@@ -135,13 +137,13 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         } else if self.bordered.is_unstressed(tension) {
             Some(vec![0.0; tension.len()]).filter(|none| none != tension)
         } else if self.bordered.has_self_stress(tension) {
-            without_self_stress(self.problem, &self.bordered.at, tension)
+            without_self_stress(self.problem, &self.bordered.tangent.at, tension)
         } else {
             None
         };
         let Some(tension) = least else { return Ok(found) };
         self.bordered.linearize(self.problem, &found.at.x, &tension);
-        let residuals = Residuals::new(self.problem, &self.bordered.at, &tension);
+        let residuals = Residuals::new(self.problem, &self.bordered.tangent.at, &tension);
         let at = Rates { tension, ..found.at.clone() };
         if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {
             self.bordered.factor()?;
@@ -170,8 +172,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         tangent.x.iter_mut().chain(&mut tangent.tension).for_each(|rate| *rate /= speed);
         tangent.parameter /= speed;
         let conjugate = [
-            self.problem.conjugate(&self.bordered.at, &x, &tension),
-            self.problem.conjugate_rate(&self.bordered.at, &x, &tension, &tangent),
+            self.problem.conjugate(&self.bordered.tangent.at, &x, &tension),
+            self.problem.conjugate_rate(&self.bordered.tangent.at, &x, &tension, &tangent),
         ];
         let (work_along, rate_errors) = (self.bordered.work_along(&tangent), self.bordered.rate_errors());
         Ok(PathState {

@@ -2,7 +2,7 @@
 
 use super::bordered::{Bordered, Plane};
 use super::interpolant::Cubic;
-use super::outcome::{PathError, PathSettings};
+use super::outcome::{Found, PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::vector::dot;
 
@@ -39,7 +39,7 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
 
 impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// Makes room for the systems of a problem.
-    pub fn new(problem: &'a mut P, settings: PathSettings) -> Result<Self, PathError> {
+    pub fn new(problem: &'a mut P, settings: PathSettings) -> Found<Self> {
         let (bordered, kinks, origin) = (Bordered::new(problem)?, problem.may_have_kinks(), problem.parameter());
         Ok(Self { problem, bordered, settings, kinks, origin, largest: [0.0; 2] })
     }
@@ -52,7 +52,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
-    pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<PathState, PathError> {
+    pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Found<PathState> {
         let plane = Plane::of_parameter(x.len(), sign);
         let guess = Rates { x, tension, parameter: self.problem.parameter() };
         let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
@@ -61,7 +61,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// Goes to how a state is written, with the reference that belongs to it.
-    pub fn go_to(&mut self, state: &PathState, reference: &[f64]) -> Result<(), PathError> {
+    pub fn go_to(&mut self, state: &PathState, reference: &[f64]) -> Found<()> {
         self.problem.set_reference(reference);
         if self.problem.choice() != state.choice {
             self.problem.set_choice(&state.choice);
@@ -71,7 +71,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The last state of a path as it is written by a new choice, where the present one would soon be singular.
-    pub fn chosen_anew(&mut self, last: &PathState) -> Result<Option<PathState>, PathError> {
+    pub fn chosen_anew(&mut self, last: &PathState) -> Found<Option<PathState>> {
         let Some([x, rates]) = self.problem.choose_anew(&last.x, &last.tangent.x) else { return Ok(None) };
         self.bordered = Bordered::new(self.problem)?;
         let tangent = Rates { x: rates, ..last.tangent.clone() };
@@ -89,7 +89,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         before: Option<&PathState>,
         last: &PathState,
         length: f64,
-    ) -> Result<Option<(PathState, f64)>, PathError> {
+    ) -> Found<Option<(PathState, f64)>> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
         while length > SHORTEST_STEP * self.settings.max_step {
@@ -102,7 +102,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
                 let chord = Cubic::new(last, &state).chord();
                 let way = self.size(&chord);
                 let turn = self.cosine(&last.tangent, &state.tangent);
-                let folds = self.bordered.at.largest_measure_change(&chord.x);
+                let folds = self.bordered.tangent.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);
                 let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
                 let is_short = folds <= LARGEST_MEASURE_CHANGE && self.problem.admits(&last.x, &state.x);
@@ -142,7 +142,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The state of the path at a part of the way from one state to the next.
-    pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Result<Option<PathState>, PathError> {
+    pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Found<Option<PathState>> {
         let cubic = Cubic::new(from, to);
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
         // where there may be a kink only the plane across the unknowns may meet the path, as in a step
@@ -157,12 +157,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The state of the path with this parameter next to a part of the way from one state to the next.
-    pub fn at_parameter(
-        &mut self,
-        from: &PathState,
-        to: &PathState,
-        parameter: f64,
-    ) -> Result<Option<PathState>, PathError> {
+    pub fn at_parameter(&mut self, from: &PathState, to: &PathState, parameter: f64) -> Found<Option<PathState>> {
         let part = (parameter - from.parameter) / (to.parameter - from.parameter);
         let guess = Rates { parameter, ..Cubic::new(from, to).at(part) };
         let plane = Plane::of_parameter(from.x.len(), (to.parameter - from.parameter).signum());
