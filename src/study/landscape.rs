@@ -11,10 +11,9 @@ use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
 use crate::output::table::{Solution, Table, Value};
-use crate::scene::Located;
-use crate::scene::build;
 use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec};
+use crate::scene::{Located, build};
 pub use summary::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 
 /// Checks that the sheet is a patch or torus of a periodic sheet with bars and creases, without locks, pins and loads.

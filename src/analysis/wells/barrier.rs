@@ -129,7 +129,7 @@ pub fn barrier(
     let mut search = Search { assembly, wells, between, go_on };
     for stiffness in tried {
         for bend in 0..=BENDS {
-            match search.from_softness((stiffness, bend, STRENGTH)) {
+            match search.sought((stiffness, bend, STRENGTH)) {
                 Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
                 // over other wells: the way through softer bars may have been the shorter one only there
                 Ok(found) => match by_the_way.take() {
@@ -168,7 +168,7 @@ impl Search<'_> {
     /// against the creases, as where wells and barrier are made by bars alone, states that are held weakly slide down.
     fn held_strongly(&mut self) -> Option<Barrier> {
         for power in 1..=STRONGEST {
-            match self.from_softness((self.assembly.bar_stiffness(), 0, STRENGTH * STRONGER.powi(power))) {
+            match self.sought((self.assembly.bar_stiffness(), 0, STRENGTH * STRONGER.powi(power))) {
                 Ok(found) => return Some(found),
                 Err(_) if (self.go_on)() => {}
                 Err(_) => break,
@@ -179,7 +179,7 @@ impl Search<'_> {
 
     /// The barrier by way of a path in bars of a stiffness, which begins with the bend of a number, and whose states are
     /// held so strongly.
-    fn from_softness(&mut self, (stiffness, bend, strength): (f64, u64, f64)) -> Result<Barrier, BarrierError> {
+    fn sought(&mut self, (stiffness, bend, strength): (f64, u64, f64)) -> Result<Barrier, BarrierError> {
         let Self { assembly, wells, between, .. } = *self;
         let failed = |failure| BarrierError::Path { stiffness, failure };
         let settler = MinimumTracker::new(&assembly.with_bars_at_most(stiffness), strength);

@@ -24,7 +24,7 @@ const BENT: f64 = 0.1;
 impl MinimumTracker {
     /// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number
     /// but zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
-    pub fn string(&self, ends: [&Settled; 2], bend: u64, observe: Observe<'_>) -> Result<Vec<Settled>, Failure> {
+    pub(super) fn string(&self, ends: [&Settled; 2], bend: u64, observe: Observe<'_>) -> Result<Vec<Settled>, Failure> {
         let mut row = self.grown(ends, &self.sideways(ends, bend), observe)?;
         for _ in 0..SWEEPS {
             let moved = self.sweep(&mut row, observe)?;
@@ -36,7 +36,7 @@ impl MinimumTracker {
     }
 
     /// Three states of a row around its highest one, twice as near to each other. The given ones are neighbours in the row.
-    pub fn refined(&self, around: [Settled; 3], observe: Observe<'_>) -> Result<[Settled; 3], Failure> {
+    pub(super) fn refined(&self, around: [Settled; 3], observe: Observe<'_>) -> Result<[Settled; 3], Failure> {
         let [before, top, after] = around;
         let mut middle = |other: &Settled| self.step(&top.place, &between(&top.rho, &other.rho, 0.5), observe);
         let (first, second) = (middle(&before)?, middle(&after)?);
