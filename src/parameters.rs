@@ -11,7 +11,6 @@ const SWITCHES: [&str; 1] = ["closed"];
 
 /// The errors in the words after a pattern.
 #[derive(Debug, Error, PartialEq, Eq)]
-#[allow(missing_docs)] // each variant is documented by its message
 pub(crate) enum ParameterError {
     #[error("`{0}` stands where a parameter was expected; write --key value, and -o FILE for the mesh")]
     NoKey(String),

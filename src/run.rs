@@ -30,8 +30,7 @@ mod sweep;
 mod view;
 
 pub use crate::output::film::FilmOptions;
-pub use crate::study::Observer;
-pub use crate::study::Progress;
+pub use crate::study::{Observer, Progress};
 pub use error::RunError;
 pub use film::film;
 pub use in_memory::{Computed, compute};

@@ -15,7 +15,7 @@ use super::trace::{Folded, Traced};
 use crate::model::{Assembly, Configuration, Domain, Drawn, Gauge};
 use crate::numerics::{larger, worst};
 use crate::solver::continuation::End;
-use crate::solver::{Failure, Options, Step};
+use crate::solver::{Failure, Observe, Options};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -120,12 +120,7 @@ pub(crate) fn relaxed_cylinder(drawn: &Drawn, rigid: &Folded, relaxed: &StateAlo
 }
 
 /// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.
-pub fn relax_along(
-    assembly: &Assembly,
-    options: Options,
-    traced: &Traced,
-    observe: &mut dyn FnMut(&Step) -> bool,
-) -> RelaxedTrajectory {
+pub fn relax_along(assembly: &Assembly, options: Options, traced: &Traced, observe: Observe<'_>) -> RelaxedTrajectory {
     let mut relaxed = RelaxedTrajectory { states: Vec::new(), failure: None };
     let mut track = Track { assembly, options, angles: Vec::new(), crease: None, known: Vec::new() };
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
@@ -203,7 +198,7 @@ impl Track<'_> {
         &mut self,
         (from, to): (&Folded, &Folded),
         halvings: usize,
-        observe: &mut dyn FnMut(&Step) -> bool,
+        observe: Observe<'_>,
     ) -> Result<StateAlong, AlongFailure> {
         let before = self.clone();
         let found = self.step(to, fastest(&to.rates, self.crease), observe);
@@ -221,12 +216,7 @@ impl Track<'_> {
         self.reach((&middle, to), halvings - 1, observe)
     }
 
-    fn step(
-        &mut self,
-        state: &Folded,
-        crease: usize,
-        observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<StateAlong, AlongFailure> {
+    fn step(&mut self, state: &Folded, crease: usize, observe: Observe<'_>) -> Result<StateAlong, AlongFailure> {
         let mut terms = self.assembly.terms().clone();
         terms.locks.push((crease, state.angles[crease]));
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);

@@ -8,8 +8,7 @@ mod stops;
 
 use super::relax::relax_model;
 use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gauge, Model};
-use crate::solver::path::ParametrizedProblem;
-use crate::solver::path::{self, Branch, BranchEnd, PathError, Watch};
+use crate::solver::path::{self, Branch, BranchEnd, ParametrizedProblem, PathError, Watch};
 pub use crate::solver::path::{HalfBranches, PathEntry, PathRecord};
 use crate::solver::{Failure, Options, Start};
 pub use options::PathOptions;

@@ -26,7 +26,6 @@ pub enum OutputError {
 
 /// Parts of a picture or a table that are inconsistent.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[allow(missing_docs)] // each variant is documented by its message
 pub enum ShapeError {
     #[error("array `{array}` has {found} entries, expected {expected}")]
     Length {
@@ -65,7 +64,6 @@ impl ShapeError {
 
 /// A fault of the content of a VTU file.
 #[derive(Debug, Error, PartialEq, Eq)]
-#[allow(missing_docs)] // each variant is documented by its message
 pub enum VtuFault {
     #[error("not a readable VTU file: {0}")]
     Format(String),

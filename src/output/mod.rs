@@ -12,6 +12,7 @@ pub(crate) mod film;
 pub(crate) mod glb;
 pub(crate) mod html;
 pub mod json;
+pub mod net;
 pub(crate) mod paraview;
 pub mod picture;
 pub(crate) mod sequence;

@@ -6,12 +6,13 @@
 
 use super::table::columns_of;
 use crate::math::{Vec3, bounds};
+use serde::Serialize;
 
 /// Largest distance between the first and the last state of a closed trajectory, relative to the extent of the sheet.
 const CLOSED: f64 = 1e-6;
 
 /// States in the order in which they are shown.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct Sequence {
     /// Name of the sequence; empty if it is the only one of the study.
     pub name: String,

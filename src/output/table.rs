@@ -3,7 +3,7 @@
 //! Numbers are written with the fewest digits that are read back exactly; values that were not computed are empty
 //! fields.
 
-use std::fmt::Write;
+use std::fmt::{self, Display, Write};
 
 use super::error::ShapeError;
 use crate::analysis::state::Cylinder;
@@ -62,14 +62,9 @@ impl Column {
             Value::Number(number) => Some(number),
             Value::Word(_) => None,
         };
-        let text = |value: Value| {
-            let mut text = String::new();
-            value.append_to(&mut text);
-            text
-        };
         let wholes = values.clone().map(whole).collect::<Option<_>>().map(Self::Whole);
         let numbers = || values.clone().map(number).collect::<Option<_>>().map(Self::Numbers);
-        wholes.or_else(numbers).unwrap_or_else(|| Self::Words(values.map(text).collect()))
+        wholes.or_else(numbers).unwrap_or_else(|| Self::Words(values.map(|value| value.to_string()).collect()))
     }
 }
 
@@ -148,7 +143,7 @@ impl Table {
             }
             for (at, value) in values.iter().enumerate() {
                 text.push_str(if at > 0 { "," } else { "" });
-                value.append_to(&mut text);
+                let _ = write!(text, "{value}"); // writing to a string does not fail
             }
             text.push('\n');
         }
@@ -156,17 +151,17 @@ impl Table {
     }
 }
 
-impl Value {
-    fn append_to(self, text: &mut String) {
-        // writing to a string does not fail
-        let _ = match self {
-            Self::Whole(number) => write!(text, "{number}"),
-            Self::Word(word) => write!(text, "{word}"),
+/// As in a table: a number that is not known is an empty field.
+impl Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole(number) => write!(f, "{number}"),
+            Self::Word(word) => write!(f, "{word}"),
             Self::Number(number) if number.is_nan() => Ok(()),
             // `{:?}` writes the fewest digits that are read back exactly, with an exponent for very large and small
             // numbers
-            Self::Number(number) => write!(text, "{number:?}"),
-        };
+            Self::Number(number) => write!(f, "{number:?}"),
+        }
     }
 }
 
@@ -217,6 +212,12 @@ pub(crate) struct Solution {
 }
 
 impl Solution {
+    /// The energies of a state, and its residual force and length where they are known.
+    pub(crate) fn new(energy: Energies, residuals: Option<[f64; 2]>) -> Self {
+        let [residual_force, residual_length] = [0, 1].map(|k| residuals.map(|residuals| residuals[k]));
+        Self { energy, residual_force, residual_length }
+    }
+
     /// Returns the names of the columns, with one for each of these terms beside those of edges.
     pub(crate) fn columns<'a>(others: impl IntoIterator<Item = &'a str>) -> Vec<String> {
         let others = others.into_iter().map(|name| format!("energy_{name}"));

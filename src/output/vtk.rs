@@ -18,6 +18,7 @@ use vtkio::model::{
 };
 
 use super::error::ShapeError;
+use super::net::{Grid, Net};
 use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
@@ -88,13 +89,8 @@ pub(crate) fn vtp(path: &Path, surface: &StrainSurface) -> Result<Vec<u8>, Outpu
 
 /// Returns a VTP file of triangles and curves between common points, with arrays of numbers at the points, and of one
 /// number for each curve.
-pub(crate) fn vtp_of_net(
-    path: &Path,
-    points: &[Vec3],
-    (triangles, curves): (&[[usize; 3]], &[Vec<usize>]),
-    arrays: &[(&'static str, Vec<f64>)],
-    of_curves: &[(&'static str, Vec<i32>)],
-) -> Result<Vec<u8>, OutputError> {
+pub(crate) fn vtp_of_net(path: &Path, net: &Net) -> Result<Vec<u8>, OutputError> {
+    let Net { points, triangles, curves, arrays, of_curves } = net;
     let point = checked_scalars(path, arrays, points.len())?;
     let cell = checked_scalars(path, of_curves, curves.len())?;
     let piece = PolyDataPiece {
@@ -107,19 +103,14 @@ pub(crate) fn vtp_of_net(
     bytes(path, DataSet::inline(piece))
 }
 
-/// Returns a VTI file of a map: values at the points `origin + (k1, k2) * spacing`, in the order in which `k1` runs
-/// faster.
-pub(crate) fn vti(
-    path: &Path,
-    size: [usize; 2],
-    [origin, spacing]: [[f64; 2]; 2],
-    arrays: &[(&'static str, Vec<f64>)],
-) -> Result<Vec<u8>, OutputError> {
+/// Returns a VTI file of a map: values at the points of a grid.
+pub(crate) fn vti(path: &Path, grid: &Grid) -> Result<Vec<u8>, OutputError> {
+    let Grid { size, origin, spacing, arrays } = grid;
     let point = checked_scalars(path, arrays, size[0] * size[1])?;
     let [last1, last2] = size.map(|n| n as i32 - 1);
     let extent = Extent::Ranges([0..=last1, 0..=last2, 0..=0]);
     let piece = ImageDataPiece { extent: extent.clone(), data: Attributes { point, cell: vec![] } };
-    let place = |[x, y]: [f64; 2], z: f32| [x as f32, y as f32, z];
+    let place = |[x, y]: &[f64; 2], z: f32| [*x as f32, *y as f32, z];
     let (origin, spacing) = (place(origin, 0.0), place(spacing, 1.0));
     let pieces = vec![Piece::Inline(Box::new(piece))];
     bytes(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
@@ -144,33 +135,19 @@ fn bytes(path: &Path, data: DataSet) -> Result<Vec<u8>, OutputError> {
     let (version, byte_order) = (Version::Auto, ByteOrder::LittleEndian);
     let vtk = Vtk { version, title: String::new(), byte_order, file_path: None, data };
     let mut text = Vec::new();
-    vtk.write_xml(&mut text)
-        .map_err(|error| OutputError::Write { path: path.into(), source: io::Error::other(error) })?;
-    Ok(with_signed_indices(text))
+    let written = vtk.write_xml(&mut text).map_err(io::Error::other);
+    let text = written.and_then(|()| String::from_utf8(text).map_err(io::Error::other));
+    text.map(with_signed_indices).map_err(|source| OutputError::Write { path: path.into(), source })
 }
 
 /// Returns the file with the type of the arrays of connectivity and offsets changed to `Int64`, which VTK itself
 /// writes; the bytes of the numbers are the same.
 ///
 /// vtkio writes `UInt64`; meshio adds signed numbers to these, which makes them floating-point numbers.
-fn with_signed_indices(text: Vec<u8>) -> Vec<u8> {
-    const WRITTEN: &[u8] = b"<DataArray type=\"UInt64\" Name=\"";
-    const SIGNED: &[u8] = b"<DataArray type=\"Int64\" Name=\"";
-    let is_index = |rest: &[u8]| [&b"connectivity\""[..], b"offsets\""].iter().any(|name| rest.starts_with(name));
-    let (mut found, mut rest) = (Vec::with_capacity(text.len()), &text[..]);
-    while let Some((&byte, after)) = rest.split_first() {
-        match rest.strip_prefix(WRITTEN) {
-            Some(name) if is_index(name) => {
-                found.extend_from_slice(SIGNED);
-                rest = name;
-            }
-            _ => {
-                found.push(byte);
-                rest = after;
-            }
-        }
-    }
-    found
+fn with_signed_indices(text: String) -> Vec<u8> {
+    let tag = |kind: &str, name: &str| format!("<DataArray type=\"{kind}\" Name=\"{name}\"");
+    let signed = |text: String, name: &str| text.replace(&tag("UInt64", name), &tag("Int64", name));
+    ["connectivity", "offsets"].into_iter().fold(text, signed).into_bytes()
 }
 
 fn coordinates(points: &[Vec3]) -> IOBuffer {
@@ -340,13 +317,10 @@ mod tests {
         write_vtu(&path("a.vtu"), &samples::hinge(0.3)).unwrap();
         files::write(&path("b.vtp"), vtp(&path("b.vtp"), &super::super::strain_space::samples::cap(5)).unwrap())
             .unwrap();
-        files::write(
-            &path("c.vtp"),
-            vtp_of_net(&path("c.vtp"), &points, (&[[0, 1, 2]], &[vec![0, 1, 2, 0]]), &[], &[]).unwrap(),
-        )
-        .unwrap();
-        files::write(&path("d.vtp"), vtp_of_net(&path("d.vtp"), &points, (&[], &[vec![0, 1]]), &[], &[]).unwrap())
-            .unwrap();
+        let face = Net { points, triangles: vec![[0, 1, 2]], curves: vec![vec![0, 1, 2, 0]], ..Net::default() };
+        files::write(&path("c.vtp"), vtp_of_net(&path("c.vtp"), &face).unwrap()).unwrap();
+        let line = Net { triangles: vec![], curves: vec![vec![0, 1]], ..face };
+        files::write(&path("d.vtp"), vtp_of_net(&path("d.vtp"), &line).unwrap()).unwrap();
         for (name, arrays) in [("a.vtu", 2), ("b.vtp", 2), ("c.vtp", 4), ("d.vtp", 2)] {
             let types = index_types(&path(name));
             assert!(types.len() >= arrays && types.iter().all(|(_, kind)| kind == "Int64"), "{name}: {types:?}");
@@ -443,8 +417,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.vtp");
         let points: Vec<Vec3> = (0..5).map(|k| Vec3::new(f64::from(2 * k), f64::from(2 * k + 1), 0.0)).collect();
-        let vtp =
-            |winding| vtp_of_net(&path, &points, (&[], &[vec![0, 1, 2], vec![3, 4]]), &[], &[("winding1", winding)]);
+        let net = Net { points, curves: vec![vec![0, 1, 2], vec![3, 4]], ..Net::default() };
+        let vtp = |winding| vtp_of_net(&path, &Net { of_curves: vec![("winding1", winding)], ..net.clone() });
         files::write(&path, vtp(vec![2, -1]).unwrap()).unwrap();
         let read = |path: &Path| Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data;
         let piece = PolyDataPiece::try_from(read(&path)).unwrap();
@@ -453,15 +427,13 @@ mod tests {
         assert!(vtp(vec![2]).is_err());
         let path = folder.path().join("a.vti");
         let values = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        files::write(
-            &path,
-            vti(&path, [3, 2], [[-1.0, -2.0], [0.5, 0.25]], &[("determinant", values.clone())]).unwrap(),
-        )
-        .unwrap();
+        let arrays = vec![("determinant", values)];
+        let grid = Grid { size: [3, 2], origin: [-1.0, -2.0], spacing: [0.5, 0.25], arrays };
+        files::write(&path, vti(&path, &grid).unwrap()).unwrap();
         let DataSet::ImageData { extent, origin, spacing, .. } = read(&path) else { panic!("a map is an image") };
         assert_eq!((extent, origin), (Extent::Ranges([0..=2, 0..=1, 0..=0]), [-1.0, -2.0, 0.0]));
         assert_eq!(spacing, [0.5, 0.25, 1.0]);
-        assert!(vti(&path, [3, 3], [[0.0; 2]; 2], &[("determinant", values)]).is_err());
+        assert!(vti(&path, &Grid { size: [3, 3], ..grid }).is_err());
     }
 
     proptest! {

@@ -97,7 +97,7 @@ impl Filmed {
         let mut files = contents(folder, &name)?;
         put_in_order(&mut files);
         let table = own_table(&name, &files).map(str::to_owned);
-        let state = |(file, content): (String, Content<'_>)| Some((row_of(&name, &file), content.into_picture()?));
+        let state = |(file, content): (String, Content<'_>)| Some((row_of(&name, &file), content.picture()?.clone()));
         let (rows, states): (Vec<_>, _) = files.into_iter().filter_map(state).unzip();
         let places = places(table.as_deref(), rows.into_iter());
         Ok(Self { is_modes: MODES.contains(&kind), name, states, places })

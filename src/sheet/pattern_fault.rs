@@ -18,7 +18,6 @@ impl fmt::Display for LineName {
 
 /// The reason why lines are not a crease pattern; the message says how to correct it.
 #[derive(Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // each variant is documented by its message
 pub enum PatternFault {
     #[error("not {format}: {message}")]
     Syntax { format: &'static str, message: String },

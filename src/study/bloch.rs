@@ -18,9 +18,10 @@ use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Drawn};
 use crate::numerics::worst;
 use crate::output::Picture;
-use crate::output::artifact::{Artifact, Net};
+use crate::output::artifact::Artifact;
 use crate::output::figure::bloch::{self as figure, BlochPlot};
 use crate::output::figure::rounded;
+use crate::output::net::{Grid, Net};
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, Draw, StripSpec};
@@ -209,13 +210,13 @@ fn add_maps(answer: &mut Answer, context: &Context<'_>, (found, survey): (&Found
         answer.add(file, artifact);
     };
     let [real, imaginary] = survey.map.clone();
-    let map = Artifact::Grid {
+    let map = Grid {
         size: found.grid,
         origin: found.grid.map(|n| wavenumber(0, n)),
         spacing: found.grid.map(|n| TAU / n as f64),
         arrays: vec![("determinant", real), ("imaginary_part", imaginary)],
     };
-    add(format!("{name}/{name}_determinant.vti"), map);
+    add(format!("{name}/{name}_determinant.vti"), Artifact::Grid(map));
     if let Some(lines) = survey.lines() {
         let winding = |a: usize| lines.lines.iter().map(|line| line.winding[a]).collect();
         let passes = lines.lines.iter().map(|line| line.passes as i32).collect();

@@ -2,8 +2,7 @@
 
 use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::shown_cells::ShownCells;
-use crate::model::Assembly;
-use crate::model::Configuration;
+use crate::model::{Assembly, Configuration};
 use crate::output::OutputError;
 use crate::output::figure::Caption;
 use crate::output::figure::surface::PathPoint;

@@ -11,10 +11,9 @@ use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
 use crate::output::table::{Solution, Table, Value};
-use crate::scene::Located;
-use crate::scene::build;
 use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec};
+use crate::scene::{Located, build};
 pub use summary::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 
 /// Checks that the sheet is a patch or torus of a periodic sheet with bars and creases, without locks, pins and loads.
@@ -265,11 +264,8 @@ fn table(assembly: &Assembly, found: &[Along]) -> Table {
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
             let relaxed = &sample.relaxed;
-            let solution = Solution {
-                energy: energies::columns(assembly.terms(), &relaxed.state),
-                residual_force: Some(relaxed.residual_force),
-                residual_length: Some(relaxed.residual_length),
-            };
+            let residuals = [relaxed.residual_force, relaxed.residual_length];
+            let solution = Solution::new(energies::columns(assembly.terms(), &relaxed.state), Some(residuals));
             let mode = [0, 1, 2].map(|k| along.curvature.map(|curvature| curvature[k]).into());
             let first = [number.into()].into_iter().chain(mode).chain([sample.amplitude.into()]);
             let rounds = [sample.iterations, sample.rounds].map(Value::from);

@@ -25,7 +25,7 @@ fn draw(artifact: &Artifact) -> Option<Draw> {
         Artifact::State(_)
         | Artifact::Surface(_)
         | Artifact::Net(_)
-        | Artifact::Grid { .. }
+        | Artifact::Grid(_)
         | Artifact::Script(_)
         | Artifact::Series(_) => Some(Draw::Vtk),
         Artifact::Svg(_) => Some(Draw::Svg),

@@ -42,11 +42,7 @@ fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
     StateRow {
         step: Some(step as i64),
         shape: cylinder(assembly.drawn(), &state.coordinates),
-        solution: Solution {
-            energy: energies::columns(assembly.terms(), state),
-            residual_force: shown.residuals.map(|r| r[0]),
-            residual_length: shown.residuals.map(|r| r[1]),
-        },
+        solution: Solution::new(energies::columns(assembly.terms(), state), shown.residuals),
         self_intersecting: shown.marks.as_ref().map(|marks| marks.any),
         fold: cell_angles(context, state),
         ..StateRow::default()

@@ -244,17 +244,14 @@ fn row(
         Some(along) => relaxed_cylinder(assembly.drawn(), folded, along),
     };
     let branch = path.traced.branch;
+    let residuals = along.map(|along| [along.relaxed.residual_force, along.relaxed.residual_length]);
     StateRow {
         branch: Some(branch.0 as i64),
         sign: Some(i64::from(branch.1)),
         step: Some(step as i64),
         arc_length: Some(folded.arc_length),
         shape,
-        solution: Solution {
-            energy: energies::columns_if_any(assembly.terms(), state),
-            residual_length: along.map(|along| along.relaxed.residual_length),
-            residual_force: along.map(|along| along.relaxed.residual_force),
-        },
+        solution: Solution::new(energies::columns_if_any(assembly.terms(), state), residuals),
         self_intersecting,
         seam: is_tube(assembly).then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
         fold: state.fold_angle.clone(),

@@ -75,3 +75,6 @@ pub use vector::{larger, worst};
 
 /// A dense real matrix, as it is passed between modules.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;
+
+/// Is told how far a computation has come, as a count, and returns false to stop it.
+pub type GoOn<'a> = &'a mut dyn FnMut(usize) -> bool;

@@ -1,8 +1,7 @@
 //! Roots of systems of equations with as many unknowns or more, by Newton's method with steps of least length.
 
-use super::DenseMatrix;
 use super::dense::{DenseError, least_squares_of_sums};
-use super::larger;
+use super::{DenseMatrix, larger};
 use nalgebra::DVector;
 
 /// How a root is looked for.

@@ -18,9 +18,8 @@
 //! 48 and 96 cells a side (`cargo bench --bench systems`).
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
-use super::order;
-use super::parallel;
 use super::sparse::{Cliques, FIXED, RankOne, Slots, SparsityPattern};
+use super::{order, parallel};
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -12,8 +12,9 @@
 //! negative. Where they are fewer, heavier weights lower the bound; what then still differs is not known. Small
 //! problems are projected on the null space of the rigid measures instead.
 
-use super::kkt::{KktSystem, hessian_size, largest_weighted_entry};
+use super::kkt::{hessian_size, largest_weighted_entry};
 use super::linearization::Linearization;
+use super::tangent::Tangent;
 use foldwell_numerics::dense::Svd;
 use foldwell_numerics::factor::FactorError;
 use foldwell_numerics::random::numbers;
@@ -65,53 +66,80 @@ const LEAST_NEW_PART: f64 = 1e-6;
 /// Seed of the random forces.
 const SEED: u64 = 1;
 
-/// Number of negative eigenvalues of the Hessian at a linearization, on what the rigid measures leave free; `None`
-/// where the bounds of this module do not meet. The system is left factored with a multiple of the identity added.
-pub(super) fn negative_eigenvalues(
-    system: &mut KktSystem,
-    at: &Linearization,
-    compliance: &[f64],
-) -> Result<Option<usize>, FactorError> {
-    let zero = zero_eigenvalue(at, compliance);
-    // with those that may be zero
-    let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
-    if at.gradient.len() <= DENSE_LIMIT {
-        return Ok(negative_by_projection(at, compliance));
-    }
-    if in_doubt == 0 {
-        return Ok(Some(0));
-    }
-    if in_doubt <= MOST_CONFIRMED_BY_MOTIONS {
-        let mut motions = Motions::new(system, at, compliance, -zero);
-        if motions.negative(in_doubt) == in_doubt {
-            return Ok(Some(motions.falling()));
+impl Tangent {
+    /// Number of negative eigenvalues of the Hessian on what the rigid measures leave free; `None` where it cannot be
+    /// established. Eigenvalues that are zero to rounding error count as positive. Factors anew.
+    ///
+    /// # Errors
+    /// As [`Tangent::factor`].
+    pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
+        let zero = zero_eigenvalue(&self.at, &self.compliance);
+        // with those that may be zero
+        let in_doubt = self.count_negative([-zero, 1.0])?;
+        if self.at.gradient.len() <= DENSE_LIMIT {
+            return Ok(negative_by_projection(&self.at, &self.compliance));
         }
-        if at.gradient.len() <= MOST_PROJECTED {
-            return Ok(negative_by_projection(at, compliance));
+        if in_doubt == 0 {
+            return Ok(Some(0));
         }
-    }
-    // too many may be zero, as of a mechanism, or the motions of a large sheet were not found: those that may be zero
-    // are left out
-    let most = system.count_negative(at, compliance, [zero, 1.0])?;
-    if most == 0 || system.weights_are_exact() {
-        return Ok(Some(most));
-    }
-    let least = if most <= MOST_CONFIRMED_BY_MOTIONS {
-        Motions::new(system, at, compliance, zero).negative(most)
-    } else {
-        most
-    };
-    if least == most && most <= MOST_CONFIRMED_BY_MOTIONS {
-        return Ok(Some(most));
-    }
-    for heavier in HEAVIER_WEIGHTS {
-        // less what rounding errors of such weights may add to an eigenvalue, so that the count is an upper bound all
-        // the same
-        if system.count_negative(at, compliance, [-zero * heavier, heavier])? == least {
-            return Ok(Some(least));
+        if in_doubt <= MOST_CONFIRMED_BY_MOTIONS {
+            let mut motions = Motions::new(self, -zero);
+            if motions.negative(in_doubt) == in_doubt {
+                return Ok(Some(motions.falling()));
+            }
+            if self.at.gradient.len() <= MOST_PROJECTED {
+                return Ok(negative_by_projection(&self.at, &self.compliance));
+            }
         }
+        // too many may be zero, as of a mechanism, or the motions of a large sheet were not found: those that may be zero
+        // are left out
+        let most = self.count_negative([zero, 1.0])?;
+        if most == 0 || self.system.weights_are_exact() {
+            return Ok(Some(most));
+        }
+        let least = if most <= MOST_CONFIRMED_BY_MOTIONS { Motions::new(self, zero).negative(most) } else { most };
+        if least == most && most <= MOST_CONFIRMED_BY_MOTIONS {
+            return Ok(Some(most));
+        }
+        for heavier in HEAVIER_WEIGHTS {
+            // less what rounding errors of such weights may add to an eigenvalue, so that the count is an upper bound all
+            // the same
+            if self.count_negative([-zero * heavier, heavier])? == least {
+                return Ok(Some(least));
+            }
+        }
+        Ok(if self.at.gradient.len() <= MOST_PROJECTED {
+            negative_by_projection(&self.at, &self.compliance)
+        } else {
+            None
+        })
     }
-    Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance) } else { None })
+
+    /// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the
+    /// unknowns of length 1; `None` where none is found. Factors anew.
+    ///
+    /// # Errors
+    /// As [`Tangent::factor`].
+    pub fn falling_motion(&mut self) -> Result<Option<Vec<f64>>, FactorError> {
+        let zero = zero_eigenvalue(&self.at, &self.compliance);
+        let in_doubt = self.count_negative([-zero, 1.0])?;
+        let mut motions = Motions::new(self, -zero);
+        motions.negative(in_doubt.min(MOST_CONFIRMED_BY_MOTIONS));
+        Ok(if motions.falling() > 0 { motions.lowest() } else { None })
+    }
+
+    /// Whether the energy falls to second order on one of the softest motions that meet the stiff measures, as the last
+    /// factorization shows them; it may have been made at another state near by. Motions are few: a quick look, and no
+    /// count.
+    pub(super) fn softest_falls(&mut self) -> bool {
+        let mut motions = Motions::new(self, 0.0);
+        motions.answer(&mut numbers(SEED), SOFTEST_MOTIONS);
+        motions.falling() > 0
+    }
+
+    fn count_negative(&mut self, zero_and_weight: [f64; 2]) -> Result<usize, FactorError> {
+        self.system.count_negative(&self.at, &self.compliance, zero_and_weight)
+    }
 }
 
 /// Size up to which an eigenvalue of the factored matrix may be zero.
@@ -135,28 +163,6 @@ fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usiz
         negative_on(at, (compliance, &rows), &free, zero)
     });
     if counted[0] == counted[1] { counted[0] } else { None }
-}
-
-/// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns
-/// of length 1; `None` where none is found. The system is left factored with a multiple of the identity added.
-pub(super) fn falling_motion(
-    system: &mut KktSystem,
-    at: &Linearization,
-    compliance: &[f64],
-) -> Result<Option<Vec<f64>>, FactorError> {
-    let zero = zero_eigenvalue(at, compliance);
-    let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
-    let mut motions = Motions::new(system, at, compliance, -zero);
-    motions.negative(in_doubt.min(MOST_CONFIRMED_BY_MOTIONS));
-    Ok(if motions.falling() > 0 { motions.lowest() } else { None })
-}
-
-/// Whether the energy falls to second order on one of a few soft motions that meet the measures. The system may have
-/// been factored at another state near by.
-pub(super) fn softest_falls(system: &mut KktSystem, at: &Linearization, compliance: &[f64]) -> bool {
-    let mut motions = Motions::new(system, at, compliance, 0.0);
-    motions.answer(&mut numbers(SEED), SOFTEST_MOTIONS);
-    motions.falling() > 0
 }
 
 /// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a
@@ -203,9 +209,7 @@ struct Motion {
 
 /// Orthonormal motions that meet the stiff measures.
 struct Motions<'a> {
-    system: &'a mut KktSystem,
-    at: &'a Linearization,
-    compliance: &'a [f64],
+    tangent: &'a mut Tangent,
     /// Multiple of the identity that is added to the Hessian.
     zero: f64,
     found: Vec<Motion>,
@@ -214,14 +218,14 @@ struct Motions<'a> {
 }
 
 impl<'a> Motions<'a> {
-    fn new(system: &'a mut KktSystem, at: &'a Linearization, compliance: &'a [f64], zero: f64) -> Self {
-        Self { system, at, compliance, zero, found: vec![], energies: vec![] }
+    fn new(tangent: &'a mut Tangent, zero: f64) -> Self {
+        Self { tangent, zero, found: vec![], energies: vec![] }
     }
 
     /// Number of negative eigenvalues on the span of motions, which grows until there are `most`, or until random
     /// forces lead to no new motions.
     fn negative(&mut self, most: usize) -> usize {
-        let unknowns = self.at.gradient.len();
+        let unknowns = self.tangent.at.gradient.len();
         let enough = unknowns.min(MOTIONS_PER_EIGENVALUE * most + FURTHER_MOTIONS);
         let (mut random, mut negative, mut barren) = (numbers(SEED), 0, 0);
         while negative < most && self.found.len() < enough && barren < BARREN_FORCES {
@@ -238,7 +242,7 @@ impl<'a> Motions<'a> {
 
     /// Adds up to this many motions to which a random force leads, each as a force on the next: ever softer ones.
     fn answer(&mut self, random: &mut dyn Iterator<Item = f64>, count: usize) {
-        let mut force: Vec<f64> = random.take(self.at.gradient.len()).collect();
+        let mut force: Vec<f64> = random.take(self.tangent.at.gradient.len()).collect();
         for _ in 0..count {
             let Some(motion) = self.next_motion(&force) else { break };
             force.clone_from(&motion.dx);
@@ -249,8 +253,8 @@ impl<'a> Motions<'a> {
     /// The motion that a force makes, without its parts along those already found; `None` where nothing is left of it,
     /// or where it does not meet the measures.
     fn next_motion(&mut self, force: &[f64]) -> Option<Motion> {
-        let nothing = vec![0.0; self.compliance.len()];
-        let step = self.system.solve(self.at, force, &nothing, SOLVED);
+        let nothing = vec![0.0; self.tangent.compliance.len()];
+        let step = self.tangent.solve(force, &nothing, SOLVED);
         let (mut dx, mut dt) = self.across_the_others(step.dx, step.dt)?;
         for _ in 0..MOST_CORRECTIONS {
             let open = self.open_stretch(&dx, &dt);
@@ -259,7 +263,7 @@ impl<'a> Motions<'a> {
             }
             // what is left is short, and rounding errors of the whole were not
             let no_force = vec![0.0; dx.len()];
-            let back = self.system.solve(self.at, &no_force, &open, SOLVED);
+            let back = self.tangent.solve(&no_force, &open, SOLVED);
             add_scaled(&mut dx, -1.0, &back.dx);
             add_scaled(&mut dt, -1.0, &back.dt);
             (dx, dt) = self.across_the_others(dx, dt)?;
@@ -268,7 +272,7 @@ impl<'a> Motions<'a> {
             return None;
         }
         let mut product = vec![0.0; dx.len()];
-        symmetric_product(self.at.pattern(), &self.at.hessian, &dx, &mut product);
+        symmetric_product(self.tangent.at.pattern(), &self.tangent.at.hessian, &dx, &mut product);
         add_scaled(&mut product, self.zero, &dx);
         Some(Motion { dx, dt, force: product })
     }
@@ -290,15 +294,15 @@ impl<'a> Motions<'a> {
 
     /// The stretch `R dx - C dt` of every measure.
     fn open_stretch(&self, dx: &[f64], dt: &[f64]) -> Vec<f64> {
-        let mut stretch = vec![0.0; self.compliance.len()];
-        self.at.rows().product(dx, &mut stretch);
-        stretch.iter_mut().zip(self.compliance).zip(dt).for_each(|((stretch, c), dt)| *stretch -= c * dt);
+        let mut stretch = vec![0.0; self.tangent.compliance.len()];
+        self.tangent.at.rows().product(dx, &mut stretch);
+        stretch.iter_mut().zip(&self.tangent.compliance).zip(dt).for_each(|((stretch, c), dt)| *stretch -= c * dt);
         stretch
     }
 
     /// The largest of these stretches, in natural sizes.
     fn largest_stretch(&self, stretch: &[f64]) -> f64 {
-        stretch.iter().zip(&self.at.sizes).map(|(stretch, size)| (stretch / size).abs()).fold(0.0, larger)
+        stretch.iter().zip(&self.tangent.at.sizes).map(|(stretch, size)| (stretch / size).abs()).fold(0.0, larger)
     }
 
     /// Adds a motion, and its row of `dx H dx + dt C dt`.
@@ -306,7 +310,7 @@ impl<'a> Motions<'a> {
         self.found.push(motion);
         let [.., last] = self.found.as_slice() else { return };
         let entry = |other: &Motion| {
-            let stretched = last.dt.iter().zip(&other.dt).zip(self.compliance).map(|((a, b), c)| a * b * c);
+            let stretched = last.dt.iter().zip(&other.dt).zip(&self.tangent.compliance).map(|((a, b), c)| a * b * c);
             dot_blocked(&last.dx, &other.force) + stretched.sum::<f64>()
         };
         self.energies.push(self.found.iter().map(entry).collect());
@@ -315,7 +319,7 @@ impl<'a> Motions<'a> {
     /// The motion of the span, of length 1, with the lowest `dx H dx + dt C dt`.
     fn lowest(&self) -> Option<Vec<f64>> {
         let vectors = dense::symmetric_eigen(&self.energies_on_span()).ok()?.vectors;
-        let mut lowest = vec![0.0; self.at.gradient.len()];
+        let mut lowest = vec![0.0; self.tangent.at.gradient.len()];
         self.found.iter().enumerate().for_each(|(k, motion)| add_scaled(&mut lowest, vectors[(k, 0)], &motion.dx));
         Some(lowest)
     }
@@ -328,7 +332,7 @@ impl<'a> Motions<'a> {
     /// Number of independent motions of the span on which the energy itself, without the multiple of the identity,
     /// falls by more than counts as zero.
     fn falling(&self) -> usize {
-        self.below(self.zero - ZERO_IN_PROJECTION * hessian_size(self.at))
+        self.below(self.zero - ZERO_IN_PROJECTION * hessian_size(&self.tangent.at))
     }
 
     /// Number of eigenvalues of `dx H dx + dt C dt` on the span of the motions that are smaller than a value; 0 where

@@ -17,7 +17,7 @@ pub struct Layout {
     pub soft: Cliques,
     /// Unknowns of each stiff measure.
     pub stiff: Cliques,
-    plan: OnceLock<Arc<SymbolicHessian>>,
+    plan: OnceLock<SymbolicHessian>,
 }
 
 /// The pattern of the Hessian, the places of the elements in it, and how it is factored: the same for all states and
@@ -38,11 +38,11 @@ impl Layout {
     }
 
     /// The plan, made when it is first asked for.
-    pub(super) fn plan(&self) -> &Arc<SymbolicHessian> {
+    pub(super) fn plan(&self) -> &SymbolicHessian {
         self.plan.get_or_init(|| {
             let pattern = SparsityPattern::new(self.unknowns, &[&self.soft, &self.stiff]);
             let (soft, stiff) = (Slots::new(&pattern, &self.soft), Slots::new(&pattern, &self.stiff));
-            Arc::new(SymbolicHessian { pattern, soft, stiff, tearing: OnceLock::new() })
+            SymbolicHessian { pattern, soft, stiff, tearing: OnceLock::new() }
         })
     }
 

@@ -121,3 +121,6 @@ pub use newton::{Equilibrium, Failure, Iterate, NewtonError, Options, Start, Ste
 pub use problem::{Collapse, Problem, Residuals};
 pub use stationary::{StationaryPoint, stationary_point};
 pub use tangent::Tangent;
+
+/// Sees every accepted step of an iteration, and returns false to stop it.
+pub type Observe<'a> = &'a mut dyn FnMut(&Step) -> bool;

@@ -1,6 +1,6 @@
 //! The numbers of a problem at one state: energy, gradient, Hessian, gaps and Jacobian.
 
-use super::layout::{Layout, SymbolicHessian};
+use super::layout::Layout;
 use foldwell_numerics::larger;
 use foldwell_numerics::sparse::{Cliques, ElementBlock, FIXED, RankOne, Rows, SparsityPattern};
 use std::sync::Arc;
@@ -63,19 +63,17 @@ pub struct Linearization {
     /// The part of the soft Hessian that is contained.
     pub kind: HessianKind,
     layout: Arc<Layout>,
-    plan: Arc<SymbolicHessian>,
 }
 
 impl Linearization {
     /// Zeros for a problem of this layout, to be filled by [`Problem::linearize`](super::Problem::linearize).
     pub fn new(layout: &Arc<Layout>) -> Self {
-        let plan = layout.plan().clone();
         Self {
             energy: 0.0,
             gradient: vec![0.0; layout.unknowns],
             gaps: vec![0.0; layout.stiff.len()],
             jacobian: vec![0.0; layout.stiff.total()],
-            hessian: vec![0.0; plan.pattern.entries()],
+            hessian: vec![0.0; layout.plan().pattern.entries()],
             sizes: vec![1.0; layout.stiff.len()],
             soft_gradients: vec![0.0; layout.soft.total()],
             soft_stiffness: vec![0.0; layout.soft.len()],
@@ -84,7 +82,6 @@ impl Linearization {
             rest_stiffness: 0.0,
             kind: HessianKind::Full,
             layout: layout.clone(),
-            plan,
         }
     }
 
@@ -110,29 +107,29 @@ impl Linearization {
             }
         }
         let block = ElementBlock { outer: RankOne { weight: stiffness, gradient }, scale: force, block: hessian };
-        self.plan.soft.add_element(number, &block, &mut self.hessian);
+        self.layout.plan().soft.add_element(number, &block, &mut self.hessian);
         if excess > 0.0 || (excess < 0.0 && self.kind == HessianKind::Full) {
-            self.plan.soft.add_outer(number, RankOne { weight: excess, gradient }, &mut self.hessian);
+            self.layout.plan().soft.add_outer(number, RankOne { weight: excess, gradient }, &mut self.hessian);
         }
     }
 
     /// Adds the Hessian of a stiff measure (lower triangle, row by row) times its tension.
     pub fn add_stiff(&mut self, measure: usize, tension: f64, block: &[f64]) {
-        self.plan.stiff.add_block(measure, tension, block, &mut self.hessian);
+        self.layout.plan().stiff.add_block(measure, tension, block, &mut self.hessian);
     }
 
     /// Adds `shift` times the metric, the Gauss-Newton part `sum k g g^T` of the soft Hessian, to `values`.
     pub fn add_metric(&self, shift: f64, values: &mut [f64]) {
         for (element, k) in self.soft_stiffness.iter().enumerate() {
             let gradient = &self.soft_gradients[self.layout.soft.range(element)];
-            self.plan.soft.add_outer(element, RankOne { weight: shift * k, gradient }, values);
+            self.layout.plan().soft.add_outer(element, RankOne { weight: shift * k, gradient }, values);
         }
     }
 
     /// Adds `weight g g^T` of a stiff measure to `values`.
     pub fn add_outer(&self, measure: usize, weight: f64, values: &mut [f64]) {
         let gradient = &self.jacobian[self.layout.stiff.range(measure)];
-        self.plan.stiff.add_outer(measure, RankOne { weight, gradient }, values);
+        self.layout.plan().stiff.add_outer(measure, RankOne { weight, gradient }, values);
     }
 
     /// The rank-one terms of a matrix that contains `part` times the soft elements' Gauss-Newton Hessian and the stiff
@@ -159,22 +156,22 @@ impl Linearization {
         scale(&self.layout.soft, &mut self.soft_gradients);
         scale(&self.layout.stiff, &mut self.jacobian);
         self.gradient.iter_mut().zip(factors).for_each(|(slope, factor)| *slope *= factor);
-        self.plan.pattern.scale(&mut self.hessian, factors);
+        self.layout.plan().pattern.scale(&mut self.hessian, factors);
     }
 
     /// Adds `amount` times the identity to the Hessian.
     pub fn add_identity(&mut self, amount: f64) {
-        self.plan.pattern.add_to_diagonal(&mut self.hessian, amount);
+        self.layout.plan().pattern.add_to_diagonal(&mut self.hessian, amount);
     }
 
     /// Adds `amount` to the diagonal entry of one unknown in the Hessian.
     pub fn add_to_diagonal(&mut self, unknown: usize, amount: f64) {
-        self.plan.pattern.add_to_one(&mut self.hessian, unknown, amount);
+        self.layout.plan().pattern.add_to_one(&mut self.hessian, unknown, amount);
     }
 
     /// SparsityPattern of the Hessian; it has room for the outer products of the stiff gradients.
     pub fn pattern(&self) -> &SparsityPattern {
-        &self.plan.pattern
+        &self.layout.plan().pattern
     }
 
     /// The Jacobian of the stiff measures.

@@ -5,7 +5,6 @@
 //! iteration.
 
 use super::corrections::PATIENT;
-use super::inertia;
 use super::kkt::{Increment, KktSystem};
 use super::linearization::{HessianKind, Linearization};
 use super::problem::Problem;
@@ -16,7 +15,7 @@ pub struct Tangent {
     /// The numbers of the problem at the state.
     pub at: Linearization,
     pub(super) system: KktSystem,
-    compliance: Vec<f64>,
+    pub(super) compliance: Vec<f64>,
 }
 
 impl Tangent {
@@ -60,31 +59,6 @@ impl Tangent {
     /// As [`Tangent::factor`].
     pub fn factor_shortest(&mut self) -> Result<Inertia, FactorError> {
         self.system.factor_shortest(&self.at, &self.compliance)
-    }
-
-    /// Number of negative eigenvalues of the Hessian on what the rigid measures leave free; `None` where it cannot be
-    /// established. Eigenvalues that are zero to rounding error count as positive. Factors anew.
-    ///
-    /// # Errors
-    /// As [`Tangent::factor`].
-    pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
-        inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)
-    }
-
-    /// Whether the energy falls to second order on one of the softest motions that meet the stiff measures, as the last
-    /// factorization shows them; it may have been made at another state near by. Motions are few: a quick look, and no
-    /// count.
-    pub(super) fn softest_falls(&mut self) -> bool {
-        inertia::softest_falls(&mut self.system, &self.at, &self.compliance)
-    }
-
-    /// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the
-    /// unknowns of length 1; `None` where none is found. Factors anew.
-    ///
-    /// # Errors
-    /// As [`Tangent::factor`].
-    pub fn falling_motion(&mut self) -> Result<Option<Vec<f64>>, FactorError> {
-        inertia::falling_motion(&mut self.system, &self.at, &self.compliance)
     }
 
     /// The response of unknowns and tensions to a force on every unknown and a stretch of every stiff measure, by the

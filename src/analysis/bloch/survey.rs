@@ -3,6 +3,7 @@
 
 use super::laurent::wavenumber;
 use super::{BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone};
+use crate::numerics::GoOn;
 use nalgebra::Complex;
 
 /// Steps of a survey, after each of which its observer is asked.
@@ -75,11 +76,7 @@ impl Survey {
 ///
 /// # Errors
 /// [`BlochError`] where there is no determinant, and where a decomposition fails.
-pub fn survey(
-    rigidity: &Rigidity,
-    options: &SurveyOptions,
-    go_on: &mut dyn FnMut(usize) -> bool,
-) -> Result<Option<Survey>, BlochError> {
+pub fn survey(rigidity: &Rigidity, options: &SurveyOptions, go_on: GoOn<'_>) -> Result<Option<Survey>, BlochError> {
     let determinant = Determinant::new(rigidity)?;
     if !go_on(1) {
         return Ok(None);

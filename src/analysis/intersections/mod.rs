@@ -14,8 +14,7 @@ mod depth;
 mod finder;
 mod sheet;
 
-pub use contact::Triangle;
-pub use contact::cross;
+pub use contact::{Triangle, cross};
 pub use depth::depth;
 pub use finder::{Crossings, Finder, crossings};
 pub use sheet::{Marks, STACKED_LAYERS_MARGIN, SelfIntersection};

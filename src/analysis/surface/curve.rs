@@ -10,16 +10,13 @@ use super::folding::SurfaceClosure;
 use super::{cell, sign};
 use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
+use crate::numerics::GoOn;
 use crate::solver::atlas::{Coverage, Surface as _};
 use crate::solver::continuation::{CurveOptions, End, Point, follow};
 use std::f64::consts::TAU;
 
 /// The curve of folded states; no states where no direction is real.
-pub(super) fn curve(
-    assembly: &Assembly,
-    options: &SurfaceOptions,
-    observe: &mut dyn FnMut(usize) -> bool,
-) -> Result<Surface, SurfaceError> {
+pub(super) fn curve(assembly: &Assembly, options: &SurfaceOptions, observe: GoOn<'_>) -> Result<Surface, SurfaceError> {
     let (closure, embedding, second_order) = cell::of(assembly)?;
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let periodic = SpatiallyPeriodic(&embedding);
@@ -60,7 +57,7 @@ impl Surface {
         &mut self,
         (closing, folding): (&mut Closing<'_>, &mut SurfaceClosure<'_>),
         (ray, options): (&Ray, &SurfaceOptions),
-        observe: &mut dyn FnMut(usize) -> bool,
+        observe: GoOn<'_>,
     ) -> Result<End, KinematicsError> {
         let before = self.points.len();
         let limits = CurveOptions {

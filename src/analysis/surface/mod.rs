@@ -26,6 +26,7 @@ mod tip;
 
 use crate::kinematics::KinematicsError;
 use crate::model::Assembly;
+use crate::numerics::GoOn;
 use crate::solver::atlas::{self, Atlas, Chart, Coverage};
 pub use covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
 pub use crossing::Lowest;
@@ -45,11 +46,7 @@ const REACH: f64 = 2.0;
 ///
 /// # Errors
 /// [`SurfaceError`] where the folded states are neither, or their directions are not established.
-pub fn surface(
-    assembly: &Assembly,
-    options: &SurfaceOptions,
-    observe: &mut dyn FnMut(usize) -> bool,
-) -> Result<Surface, SurfaceError> {
+pub fn surface(assembly: &Assembly, options: &SurfaceOptions, observe: GoOn<'_>) -> Result<Surface, SurfaceError> {
     match on_surface(assembly, options, observe) {
         Err(SurfaceError::Curve) => curve::curve(assembly, options, observe),
         found => found,
@@ -60,7 +57,7 @@ pub fn surface(
 pub(super) fn on_surface(
     assembly: &Assembly,
     options: &SurfaceOptions,
-    observe: &mut dyn FnMut(usize) -> bool,
+    observe: GoOn<'_>,
 ) -> Result<Surface, SurfaceError> {
     let (closure, embedding, second_order) = cell::of(assembly)?;
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
@@ -99,7 +96,7 @@ fn cover(
     folding: &mut SurfaceClosure<'_>,
     (starts, options): (&mut starts::Starts, &SurfaceOptions),
     mut charts: atlas::CoverOptions,
-    observe: &mut dyn FnMut(usize) -> bool,
+    observe: GoOn<'_>,
 ) -> Result<Atlas, atlas::AtlasError> {
     let lines = if starts.crossing { starts.list.iter().map(|start| start.line).max().unwrap_or(0) } else { 0 };
     let mut whole: Option<Atlas> = None;
@@ -135,7 +132,7 @@ fn put_together(
     folding: &SurfaceClosure<'_>,
     mut atlas: Atlas,
     starts: &starts::Starts,
-    observe: &mut dyn FnMut(usize) -> bool,
+    observe: GoOn<'_>,
 ) -> Result<Surface, KinematicsError> {
     let branch = starts::branches(&atlas, &starts.list);
     let tip::Left { border, open, nappes } = tip::close(folding, &mut atlas);

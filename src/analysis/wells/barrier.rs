@@ -17,12 +17,12 @@
 
 use super::limit::{Height, STIFFER, flat_energy};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, are_close, which};
-use super::pass::{Descent, Pass, equilibrium, sides};
+use super::pass::{Descent, OPTIONS, Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
-use super::string::{self, string};
+use super::string::STRENGTH;
 use crate::model::Assembly;
+use crate::solver::Failure;
 use crate::solver::inertia::in_words;
-use crate::solver::{Failure, Options};
 use thiserror::Error;
 
 /// Stiffness of bars over that of creases at which a path is sought first.
@@ -39,8 +39,6 @@ const TRIES: usize = 6;
 const BENDS: u64 = 3;
 /// Energies that differ by this part are those of one pass.
 const SAME_PASS: f64 = 1e-8;
-/// Tolerance of a pass.
-const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 /// Least distance of two wells in soft bars, over that of the wells of the sheet.
 const APART: f64 = 1e-3;
 /// How often, at last, a path is held more strongly in the sheet's own bars, and by what factor.
@@ -128,10 +126,10 @@ pub fn barrier(
     if are_close(one, other, SAME_WELL_ANGLE_RAD) {
         return Err(BarrierError::SameShape);
     }
+    let mut search = Search { assembly, wells, between, go_on };
     for stiffness in tried {
         for bend in 0..=BENDS {
-            let attempt = (stiffness, bend, string::STRENGTH);
-            match from_softness(assembly, wells, between, attempt, go_on) {
+            match search.sought((stiffness, bend, STRENGTH)) {
                 Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
                 // over other wells: the way through softer bars may have been the shorter one only there
                 Ok(found) => match by_the_way.take() {
@@ -142,7 +140,7 @@ pub fn barrier(
                 },
                 Err(error) => failed = error,
             }
-            if !go_on() {
+            if !(search.go_on)() {
                 return Err(failed);
             }
             if by_the_way.is_some() || !matches!(failed, BarrierError::Index { .. }) {
@@ -152,28 +150,105 @@ pub fn barrier(
     }
     match by_the_way {
         Some(found) => Ok(found),
-        None if own.is_finite() => held_strongly(assembly, wells, between, go_on).ok_or(failed),
+        None if own.is_finite() => search.held_strongly().ok_or(failed),
         None => Err(failed),
     }
 }
 
-/// The barrier on a path in the sheet's own bars whose states are held ever more strongly: from a pass that is steep
-/// against the creases, as where wells and barrier are made by bars alone, states that are held weakly slide down.
-fn held_strongly(
-    assembly: &Assembly,
-    wells: &[Well],
+/// The search for a barrier between two of the wells.
+struct Search<'a> {
+    assembly: &'a Assembly,
+    wells: &'a [Well],
     between: [usize; 2],
-    go_on: &mut dyn FnMut() -> bool,
-) -> Option<Barrier> {
-    for power in 1..=STRONGEST {
-        let attempt = (assembly.bar_stiffness(), 0, string::STRENGTH * STRONGER.powi(power));
-        match from_softness(assembly, wells, between, attempt, go_on) {
-            Ok(found) => return Some(found),
-            Err(_) if go_on() => {}
-            Err(_) => break,
+    go_on: &'a mut dyn FnMut() -> bool,
+}
+
+impl Search<'_> {
+    /// The barrier on a path in the sheet's own bars whose states are held ever more strongly: from a pass that is steep
+    /// against the creases, as where wells and barrier are made by bars alone, states that are held weakly slide down.
+    fn held_strongly(&mut self) -> Option<Barrier> {
+        for power in 1..=STRONGEST {
+            match self.sought((self.assembly.bar_stiffness(), 0, STRENGTH * STRONGER.powi(power))) {
+                Ok(found) => return Some(found),
+                Err(_) if (self.go_on)() => {}
+                Err(_) => break,
+            }
+        }
+        None
+    }
+
+    /// The barrier by way of a path in bars of a stiffness, which begins with the bend of a number, and whose states are
+    /// held so strongly.
+    fn sought(&mut self, (stiffness, bend, strength): (f64, u64, f64)) -> Result<Barrier, BarrierError> {
+        let Self { assembly, wells, between, .. } = *self;
+        let failed = |failure| BarrierError::Path { stiffness, failure };
+        let settler = MinimumTracker::new(&assembly.with_bars_at_most(stiffness), strength);
+        let mut soft = Vec::new();
+        for well in between {
+            let place = &wells[well].settled.place;
+            let found = settler.free(&place.without_tension(), OPTIONS, &mut |_| (self.go_on)());
+            soft.push(found.map_err(|error| failed(error.failure))?);
+        }
+        let apart = |soft: &Settled, well: usize| settler.distance(&soft.rho, &wells[well].settled.rho);
+        // further from its well than half the way to the other, a state is likely to be a third one
+        let way = settler.distance(&wells[between[0]].settled.rho, &wells[between[1]].settled.rho);
+        let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < 0.5 * way);
+        if !stayed || settler.distance(&soft[0].rho, &soft[1].rho) <= APART * way {
+            return Err(BarrierError::OneWell { stiffness });
+        }
+        let row = settler.string([&soft[0], &soft[1]], bend, &mut |_| (self.go_on)()).map_err(failed)?;
+        let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
+        let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
+        let around = [top - 1, top, top + 1].map(|at| row[at].clone());
+        let first = self.near_top(stiffness, &settler, around)?;
+        let (pass, heights, singular) = followed(assembly, first, stiffness)?;
+        let own = if singular {
+            heights.last().map_or(stiffness, |height| height.stiffness)
+        } else {
+            assembly.bar_stiffness()
+        };
+        let ends = sides(&assembly.with_bars_at_most(own), &pass, &along).map_err(failed)?;
+        let comparison = Comparison::new(assembly);
+        let number = |end: &Settled| which(wells, &end.relaxed.state, &comparison);
+        let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
+        if !(pass.energy > higher) {
+            return Err(BarrierError::TooLow { pass: pass.energy, well: higher });
+        }
+        let path = over(&settler, &pass, &ends);
+        match [number(&ends[1].end), number(&ends[0].end)] {
+            [Some(a), Some(b)] if a != b => {
+                let flat = if singular { flat_energy(assembly, &pass, &heights) } else { None };
+                Ok(Barrier { between, joins: [a, b], pass, singular, flat, heights, stiffness, path })
+            }
+            [Some(well), Some(_)] => Err(BarrierError::OneSided { pass: pass.energy, well }),
+            [None, _] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[1].end.energy }),
+            [_, None] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[0].end.energy }),
         }
     }
-    None
+
+    /// The pass near the middle one of three neighbours in a row of states. Where Newton's method ends in none, or in a
+    /// minimum next to it, the row is refined there.
+    fn near_top(
+        &mut self,
+        stiffness: f64,
+        settler: &MinimumTracker,
+        mut around: [Settled; 3],
+    ) -> Result<Pass, BarrierError> {
+        let mut first = None;
+        for _ in 0..=REFINEMENTS {
+            let [before, top, after] = &around;
+            match index_one(self.assembly, stiffness, [top, before, after]) {
+                Ok(pass) => return Ok(pass),
+                Err(error @ (BarrierError::Index { found: Some(0), .. } | BarrierError::NoPass { .. })) => {
+                    first.get_or_insert(error);
+                }
+                Err(error) => return Err(first.unwrap_or(error)),
+            }
+            let failed = |failure| BarrierError::Path { stiffness, failure };
+            around = settler.refined(around, &mut |_| (self.go_on)()).map_err(failed)?;
+        }
+        Err(first.unwrap_or(BarrierError::NotTried))
+    }
 }
 
 /// Whether two barriers have one pass: its energy, or its height where loads put the zero of the energy elsewhere, is
@@ -188,96 +263,19 @@ fn lower(found: Barrier, other: Option<Barrier>) -> Barrier {
     other.filter(|other| other.pass.energy <= found.pass.energy).unwrap_or(found)
 }
 
-/// The barrier by way of a path in bars of a stiffness, which begins with the bend of a number, and whose states are
-/// held so strongly.
-fn from_softness(
-    assembly: &Assembly,
-    wells: &[Well],
-    between: [usize; 2],
-    (stiffness, bend, strength): (f64, u64, f64),
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<Barrier, BarrierError> {
-    let failed = |failure| BarrierError::Path { stiffness, failure };
-    let settler = MinimumTracker::new(&assembly.with_bars_at_most(stiffness), strength);
-    let mut soft = Vec::new();
-    for well in between {
-        let place = &wells[well].settled.place;
-        soft.push(
-            settler.free(&place.without_tension(), OPTIONS, &mut |_| go_on()).map_err(|error| failed(error.failure))?,
-        );
-    }
-    let apart = |soft: &Settled, well: usize| string::distance(&settler, &soft.rho, &wells[well].settled.rho);
-    // further from its well than half the way to the other, a state is likely to be a third one
-    let way = string::distance(&settler, &wells[between[0]].settled.rho, &wells[between[1]].settled.rho);
-    let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < 0.5 * way);
-    if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART * way {
-        return Err(BarrierError::OneWell { stiffness });
-    }
-    let row = string(&settler, [&soft[0], &soft[1]], bend, &mut |_| go_on()).map_err(failed)?;
-    let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
-    let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
-    let around = [top - 1, top, top + 1].map(|at| row[at].clone());
-    let first = near_top(assembly, stiffness, &settler, around, go_on)?;
-    let (pass, heights, singular) = followed(assembly, first, stiffness)?;
-    let own =
-        if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { assembly.bar_stiffness() };
-    let ends = sides(&assembly.with_bars_at_most(own), &pass, &along, OPTIONS).map_err(failed)?;
-    let comparison = Comparison::new(assembly);
-    let number = |end: &Settled| which(wells, &end.relaxed.state, &comparison);
-    let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
-    if !(pass.energy > higher) {
-        return Err(BarrierError::TooLow { pass: pass.energy, well: higher });
-    }
-    let path = over(&settler, &pass, &ends);
-    match [number(&ends[1].end), number(&ends[0].end)] {
-        [Some(a), Some(b)] if a != b => {
-            let flat = if singular { flat_energy(assembly, &pass, &heights) } else { None };
-            Ok(Barrier { between, joins: [a, b], pass, singular, flat, heights, stiffness, path })
-        }
-        [Some(well), Some(_)] => Err(BarrierError::OneSided { pass: pass.energy, well }),
-        [None, _] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[1].end.energy }),
-        [_, None] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[0].end.energy }),
-    }
-}
-
 /// Returns the distances along the descents to both sides of a pass, and the energies there: from the end of the second
 /// descent up to the pass, and down the first one.
 fn over(settler: &MinimumTracker, pass: &Pass, [one, other]: &[Descent; 2]) -> Vec<(f64, f64)> {
     let row = other.row().rev().chain([(pass.rho.as_slice(), pass.energy)]).chain(one.row());
     let (angles, energies): (Vec<&[f64]>, Vec<f64>) = row.unzip();
-    string::stations(settler, &angles).into_iter().zip(energies).collect()
-}
-
-/// The pass near the middle one of three neighbours in a row of states. Where Newton's method ends in none, or in a
-/// minimum next to it, the row is refined there.
-fn near_top(
-    assembly: &Assembly,
-    stiffness: f64,
-    settler: &MinimumTracker,
-    mut around: [Settled; 3],
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<Pass, BarrierError> {
-    let mut first = None;
-    for _ in 0..=REFINEMENTS {
-        let [before, top, after] = &around;
-        match index_one(assembly, stiffness, [top, before, after]) {
-            Ok(pass) => return Ok(pass),
-            Err(error @ (BarrierError::Index { found: Some(0), .. } | BarrierError::NoPass { .. })) => {
-                first.get_or_insert(error);
-            }
-            Err(error) => return Err(first.unwrap_or(error)),
-        }
-        let failed = |failure| BarrierError::Path { stiffness, failure };
-        around = string::refined(settler, around, &mut |_| go_on()).map_err(failed)?;
-    }
-    Err(first.unwrap_or(BarrierError::NotTried))
+    settler.stations(&angles).into_iter().zip(energies).collect()
 }
 
 /// The pass next to the first of these states at which there is one.
 fn index_one(assembly: &Assembly, stiffness: f64, near: [&Settled; 3]) -> Result<Pass, BarrierError> {
     let mut why = None;
     for state in near {
-        let reason = match equilibrium(&assembly.with_bars_at_most(stiffness), &state.place, OPTIONS) {
+        let reason = match equilibrium(&assembly.with_bars_at_most(stiffness), &state.place) {
             Ok(pass) if pass.negative_eigenvalues == Some(1) => return Ok(pass),
             Ok(pass) => BarrierError::Index { stiffness, found: pass.negative_eigenvalues },
             Err(failure) => BarrierError::NoPass { stiffness, failure },
@@ -295,7 +293,7 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<(Pass, V
     let (mut pass, mut at, mut factor) = (first, stiffness, STIFFER);
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
-        match equilibrium(&assembly.with_bars_at_most(next), &pass.place, OPTIONS) {
+        match equilibrium(&assembly.with_bars_at_most(next), &pass.place) {
             Ok(found)
                 if found.negative_eigenvalues == Some(1)
                     && (next.is_finite() || are_close(&found.rho, &pass.rho, REGULAR)) =>

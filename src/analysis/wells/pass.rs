@@ -15,11 +15,12 @@ use crate::solver::{Failure, Options, Start, stationary_point};
 /// Largest change of a fold angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.2;
 
-/// Steps of the descent from a pass before the sheet is set free, and their tolerance.
+/// Steps of the descent from a pass before the sheet is set free.
 const DESCENT: usize = 12;
 /// Steps after these, each held half as strongly as the one before, that lead on towards the well.
 const LAST_STEPS: usize = 8;
-const DESCENT_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
+/// Tolerance of a pass, and of the wells beside it.
+pub(super) const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 
 /// How often a descent is held a hundred times as strongly, and the part of its strength that it loses in a step.
 const STRONGER: i32 = 4;
@@ -70,11 +71,11 @@ impl Descent {
 }
 
 /// The equilibrium near a place.
-pub(crate) fn equilibrium(assembly: &Assembly, from: &Configuration, options: Options) -> Result<Pass, Failure> {
+pub(crate) fn equilibrium(assembly: &Assembly, from: &Configuration) -> Result<Pass, Failure> {
     let mut model = assembly.model(Gauge::Held);
     let tension = model.enter(from).tension;
     let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension };
-    let found = stationary_point(&mut model, start, LONGEST_ANGLE_STEP_RAD, options)?;
+    let found = stationary_point(&mut model, start, LONGEST_ANGLE_STEP_RAD, OPTIONS)?;
     let state = State::new(&model, &found.x, &found.tension);
     let rho = model.hinge_angles(&found.x);
     Ok(Pass {
@@ -93,18 +94,13 @@ pub(crate) fn equilibrium(assembly: &Assembly, from: &Configuration, options: Op
 /// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
 /// one state, both are held more strongly; where that does not help, with steps that are short against the way from the
 /// pass.
-pub(crate) fn sides(
-    assembly: &Assembly,
-    pass: &Pass,
-    along: &[f64],
-    options: Options,
-) -> Result<[Descent; 2], Failure> {
+pub(crate) fn sides(assembly: &Assembly, pass: &Pass, along: &[f64]) -> Result<[Descent; 2], Failure> {
     let [one_way, other_way] = [1.0, -1.0].map(|sign| along.iter().map(|turn| sign * turn).collect::<Vec<f64>>());
     let differ = |a: &Descent, b: &Descent| !are_close(&a.end.rho, &b.end.rho, SAME_WELL_ANGLE_RAD);
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);
-        let side = |push: &[f64]| descent(assembly, pass, push, strength, options);
+        let side = |push: &[f64]| descent(assembly, pass, push, strength);
         let ends = side(&one_way).and_then(|one| Ok((one, side(&other_way)?)));
         let sound = matches!(&ends, Ok(((a, true), (b, true))) if differ(a, b));
         last = ends.map(|(one, other)| [one.0, other.0]);
@@ -112,7 +108,7 @@ pub(crate) fn sides(
             return last;
         }
     }
-    let careful = |push: &[f64]| careful_descent(assembly, pass, push, options);
+    let careful = |push: &[f64]| careful_descent(assembly, pass, push);
     match (careful(&one_way), careful(&other_way)) {
         (Ok(one), Ok(other)) if differ(&one, &other) => Ok([one, other]),
         _ => last,
@@ -121,13 +117,13 @@ pub(crate) fn sides(
 
 /// Descends from a pass to the side of a push with steps that are short against the way from the pass, so that none
 /// leads across it, however steep the pass and however near the well on the other side.
-fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Options) -> Result<Descent, Failure> {
+fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64]) -> Result<Descent, Failure> {
     let mut strength = STRENGTH * 100f64.powi(STRONGER);
     let mut settler = MinimumTracker::new(assembly, strength);
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + FIRST_PUSH * turn).collect();
     let (mut way, mut place, mut energy) = (Vec::new(), pass.place.clone(), pass.energy);
     for _ in 0..CAREFUL_STEPS {
-        let found = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
+        let found = settler.step(&place, &target, &mut |_| true)?;
         let (step, far) = (largest_difference(&found.rho, &target), largest_difference(&target, &pass.rho));
         if step <= PART_OF_WAY * far && found.energy <= energy {
             (place, energy) = (found.place.clone(), found.energy);
@@ -142,7 +138,7 @@ fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Opti
         }
         settler.strength = strength;
     }
-    let end = settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)?;
+    let end = settler.free(&place.without_tension(), OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
     Ok(Descent { way, end })
 }
 
@@ -152,19 +148,13 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step
 /// went to that side.
-fn descent(
-    assembly: &Assembly,
-    pass: &Pass,
-    push: &[f64],
-    strength: f64,
-    options: Options,
-) -> Result<(Descent, bool), Failure> {
+fn descent(assembly: &Assembly, pass: &Pass, push: &[f64], strength: f64) -> Result<(Descent, bool), Failure> {
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
     let (mut way, mut place, mut strength, mut to_its_side) = (Vec::new(), pass.place.clone(), strength, None);
     let mut settler = MinimumTracker::new(assembly, strength);
     let mut weak = 0;
     while weak < DESCENT {
-        let found = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
+        let found = settler.step(&place, &target, &mut |_| true)?;
         let moved = |((rho, from), turn): ((&f64, &f64), &f64)| (rho - from) * turn;
         to_its_side.get_or_insert_with(|| found.rho.iter().zip(&pass.rho).zip(push).map(moved).sum::<f64>() > 0.0);
         (place, target) = (found.place.clone(), found.rho.clone());
@@ -178,10 +168,10 @@ fn descent(
     }
     for _ in 0..LAST_STEPS {
         settler.strength *= 0.5;
-        let Ok(found) = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true) else { break };
+        let Ok(found) = settler.step(&place, &target, &mut |_| true) else { break };
         (place, target) = (found.place.clone(), found.rho.clone());
         way.push(found);
     }
-    let end = settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)?;
+    let end = settler.free(&place.without_tension(), OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
     Ok((Descent { way, end }, to_its_side == Some(true)))
 }

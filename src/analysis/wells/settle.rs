@@ -9,7 +9,13 @@ use super::work::Work;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_model};
 use crate::analysis::restored;
 use crate::model::{Assembly, Configuration, Element, Gauge, Model};
-use crate::solver::{Options, Problem, Step};
+use crate::solver::{Failure, Observe, Options, Problem};
+
+/// When states on the way between wells are converged.
+const ON_WAY: Options = Options { tolerance: 1e-10, iterations: 60 };
+
+/// A state that has settled, or how its relaxation ended.
+type Found = Result<Settled, Box<RelaxError>>;
 
 /// A settled state.
 #[derive(Clone, Debug)]
@@ -61,12 +67,7 @@ impl MinimumTracker {
     }
 
     /// Relaxes from a place, next to its equilibrium where its tensions are known.
-    pub(crate) fn free(
-        &self,
-        from: &Configuration,
-        options: Options,
-        observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Settled, Box<RelaxError>> {
+    pub(crate) fn free(&self, from: &Configuration, options: Options, observe: Observe<'_>) -> Found {
         self.settled(self.model.clone(), from, options, observe)
     }
 
@@ -74,13 +75,7 @@ impl MinimumTracker {
     ///
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
-    pub fn near(
-        &self,
-        from: &Configuration,
-        target: &[f64],
-        options: Options,
-        observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Settled, Box<RelaxError>> {
+    pub fn near(&self, from: &Configuration, target: &[f64], options: Options, observe: Observe<'_>) -> Found {
         let mut held = self.model.clone();
         held.scale_hinges(1.0 + self.strength);
         let mut rests = held.rests();
@@ -91,13 +86,12 @@ impl MinimumTracker {
         self.settled(held, &from.without_tension(), options, observe)
     }
 
-    fn settled(
-        &self,
-        mut model: Model,
-        from: &Configuration,
-        options: Options,
-        observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Settled, Box<RelaxError>> {
+    /// The same to the accuracy of states on a way.
+    pub(super) fn step(&self, from: &Configuration, to: &[f64], observe: Observe<'_>) -> Result<Settled, Failure> {
+        self.near(from, to, ON_WAY, observe).map_err(|error| error.failure)
+    }
+
+    fn settled(&self, mut model: Model, from: &Configuration, options: Options, observe: Observe<'_>) -> Found {
         let start = model.enter(from);
         let (relaxed, model, x) = relax_model(model, start, options, observe)?;
         let (rho, place) = (model.hinge_angles(&x), relaxed.configuration.clone());

@@ -253,11 +253,7 @@ fn written(font: Font, [x, y]: PaperPoint, words: &str) -> (Font, PaperPoint, St
         return (font, [x, y], escaped(words));
     }
     let width = script::width(words, font.size);
-    let before = match font.anchor {
-        Anchor::Start => 0.0,
-        Anchor::Middle => 0.5 * width,
-        Anchor::End => width,
-    };
+    let before = font.anchor.part() * width;
     let place = if font.turned { [x, y + before] } else { [x - before, y] };
     (Font { anchor: Anchor::Start, ..font }, place, script::spans(words, font.size))
 }

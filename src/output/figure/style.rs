@@ -50,6 +50,17 @@ pub(super) enum Anchor {
     End,
 }
 
+impl Anchor {
+    /// The part of the width of a text that lies before its point.
+    pub(super) fn part(self) -> f64 {
+        match self {
+            Self::Start => 0.0,
+            Self::Middle => 0.5,
+            Self::End => 1.0,
+        }
+    }
+}
+
 impl Style {
     /// Returns the style of a line.
     pub(crate) fn line(colour: Colour, width: f64) -> Self {
@@ -143,11 +154,7 @@ impl Font {
     /// Returns the area of a text placed at a point.
     pub(super) fn area(&self, [x, y]: PaperPoint, words: &str) -> Area {
         let width = self.width(words);
-        let before = match self.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * width,
-            Anchor::End => width,
-        };
+        let before = self.anchor.part() * width;
         let (up, down) = (0.76 * self.size, 0.22 * self.size);
         if self.turned {
             return Area { low: [x - up, y - width + before], high: [x + down, y + before] };

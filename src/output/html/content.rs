@@ -30,15 +30,6 @@ impl<'a> Content<'a> {
         }
     }
 
-    /// Returns the state of the sheet, if this is one.
-    pub(crate) fn into_picture(self) -> Option<Picture> {
-        match self {
-            Self::State(picture) => Some(picture.clone()),
-            Self::StateRead(picture) => Some(*picture),
-            Self::Table(_) | Self::Figure(_) | Self::Other => None,
-        }
-    }
-
     /// Returns what a page shows of a file that is not yet written; `None` for a collection of other files, and for
     /// what cannot be written.
     pub(crate) fn of(artifact: &'a Artifact) -> Option<Self> {
@@ -46,7 +37,7 @@ impl<'a> Content<'a> {
             Artifact::Table(table) => table.to_csv().ok().map(|text| Self::Table(text.into())),
             Artifact::State(picture) => picture.check().is_ok().then_some(Self::State(picture)),
             Artifact::Svg(Ok(text)) => Some(Self::Figure(text.into())),
-            Artifact::Surface(_) | Artifact::Net(_) | Artifact::Grid { .. } => Some(Self::Other),
+            Artifact::Surface(_) | Artifact::Net(_) | Artifact::Grid(_) => Some(Self::Other),
             Artifact::Series(_) | Artifact::Script(_) | Artifact::Svg(Err(_)) | Artifact::Page(_) => None,
         }
     }

@@ -6,7 +6,7 @@ use super::numbers::{Arrays, scale};
 use crate::math::{Vec3, bounds};
 use crate::output::figure::projection::Projection;
 use crate::output::picture::{OnLines, Picture};
-use crate::output::sequence::{places, sequences};
+use crate::output::sequence::{Sequence, places, sequences};
 
 /// A state of a study: the row of its table that describes it, if one does, and its picture.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub(super) struct SheetData {
     meshes: Vec<Mesh>,
     fields: Vec<Field>,
     states: Vec<StateData>,
-    sequences: Vec<Order>,
+    sequences: Vec<Sequence>,
 }
 
 /// Triangles and lines between points; all numbers are places of arrays.
@@ -79,12 +79,6 @@ enum Values {
     Edge(usize),
 }
 
-#[derive(Debug, Serialize)]
-struct Order {
-    name: String,
-    states: Vec<usize>,
-}
-
 impl SheetData {
     /// Collects states; `None` if there is none. `table` is the text of the table of the study, whose columns `branch`
     /// and `sign` tell trajectories apart.
@@ -131,10 +125,10 @@ impl SheetData {
 }
 
 /// Returns the sequences in which the states are shown.
-fn orders(states: &[Numbered<'_>], table: Option<&str>) -> Vec<Order> {
+fn orders(states: &[Numbered<'_>], table: Option<&str>) -> Vec<Sequence> {
     let places = places(table, states.iter().map(|state| state.row));
     let placed: Vec<_> = places.into_iter().zip(states.iter().map(|state| state.picture.points.as_slice())).collect();
-    sequences(&placed).into_iter().map(|sequence| Order { name: sequence.name, states: sequence.states }).collect()
+    sequences(&placed)
 }
 
 /// Returns the middle of the box around points, and half of its diagonal; points that are not finite are left out.

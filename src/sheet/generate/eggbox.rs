@@ -23,12 +23,10 @@ parameters! {
         /// Side of the parallelograms along y. Default 1.
         b: f64 = 1.0,
         /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-        #[serde(deserialize_with = "radians")]
-        sector: f64 = FRAC_PI_3,
+        sector: f64 as "radians" = FRAC_PI_3,
         /// Slope `f` of the sides `a` in radians, in `(pi/2 - sector, pi/2)`; the cell is closed along one direction at
         /// either limit. Default pi/4.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = FRAC_PI_4,
+        fold: f64 as "radians" = FRAC_PI_4,
     }
 }
 

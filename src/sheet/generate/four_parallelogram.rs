@@ -29,22 +29,17 @@ parameters! {
         /// Second side of that zigzag. Default 1.
         d: f64 = 1.0,
         /// Angle between `a` and `c` in radians, in `(0, pi)`. Default 65 degrees.
-        #[serde(deserialize_with = "radians")]
-        ac: f64 = 65f64.to_radians(),
+        ac: f64 as "radians" = 65f64.to_radians(),
         /// Angle between `a` and `d` in radians, in `(0, pi)`. Default 110 degrees.
-        #[serde(deserialize_with = "radians")]
-        ad: f64 = 110f64.to_radians(),
+        ad: f64 as "radians" = 110f64.to_radians(),
         /// Angle between `b` and `c` in radians, in `(0, pi)`. Default 105 degrees.
-        #[serde(deserialize_with = "radians")]
-        bc: f64 = 105f64.to_radians(),
+        bc: f64 as "radians" = 105f64.to_radians(),
         /// Angle between `b` and `d` in radians, in `(0, pi)`. Default 60 degrees.
-        #[serde(deserialize_with = "radians")]
-        bd: f64 = 60f64.to_radians(),
+        bd: f64 as "radians" = 60f64.to_radians(),
         /// Slope `f` of the sides `c` and `d` in radians, half the angle between them; the mirror image with the
         /// opposite sign. `2 |f|` lies between the difference of `ac` and `ad` and their sum (or `2 pi` less that), and
         /// the same for `bc` and `bd`. Default 45 degrees.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = 45f64.to_radians(),
+        fold: f64 as "radians" = 45f64.to_radians(),
     }
 }
 

@@ -30,8 +30,7 @@ parameters! {
         /// Height of a storey. Default 0.8.
         height: f64 = 0.8,
         /// Rotation of a storey against the one below in radians, in `(-pi, pi)`. Default pi/6.
-        #[serde(deserialize_with = "radians")]
-        twist: f64 = FRAC_PI_6,
+        twist: f64 as "radians" = FRAC_PI_6,
         /// Radius of the polygons. Default 1.
         radius: f64 = 1.0,
         /// Whether the lowest and the highest polygon are faces, so that the sheet is a closed drum. Default false.

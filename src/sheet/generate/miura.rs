@@ -22,11 +22,9 @@ parameters! {
         /// Side `b` of the parallelograms, along the zigzags. Default 1.
         b: f64 = 1.0,
         /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-        #[serde(deserialize_with = "radians")]
-        sector: f64 = FRAC_PI_3,
+        sector: f64 as "radians" = FRAC_PI_3,
         /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = PI / 12.0,
+        fold: f64 as "radians" = PI / 12.0,
     }
 }
 
@@ -38,11 +36,9 @@ parameters! {
         /// Side `b` of the parallelograms, along the zigzags. Default 1.
         b: f64 = 1.0,
         /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-        #[serde(deserialize_with = "radians")]
-        sector: f64 = FRAC_PI_3,
+        sector: f64 as "radians" = FRAC_PI_3,
         /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = PI / 12.0,
+        fold: f64 as "radians" = PI / 12.0,
         /// Numbers of cells along the two directions, 1 to 500 each. Default `[5, 5]`.
         cells: [usize; 2] = [5, 5],
     }

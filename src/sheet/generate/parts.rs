@@ -8,14 +8,14 @@ use crate::sheet::build::{Drawing, GluedEdge, build, draw};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};
 use std::f64::consts::PI;
 
-/// Defines the parameters of a pattern, each with its default.
+/// Defines the parameters of a pattern, each with its default. `as "radians"` names the function that reads a value.
 macro_rules! parameters {
-    ($(#[$about:meta])* $pattern:ident { $($(#[$note:meta])* $name:ident: $kind:ty = $default:expr,)+ }) => {
+    ($(#[$about:meta])* $pattern:ident { $($(#[$note:meta])* $name:ident: $kind:ty $(as $reader:literal)? = $default:expr,)+ }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(default, deny_unknown_fields)]
         pub struct $pattern {
-            $($(#[$note])* pub $name: $kind,)+
+            $($(#[$note])* $(#[serde(deserialize_with = $reader)])? pub $name: $kind,)+
         }
 
         impl Default for $pattern {

@@ -32,12 +32,10 @@ parameters! {
         /// Side of the squares between them. Default 2.
         b: f64 = 2.0,
         /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/4.
-        #[serde(deserialize_with = "radians")]
-        twist: f64 = FRAC_PI_4,
+        twist: f64 as "radians" = FRAC_PI_4,
         /// Fold angle between the squares `a` and the parallelograms on their right in radians, in `[0, pi/2)`. Default
         /// 0.3.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = 0.3,
+        fold: f64 as "radians" = 0.3,
     }
 }
 

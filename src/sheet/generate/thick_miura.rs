@@ -26,11 +26,9 @@ parameters! {
         /// As of [`Miura`].
         b: f64 = 1.0,
         /// As of [`Miura`].
-        #[serde(deserialize_with = "radians")]
-        sector: f64 = FRAC_PI_3,
+        sector: f64 as "radians" = FRAC_PI_3,
         /// As of [`Miura`].
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = PI / 12.0,
+        fold: f64 as "radians" = PI / 12.0,
         /// Thickness of the panels, from the lowest hinge to the highest; above 0 and so small that the cell keeps a
         /// length at this fold. Default 0.1.
         thickness: f64 = 0.1,

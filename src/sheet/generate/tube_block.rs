@@ -23,11 +23,9 @@ parameters! {
         /// As of [`MiuraTubes`].
         b: f64 = 1.0,
         /// As of [`MiuraTubes`].
-        #[serde(deserialize_with = "radians")]
-        sector: f64 = FRAC_PI_3,
+        sector: f64 as "radians" = FRAC_PI_3,
         /// As of [`MiuraTubes`].
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = FRAC_PI_4,
+        fold: f64 as "radians" = FRAC_PI_4,
         /// Number of zigzags along the axis, 1 to 500. Default 2.
         cells: usize = 2,
         /// Numbers of tubes along the sides `u` and `v` of a tube, 1 to 100. Default 2 by 2.

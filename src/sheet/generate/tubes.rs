@@ -22,11 +22,9 @@ parameters! {
         /// Side `b` of the parallelograms along the tubes. Default 1.
         b: f64 = 1.0,
         /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
-        #[serde(deserialize_with = "radians")]
-        sector: f64 = FRAC_PI_3,
+        sector: f64 as "radians" = FRAC_PI_3,
         /// Angle `f` between the zigzags and the axis in radians, in `(pi/2 - t, pi/2)`. Default pi/4.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = FRAC_PI_4,
+        fold: f64 as "radians" = FRAC_PI_4,
         /// Number of zigzags along the axis, 1 to 500. Default 2.
         cells: usize = 2,
     }

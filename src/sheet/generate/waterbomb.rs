@@ -32,8 +32,7 @@ parameters! {
         /// Half the height of a base. Default 1.
         b: f64 = 1.0,
         /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
-        #[serde(deserialize_with = "radians")]
-        fold: f64 = 0.0,
+        fold: f64 as "radians" = 0.0,
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::summary::StripSummary;
 use crate::analysis::bloch::strip::{StripModes, fit};
-use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Strip};
+use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Root, Strip};
 use crate::numerics::worst;
 use crate::output::table::{Table, Value};
 use crate::scene::build;
@@ -151,8 +151,7 @@ impl Halves {
             let upper = modes.factors(last, false, 1)?;
             for (place, upwards, decay, factors) in [("lower", true, &below, lower), ("upper", false, &above, upper)] {
                 let Some(decay) = decay else { continue };
-                let roots = bound_roots(decay, upwards);
-                found.rows.extend(matched(&modes, place, &roots, factors));
+                found.rows.extend(matched(&modes, place, bound_roots(decay, upwards), factors));
             }
         }
         found.summary.q1.push(q1);
@@ -182,49 +181,55 @@ impl Halves {
 
     /// The slowest rate of what is bound to the interface, measured where faster modes are gone.
     fn slowest(&self, modes: &StripModes, decay: &Decay, upwards: bool) -> Result<Option<StripRow>, BlochError> {
-        let roots = bound_roots(decay, upwards);
-        let slow = roots.iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let Some(&(z, kappa, condition)) = slow else { return Ok(None) };
+        let slow = bound_roots(decay, upwards).min_by(|a, b| a.kappa().abs().total_cmp(&b.kappa().abs()));
+        let Some(root) = slow else { return Ok(None) };
         let middle = self.cells / 2;
         let bound = modes.bound_to(middle / 2..middle + (self.cells - middle) / 2)?;
         let first = if upwards { middle + 1 } else { middle - 2 };
         let factors = bound.factors(first, upwards, SHIFTS)?;
-        let away = |w: &Complex<f64>| (w / z).ln().norm();
+        let away = |w: &Complex<f64>| (w / root.z).ln().norm();
         let nearest = factors.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let place = if upwards { "above-interface" } else { "below-interface" };
         let measured = nearest.filter(|w| away(w) <= NEAR).map(|w| w.norm().ln());
-        Ok(Some(StripRow { measured, ..row(modes, place, kappa, condition) }))
+        Ok(Some(StripRow { measured, ..row(modes, place, root) }))
     }
 }
 
 /// Factors farther from a root than this in `log z` do not belong to it.
 const NEAR: f64 = 0.01;
 
-fn row(modes: &StripModes, place: &'static str, predicted: f64, condition: f64) -> StripRow {
+fn row(modes: &StripModes, place: &'static str, root: &Root) -> StripRow {
     let found = [modes.zero_modes, modes.self_stresses];
-    StripRow { found, q1: modes.q1, gap: modes.gap, place, measured: None, predicted, condition }
+    StripRow {
+        found,
+        q1: modes.q1,
+        gap: modes.gap,
+        place,
+        measured: None,
+        predicted: root.kappa(),
+        condition: root.condition,
+    }
 }
 
-/// The roots of modes that decay away from a lower place, or from an upper one, with rate and condition.
-fn bound_roots(decay: &Decay, upwards: bool) -> Vec<(Complex<f64>, f64, f64)> {
-    let bound = decay.roots.iter().filter(|root| !root.on_circle() && (root.kappa() < 0.0) == upwards);
-    bound.map(|root| (root.z, root.kappa(), root.condition)).collect()
+/// The roots of modes that decay away from a lower place, or from an upper one.
+fn bound_roots(decay: &Decay, upwards: bool) -> impl Iterator<Item = &Root> {
+    decay.roots.iter().filter(move |root| !root.on_circle() && (root.kappa() < 0.0) == upwards)
 }
 
 /// A row for every root, with the nearest factor that no other root has.
-fn matched(
+fn matched<'a>(
     modes: &StripModes,
     place: &'static str,
-    roots: &[(Complex<f64>, f64, f64)],
+    roots: impl Iterator<Item = &'a Root>,
     mut factors: Vec<Complex<f64>>,
 ) -> Vec<StripRow> {
     let mut rows = Vec::new();
-    for &(z, kappa, condition) in roots {
-        let away = |w: &Complex<f64>| (w / z).ln().norm();
+    for root in roots {
+        let away = |w: &Complex<f64>| (w / root.z).ln().norm();
         let nearest = (0..factors.len()).min_by(|&a, &b| away(&factors[a]).total_cmp(&away(&factors[b])));
         let nearest = nearest.filter(|&k| away(&factors[k]) <= NEAR);
         let measured = nearest.map(|k| factors.swap_remove(k).norm().ln());
-        rows.push(StripRow { measured, ..row(modes, place, kappa, condition) });
+        rows.push(StripRow { measured, ..row(modes, place, root) });
     }
     rows
 }

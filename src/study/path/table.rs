@@ -50,11 +50,8 @@ fn row(
     let numbers = [point.arc_length, point.drive, point.reaction, point.work].map(Value::Number);
     let shape = cylinder(assembly.drawn(), coordinates);
     let shape = shape.map(|Cylinder { curvature, theta, strain }| [&[curvature][..], &theta, &strain].concat());
-    let solution = Solution {
-        energy: energies::columns(assembly.terms(), &point.state),
-        residual_force: Some(point.residual_force),
-        residual_length: Some(point.residual_length),
-    };
+    let residuals = [point.residual_force, point.residual_length];
+    let solution = Solution::new(energies::columns(assembly.terms(), &point.state), Some(residuals));
     // a column of words, also where no state is an event
     let event = Value::Word(point.event.map_or("", event_word));
     let ratios = ratios::of_state(assembly, spec.response.as_ref(), coordinates);

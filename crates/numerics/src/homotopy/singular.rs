@@ -14,8 +14,7 @@
 
 use super::endgame::{PathEnd, Simple, Target, attempted, ends};
 use super::error::HomotopyError;
-use super::sections::on_linear_space;
-use super::sections::random_frame;
+use super::sections::{on_linear_space, random_frame};
 use super::solutions::{SAME_SOLUTION_DISTANCE, conjugate, grouped, turned};
 use super::system::{C, Homotopy, Local, Quadrics, distance, unit};
 use crate::DenseMatrix;

@@ -13,5 +13,4 @@ mod slots;
 pub use cliques::{Cliques, FIXED};
 pub use pattern::{SparsityPattern, symmetric_product};
 pub use rows::Rows;
-pub use slots::ElementBlock;
-pub use slots::{RankOne, Slots};
+pub use slots::{ElementBlock, RankOne, Slots};

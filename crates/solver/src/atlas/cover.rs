@@ -6,9 +6,9 @@ use super::seen::{MOST_DISTANCE_PER_RADII, Neighbour, see, separate, turn};
 use super::surface::{AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
 use super::walk::{self, Arrival};
 use crate::implicit::{CorrectedPoint, Corrector};
-use foldwell_numerics::DenseMatrix;
 use foldwell_numerics::dense::null_space;
 use foldwell_numerics::vector::{add_scaled, norm};
+use foldwell_numerics::{DenseMatrix, GoOn};
 use std::collections::{HashSet, VecDeque};
 
 /// Smallest radius of a chart relative to the largest.
@@ -118,7 +118,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// Places charts until none is open.
-    pub fn run(&mut self, observe: &mut dyn FnMut(usize) -> bool) -> Coverage {
+    pub fn run(&mut self, observe: GoOn<'_>) -> Coverage {
         let (mut seen, mut taken) = (0, 0);
         while let Some(number) = self.waiting.pop_front() {
             self.queued[number] = false;
@@ -341,11 +341,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// The rings of all charts, or of the first ones of an interrupted covering.
-    pub fn rings(
-        &mut self,
-        coverage: &mut Coverage,
-        observe: &mut dyn FnMut(usize) -> bool,
-    ) -> Vec<Vec<Option<usize>>> {
+    pub fn rings(&mut self, coverage: &mut Coverage, observe: GoOn<'_>) -> Vec<Vec<Option<usize>>> {
         let mut rings = Vec::new();
         for number in 0..self.charts.len() {
             let stopped = *coverage == Coverage::Interrupted;

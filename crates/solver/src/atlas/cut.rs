@@ -2,6 +2,7 @@
 
 use super::cover::{CHARTS_PER_QUESTION, Cover};
 use super::surface::{Chart, Coverage, Surface};
+use foldwell_numerics::GoOn;
 use std::collections::HashMap;
 
 /// Part of an edge below which a chart at its end is moved onto the border, so that no thin triangle is left.
@@ -15,7 +16,7 @@ pub(super) fn at_limit<S: Surface>(
     cover: &mut Cover<S>,
     triangles: Vec<[usize; 3]>,
     coverage: &mut Coverage,
-    observe: &mut dyn FnMut(usize) -> bool,
+    observe: GoOn<'_>,
 ) -> (Vec<Chart>, Vec<[usize; 3]>) {
     let mut border = Border { points: HashMap::new(), snapped: HashMap::new() };
     let charts = cover.charts.len();

@@ -26,9 +26,7 @@ mod surface;
 mod tests;
 mod walk;
 
-pub use surface::Surface;
-pub use surface::{Atlas, KEPT};
-pub use surface::{AtlasError, Chart, CoverOptions, Coverage};
+pub use surface::{Atlas, AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
 pub use walk::Section;
 
 /// Finds further starts from the charts and triangles placed so far: points on parts of the surface that meet these in

@@ -30,7 +30,8 @@ pub(super) struct Correction {
 }
 
 /// The matrix `S`, its factorization, and what is needed to solve with it.
-pub(super) struct Reduced {
+pub(super) struct Reduced<'a, P> {
+    pub(super) problem: &'a P,
     layout: Arc<Layout>,
     /// Block and place in its list, for each block with each variable.
     uses: Vec<Vec<(u32, u32)>>,
@@ -41,9 +42,10 @@ pub(super) struct Reduced {
     pub(super) solves: usize,
 }
 
-impl Reduced {
+impl<'a, P: ConstrainedProblem> Reduced<'a, P> {
     /// Analyses the pattern of `S`.
-    pub(super) fn new(blocks: &Blocks, variables: usize) -> Result<Self, FactorError> {
+    pub(super) fn new(problem: &'a P, variables: usize) -> Result<Self, FactorError> {
+        let blocks = problem.blocks();
         let mut uses = vec![Vec::new(); variables];
         for (block, list) in blocks.variables.iter().enumerate() {
             (0..).zip(list).for_each(|(place, &variable)| uses[variable as usize].push((block as u32, place)));
@@ -54,17 +56,17 @@ impl Reduced {
         let layout = Layout::new(node, coupled, Cliques::new());
         let factor = TornFactor::of(layout.tearing()?)?;
         let values = vec![0.0; layout.plan().pattern.entries()];
-        Ok(Self { layout, uses, factor, values, gradients, factorizations: 0, solves: 0 })
+        Ok(Self { problem, layout, uses, factor, values, gradients, factorizations: 0, solves: 0 })
     }
 
     /// Factors `S` for these derivatives.
-    pub(super) fn factor<P: ConstrainedProblem>(&mut self, problem: &P, at: &Derivatives) -> Result<(), FactorError> {
-        let (blocks, plan) = (problem.blocks(), self.layout.plan());
+    pub(super) fn factor(&mut self, at: &Derivatives) -> Result<(), FactorError> {
+        let (blocks, plan) = (self.problem.blocks(), self.layout.plan());
         if blocks.is_empty() {
             return Ok(());
         }
         self.values.fill(0.0);
-        for (variable, (uses, &weight)) in self.uses.iter().zip(problem.compliance()).enumerate() {
+        for (variable, (uses, &weight)) in self.uses.iter().zip(self.problem.compliance()).enumerate() {
             let gradient = &mut self.gradients[self.layout.soft.range(variable)];
             let mut start = 0;
             for &(block, place) in uses {
@@ -74,7 +76,7 @@ impl Reduced {
             }
             plan.soft.add_outer(variable, RankOne { weight, gradient }, &mut self.values);
         }
-        let (layout, gradients, compliance) = (&self.layout, &self.gradients, problem.compliance());
+        let (layout, gradients, compliance) = (&self.layout, &self.gradients, self.problem.compliance());
         let outer =
             |_, variable| RankOne { weight: compliance[variable], gradient: &gradients[layout.soft.range(variable)] };
         self.factorizations += 1;
@@ -93,34 +95,27 @@ impl Reduced {
 
     /// Returns the Gauss-Newton step for the derivatives that were factored. `pull` is `D r`, `values` is `F`; both
     /// may be those of another state.
-    pub(super) fn gauss_newton<P: ConstrainedProblem>(
-        &mut self,
-        problem: &P,
-        at: &Derivatives,
-        pull: &[f64],
-        values: &[f64],
-    ) -> Correction {
-        let blocks = problem.blocks();
+    pub(super) fn gauss_newton(&mut self, at: &Derivatives, pull: &[f64], values: &[f64]) -> Correction {
+        let blocks = self.problem.blocks();
         let mut right = at.product(blocks, pull);
         right.iter_mut().zip(values).for_each(|(right, value)| *right = value - *right);
         let dl = self.solve(right);
         let mut dz = vec![0.0; pull.len()];
         at.add_transpose_product(blocks, &dl, &mut dz);
-        dz.iter_mut().zip(pull).zip(problem.compliance()).for_each(|((dz, pull), c)| *dz = -(pull + c * *dz));
+        dz.iter_mut().zip(pull).zip(self.problem.compliance()).for_each(|((dz, pull), c)| *dz = -(pull + c * *dz));
         Correction { dz, dl }
     }
 
     /// Returns the step with the full Hessian, to which `shift D^-1` is added, to a relative accuracy, from the
     /// Gauss-Newton step for the same residuals; `None` if the Hessian is seen not to be positive definite along the
     /// constraints.
-    pub(super) fn newton<P: ConstrainedProblem>(
+    pub(super) fn newton(
         &mut self,
-        problem: &P,
         at: &Derivatives,
         start: Correction,
         (shift, accuracy): (f64, f64),
     ) -> Option<Correction> {
-        let (blocks, compliance) = (problem.blocks(), problem.compliance());
+        let (blocks, compliance) = (self.problem.blocks(), self.problem.compliance());
         let Correction { mut dz, mut dl } = start;
         let wanted = accuracy * energy_norm(&dz, compliance);
         // what the Gauss-Newton step leaves of the first equation
@@ -129,7 +124,7 @@ impl Reduced {
         let mut direction: Vec<f64> = vec![];
         let mut square = 0.0;
         for _ in 0..MOST_GRADIENTS {
-            let gradient = self.project(problem, at, &mut left, &mut dl);
+            let gradient = self.project(at, &mut left, &mut dl);
             let next = dot_blocked(&left, &gradient);
             if !(next.sqrt() > wanted) {
                 return (next >= 0.0).then_some(Correction { dz, dl });
@@ -158,14 +153,8 @@ impl Reduced {
 
     /// Takes the part `J^T m` out of a residual, puts it into the multipliers, and returns `D` times the rest, which is
     /// along the constraints.
-    fn project<P: ConstrainedProblem>(
-        &mut self,
-        problem: &P,
-        at: &Derivatives,
-        left: &mut [f64],
-        dl: &mut [f64],
-    ) -> Vec<f64> {
-        let (blocks, compliance) = (problem.blocks(), problem.compliance());
+    fn project(&mut self, at: &Derivatives, left: &mut [f64], dl: &mut [f64]) -> Vec<f64> {
+        let (blocks, compliance) = (self.problem.blocks(), self.problem.compliance());
         let scaled: Vec<f64> = left.iter().zip(compliance).map(|(r, c)| c * r).collect();
         let part: Vec<f64> = self.solve(at.product(blocks, &scaled)).into_iter().map(|m| -m).collect();
         at.add_transpose_product(blocks, &part, left);

@@ -24,6 +24,7 @@ struct Follower<'a, C> {
     corrector: Corrector,
     tolerance: f64,
     points: Vec<Point>,
+    events: Vec<Event>,
     /// Interpolant of the last step, through `memory` points.
     dense: Hermite,
     memory: usize,
@@ -52,13 +53,13 @@ pub fn follow<C: Implicit>(
         corrector,
         tolerance: options.tolerance,
         points: vec![start],
+        events: Vec::new(),
         dense: Hermite::default(),
         memory: options.points.clamp(2, MOST),
         spare,
     };
-    let mut events = Vec::new();
-    let end = follower.run(options, values, &mut events, observe);
-    Trajectory { points: follower.points, events, end }
+    let end = follower.run(options, values, observe);
+    Trajectory { points: follower.points, events: follower.events, end }
 }
 
 impl<C: Implicit> Follower<'_, C> {
@@ -66,7 +67,6 @@ impl<C: Implicit> Follower<'_, C> {
         &mut self,
         options: &CurveOptions,
         mut indicators: Vec<f64>,
-        events: &mut Vec<Event>,
         observe: &mut dyn FnMut(&Point) -> bool,
     ) -> End {
         let mut step = FIRST_STEP.min(options.max_step);
@@ -79,11 +79,11 @@ impl<C: Implicit> Follower<'_, C> {
             }
             let before = std::mem::take(&mut indicators);
             (self.indicators)(self.curve, &self.points[self.points.len() - 1], &mut indicators);
-            if let Some(indicator) = self.pass(options, &before, &indicators, events) {
+            if let Some(indicator) = self.pass(options, &before, &indicators) {
                 return End::Stopped { indicator };
             }
             if self.points[self.points.len() - 1].arc_length >= options.length {
-                events.retain(|event| event.point.arc_length <= options.length);
+                self.events.retain(|event| event.point.arc_length <= options.length);
                 return if self.cut(options.length) { End::Length } else { End::Failed };
             }
             if !observe(&self.points[self.points.len() - 1]) {
@@ -167,13 +167,7 @@ impl<C: Implicit> Follower<'_, C> {
     }
 
     /// Locates the sign changes of the last step; one that ends the trajectory becomes its last point.
-    fn pass(
-        &mut self,
-        options: &CurveOptions,
-        before: &[f64],
-        after: &[f64],
-        events: &mut Vec<Event>,
-    ) -> Option<usize> {
+    fn pass(&mut self, options: &CurveOptions, before: &[f64], after: &[f64]) -> Option<usize> {
         let changed = |k: &usize| before[*k] * after[*k] < 0.0 || (after[*k] == 0.0 && before[*k].abs() > 0.0);
         let mut found: Vec<Event> =
             (0..before.len()).filter(changed).filter_map(|k| self.locate(k, before[k], after[k])).collect();
@@ -184,7 +178,7 @@ impl<C: Implicit> Follower<'_, C> {
                 self.points[last] = event.point;
                 return Some(event.indicator);
             }
-            events.push(event);
+            self.events.push(event);
         }
         None
     }

@@ -13,9 +13,9 @@
 
 use super::problem::{ParametrizedProblem, Rates};
 use crate::corrections::{self, IMPATIENT, NearlySolved, Pair};
-use crate::inertia;
-use crate::kkt::{KktSystem, stiffness_size};
-use crate::linearization::{HessianKind, Linearization};
+use crate::kkt::stiffness_size;
+use crate::linearization::HessianKind;
+use crate::tangent::Tangent;
 use foldwell_numerics::DenseMatrix;
 use foldwell_numerics::dense::small::solve_square;
 use foldwell_numerics::factor::{FactorError, Inertia};
@@ -51,10 +51,8 @@ pub(super) struct Plane {
 
 /// The bordered system at one state.
 pub(super) struct Bordered {
-    /// The numbers of the problem at the state.
-    pub at: Linearization,
-    system: KktSystem,
-    compliance: Vec<f64>,
+    /// The problem linearized at the state, and its factorization.
+    pub tangent: Tangent,
     rates: [Vec<f64>; 2],
     /// Length of a change of all unknowns by their natural size.
     length: f64,
@@ -72,9 +70,7 @@ impl Bordered {
         let layout = problem.layout();
         let length = problem.unit_of_length() * (layout.unknowns.max(1) as f64).sqrt();
         Ok(Self {
-            at: Linearization::new(layout),
-            system: KktSystem::new(layout)?,
-            compliance: vec![],
+            tangent: Tangent::new(problem)?,
             rates: [vec![], vec![]],
             length,
             unit: problem.parameter_scale() / length,
@@ -85,24 +81,24 @@ impl Bordered {
 
     /// Linearizes at a state, with the problem's present parameter.
     pub fn linearize<P: ParametrizedProblem>(&mut self, problem: &P, x: &[f64], tension: &[f64]) {
-        problem.linearize(x, tension, HessianKind::Full, &mut self.at);
-        self.compliance = problem.compliance().to_vec();
-        self.rates = problem.parameter_rates(&self.at, x, tension).map(|rates| scaled(rates, self.unit));
+        problem.linearize(x, tension, HessianKind::Full, &mut self.tangent.at);
+        self.tangent.compliance = problem.compliance().to_vec();
+        self.rates = problem.parameter_rates(&self.tangent.at, x, tension).map(|rates| scaled(rates, self.unit));
     }
 
     /// Factors Newton's system where it was linearized, shifted a little where it is singular.
     pub fn factor(&mut self) -> Result<(), FactorError> {
-        let found = self.system.factor(&self.at, &self.compliance, 0.0);
+        let found = self.tangent.factor(0.0);
         self.inertia = match found {
             Ok(inertia) => Some(inertia).filter(|inertia| inertia.ratio > ZERO_PIVOT),
             Err(FactorError::Singular { .. }) => {
-                self.system.factor(&self.at, &self.compliance, SINGULAR_SHIFT)?;
+                self.tangent.factor(SINGULAR_SHIFT)?;
                 None
             }
             Err(error) => return Err(error),
         };
         let [force, gap] = &self.rates;
-        let (dx, dt) = self.system.apply(force, gap);
+        let (dx, dt) = self.tangent.system.apply(force, gap);
         self.response = Pair(dx, dt);
         Ok(())
     }
@@ -111,11 +107,13 @@ impl Bordered {
     /// where it cannot be established.
     pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
         match self.inertia {
-            Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(Some(inertia.negative)),
+            Some(inertia) if inertia.negative == 0 || self.tangent.system.weights_are_exact() => {
+                Ok(Some(inertia.negative))
+            }
             // nothing stores energy
-            _ if max_abs(&self.at.hessian) == 0.0 => Ok(Some(0)),
+            _ if max_abs(&self.tangent.at.hessian) == 0.0 => Ok(Some(0)),
             _ => {
-                let counted = inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)?;
+                let counted = self.tangent.negative_eigenvalues()?;
                 self.factor()?;
                 Ok(counted)
             }
@@ -132,8 +130,8 @@ impl Bordered {
     /// The largest rates that are errors of tangents of unit arc length: of the parameter, and of its conjugate.
     pub fn rate_errors(&self) -> [f64; 2] {
         let [force, gap] = &self.rates;
-        let stiffness = stiffness_size(&self.at, &self.compliance);
-        let lengths: Vec<f64> = gap.iter().zip(&self.at.sizes).map(|(gap, size)| gap / size).collect();
+        let stiffness = stiffness_size(&self.tangent.at, &self.tangent.compliance);
+        let lengths: Vec<f64> = gap.iter().zip(&self.tangent.at.sizes).map(|(gap, size)| gap / size).collect();
         let pull = norm_blocked(&lengths) * stiffness + norm_blocked(force);
         [RATE_ERROR * self.unit * self.length, RATE_ERROR * self.length * pull / self.unit]
     }
@@ -149,14 +147,14 @@ impl Bordered {
     /// Solves as [`Bordered::solve`] does with several planes. Returns the changes, the pulls times a length, and the
     /// relative residual.
     pub fn solve_across(&mut self, force: &[f64], stretch: &[f64], planes: &Planes<'_>) -> (Rates, Vec<f64>, f64) {
-        let stiffness = stiffness_size(&self.at, &self.compliance);
-        let stretches: Vec<f64> = stretch.iter().zip(&self.at.sizes).map(|(b, size)| b / size).collect();
+        let stiffness = stiffness_size(&self.tangent.at, &self.tangent.compliance);
+        let stretches: Vec<f64> = stretch.iter().zip(&self.tangent.at.sizes).map(|(b, size)| b / size).collect();
         let mut forces = force.to_vec();
         forces.extend(planes.distances.iter().map(|distance| stiffness * distance));
         let right = Pair(forces, stretches);
         let mut responses = vec![self.response.clone()];
         for pull in planes.pulls {
-            let (dx, dt) = self.system.apply(pull, &vec![0.0; stretch.len()]);
+            let (dx, dt) = self.tangent.system.apply(pull, &vec![0.0; stretch.len()]);
             let scaled = |rates: Vec<f64>| rates.into_iter().map(|rate| stiffness * rate).collect();
             responses.push(Pair(scaled(dx), scaled(dt)));
         }
@@ -170,7 +168,7 @@ impl Bordered {
         let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, IMPATIENT));
         let Pair(mut x, tension) = refined.found;
         let more = x.split_off(force.len());
-        let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();
+        let tension = tension.iter().zip(&self.tangent.at.sizes).map(|(t, size)| t / size).collect();
         let pulls = more[1..].iter().map(|pull| stiffness * pull).collect();
         (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
     }
@@ -179,22 +177,23 @@ impl Bordered {
     /// system finds when it begins with a part of these, taken at random.
     pub fn has_self_stress(&mut self, tension: &[f64]) -> bool {
         let others: Vec<f64> = tension.iter().zip(numbers(SEED)).map(|(tension, number)| tension * number).collect();
-        let (force, missing) = (self.at.force(&others), self.at.missing(&others, &self.compliance));
-        let found = moved(&others, 1.0, &self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt);
+        let (force, missing) =
+            (self.tangent.at.force(&others), self.tangent.at.missing(&others, &self.tangent.compliance));
+        let found = moved(&others, 1.0, &self.tangent.solve(&force, &missing, WANTED_RESIDUAL).dt);
         norm_blocked(&moved(&found, -1.0, tension)) > SELF_STRESS * norm_blocked(tension)
     }
 
     /// Whether all tensions are rounding errors beside the largest force, as where nothing pulls.
     pub fn is_unstressed(&self, tension: &[f64]) -> bool {
-        let forces: Vec<f64> = tension.iter().zip(&self.at.sizes).map(|(t, size)| t * size).collect();
-        self.pull(&forces) <= NO_FORCE * self.at.largest_force
+        let forces: Vec<f64> = tension.iter().zip(&self.tangent.at.sizes).map(|(t, size)| t * size).collect();
+        self.pull(&forces) <= NO_FORCE * self.tangent.at.largest_force
     }
 
     /// The softest motion in a plane, and across the motions in `others`, by inverse iteration from `guess`: rates whose
     /// part of the unknowns has length 1, and its stiffness. Where the system is singular it is a null vector. Across a
     /// path only branch points have one: where the parameter turns, the motion without stiffness is the path's own.
     pub fn softest(&mut self, guess: &[f64], plane: &Plane, others: &[Rates]) -> (Rates, f64) {
-        let nothing = vec![0.0; self.compliance.len()];
+        let nothing = vec![0.0; self.tangent.compliance.len()];
         let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
         let mut stiffness = f64::NAN;
         for _ in 0..SOFTEST_ROUNDS {
@@ -214,18 +213,18 @@ impl Bordered {
     /// The scaled force that rounding of unknowns of this size makes: a last place of them times the largest stiffness
     /// that is not infinite. It is large only where nearly all forces vanish.
     pub fn rounding_force(&self, size: f64) -> f64 {
-        let rows = self.at.rows();
+        let rows = self.tangent.at.rows();
         let gradient = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]);
-        let finite = self.compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
+        let finite = self.tangent.compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
         let stiffest = finite.map(|(row, c)| gradient(row).powi(2) / c);
-        let stiffest = stiffest.fold(self.at.pattern().largest_diagonal(&self.at.hessian), f64::max);
-        f64::EPSILON * size * stiffest / self.at.largest_force
+        let stiffest = stiffest.fold(self.tangent.at.pattern().largest_diagonal(&self.tangent.at.hessian), f64::max);
+        f64::EPSILON * size * stiffest / self.tangent.at.largest_force
     }
 
     /// Norm of the forces of these tensions, in units of force, before they balance.
     fn pull(&self, tensions: &[f64]) -> f64 {
-        let rows = self.at.rows();
-        let largest = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]) / self.at.sizes[row];
+        let rows = self.tangent.at.rows();
+        let largest = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]) / self.tangent.at.sizes[row];
         tensions.iter().enumerate().map(|(row, t)| (t * largest(row)).powi(2)).sum::<f64>().sqrt()
     }
 
@@ -273,7 +272,7 @@ impl Equations<'_> {
 
 impl NearlySolved for Equations<'_> {
     fn product(&self, Pair(x, t): &Pair) -> Pair {
-        let Bordered { at, compliance, rates: [force, gap], .. } = &*self.bordered;
+        let Bordered { tangent: Tangent { at, compliance, .. }, rates: [force, gap], .. } = &*self.bordered;
         let (dx, more) = x.split_at(force.len());
         let dt: Vec<f64> = t.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
@@ -294,11 +293,11 @@ impl NearlySolved for Equations<'_> {
     }
 
     fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
-        let sizes = self.bordered.at.sizes.clone();
+        let sizes = self.bordered.tangent.at.sizes.clone();
         let stretch: Vec<f64> = b.iter().zip(&sizes).map(|(b, size)| b * size).collect();
         let planes = self.planes.planes;
         let (force, distances) = a.split_at(a.len() - planes.len());
-        let (mut dx, mut dt) = self.bordered.system.apply(force, &stretch);
+        let (mut dx, mut dt) = self.bordered.tangent.system.apply(force, &stretch);
         let left = DenseMatrix::from_fn(planes.len(), planes.len(), |row, column| {
             dot(&planes[row].x, &self.responses[column].0) - Self::corner(planes[row], column)
         });
@@ -315,6 +314,6 @@ impl NearlySolved for Equations<'_> {
     }
 
     fn most_slow(&self) -> usize {
-        self.bordered.system.most_slow()
+        self.bordered.tangent.system.most_slow()
     }
 }

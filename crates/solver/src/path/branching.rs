@@ -7,7 +7,7 @@
 
 use super::bordered::Plane;
 use super::follower::Follower;
-use super::outcome::PathError;
+use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::random::numbers;
 
@@ -37,7 +37,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// First states of the branches that leave at a branch point where this many eigenvalues vanish. Where one vanishes
     /// there are two, one to each side; where two vanish they are found on a ring. Where more vanish, or no ring tells,
     /// they are sought along the null vectors, and there may be others in directions between these.
-    pub(super) fn leaving(&mut self, point: &PathState, multiplicity: usize) -> Result<Leaving, PathError> {
+    pub(super) fn leaving(&mut self, point: &PathState, multiplicity: usize) -> Found<Leaving> {
         let nulls = self.null_vectors(point, multiplicity)?;
         if let Ok(pair) = <&[Rates; 2]>::try_from(&nulls[..])
             && let Some(firsts) = self.ring_of(point, pair)?
@@ -58,7 +58,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// The half branches that a scan of the ring between two null vectors found; `None` where no ring is large enough
     /// to tell.
-    fn ring_of(&mut self, point: &PathState, nulls: &[Rates; 2]) -> Result<Option<Leaving>, PathError> {
+    fn ring_of(&mut self, point: &PathState, nulls: &[Rates; 2]) -> Found<Option<Leaving>> {
         let reference = self.problem.reference(&point.x);
         let Some((zeros, states)) = self.half_branches(point, nulls)? else { return Ok(None) };
         let mut firsts = vec![];
@@ -73,7 +73,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// The directions, across the path, of the motions whose stiffness vanishes: orthonormal.
-    fn null_vectors(&mut self, point: &PathState, multiplicity: usize) -> Result<Vec<Rates>, PathError> {
+    fn null_vectors(&mut self, point: &PathState, multiplicity: usize) -> Found<Vec<Rates>> {
         self.problem.set_parameter(point.parameter);
         self.bordered.linearize(self.problem, &point.x, &point.tension);
         self.bordered.factor()?;
@@ -98,7 +98,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// The first state of the branch that leaves along a direction, on the side of this sign.
-    fn leave(&mut self, point: &PathState, direction: &Rates, sign: f64) -> Result<Option<PathState>, PathError> {
+    fn leave(&mut self, point: &PathState, direction: &Rates, sign: f64) -> Found<Option<PathState>> {
         let mut plane = Plane::across(direction, self.bordered.unit());
         plane.x.iter_mut().for_each(|x| *x *= sign);
         plane.parameter *= sign;

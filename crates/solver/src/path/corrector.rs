@@ -1,6 +1,8 @@
 //! Newton's method onto a path, across a plane.
 
-use super::bordered::{Bordered, Plane, REFUSED_RESIDUAL};
+use super::bordered::{Plane, REFUSED_RESIDUAL};
+use super::follower::Follower;
+use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::problem::Residuals;
 use crate::self_stress::without_self_stress;
@@ -24,177 +26,165 @@ const MOST_ROUNDING: f64 = 1e-8;
 /// known.
 const STRETCH_ERROR: f64 = 1e-6;
 
-/// A state near the path.
-pub(super) type Guess = Rates;
-
 /// A state on the path, and how it was reached.
-pub(super) struct Corrected {
-    pub at: Guess,
-    pub residuals: Residuals,
+struct Corrected {
+    at: Rates,
+    residuals: Residuals,
     /// Length of the first Newton step, the error of the prediction.
-    pub off: f64,
-    pub iterations: usize,
+    off: f64,
+    iterations: usize,
 }
 
-/// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge,
-/// or leads to a state in which derivatives tell nothing.
-pub(super) fn correct<P: ParametrizedProblem>(
-    problem: &mut P,
-    bordered: &mut Bordered,
-    mut at: Guess,
-    plane: &Plane,
-    tolerance: f64,
-) -> Result<Option<Corrected>, FactorError> {
-    let (mut last, mut off, mut polished) = (f64::INFINITY, 0.0, 0);
-    for iterations in 0..=MOST_STEPS {
-        problem.set_parameter(at.parameter);
-        bordered.linearize(problem, &at.x, &at.tension);
-        let residuals = Residuals::new(problem, &bordered.at, &at.tension);
-        let size = larger(residuals.force, residuals.length);
-        // no step makes residuals smaller that rounding errors of the unknowns make
-        let rounding = larger(MOST_ROUNDING, bordered.rounding_force(max_abs(&at.x)));
-        let rounded = residuals.length <= tolerance && size <= rounding;
-        if size <= tolerance || (polished == MOST_POLISHED && rounded) {
-            let found = precise(problem, bordered, Corrected { at, residuals, off, iterations }, plane)?;
-            return Ok(Some(found).filter(|found| is_sound(problem, found)));
-        }
-        if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
-            break;
-        }
-        bordered.factor()?;
-        let (force, missing) = (bordered.at.force(&at.tension), bordered.at.missing(&at.tension, problem.compliance()));
-        let (step, residual) = bordered.solve(&force, &missing, 0.0, plane);
-        let length = norm_blocked(&step.x).hypot(step.parameter / bordered.unit());
-        let small = length <= ROUNDING * larger(max_abs(&at.x), bordered.length());
-        // from one side of a kink to the other steps may become longer
-        let contracts = problem.may_have_kinks() || length <= SLOWEST_CONTRACTION * last;
-        if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || contracts) {
-            // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
-            let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), bordered.length());
-            let kept = Corrected { at, residuals, off, iterations };
-            let found = (rounded && is_short).then(|| bettered(problem, bordered, kept, &step));
-            return Ok(found.filter(|found| is_sound(problem, found)));
-        }
-        if iterations == 0 {
-            off = length;
-        }
-        polished += usize::from(small);
-        last = length;
-        at.add(1.0, &step);
+impl<P: ParametrizedProblem> Follower<'_, P> {
+    /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
+    pub fn settle(&mut self, guess: Rates, plane: &Plane, arc: f64) -> Found<Option<(PathState, f64)>> {
+        let Some(found) = self.correct(guess, plane)? else { return Ok(None) };
+        let off = found.off;
+        Ok(Some((self.complete(found, plane, arc)?, off)))
     }
-    Ok(None)
-}
 
-/// Whether derivatives tell something about a state.
-fn is_sound<P: ParametrizedProblem>(problem: &P, found: &Corrected) -> bool {
-    problem.breakdown(&found.at.x).is_none() && problem.energy(&found.at.x).is_finite()
-}
-
-/// Returns a state whose gaps are within the tolerance, but not those that very stiff measures have by their tensions,
-/// after one step more: a self stress of theirs would be that of the guess.
-fn precise<P: ParametrizedProblem>(
-    problem: &mut P,
-    bordered: &mut Bordered,
-    found: Corrected,
-    plane: &Plane,
-) -> Result<Corrected, FactorError> {
-    let missing = bordered.at.missing(&found.at.tension, problem.compliance());
-    let stretched =
-        problem.compliance().iter().zip(&found.at.tension).fold(0.0, |most, (c, t)| f64::max(most, c * t.abs()));
-    if max_abs(&missing) <= STRETCH_ERROR * stretched || stretched == 0.0 {
-        return Ok(found);
+    /// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge,
+    /// or leads to a state in which derivatives tell nothing.
+    fn correct(&mut self, mut at: Rates, plane: &Plane) -> Result<Option<Corrected>, FactorError> {
+        let (tolerance, mut last, mut off, mut polished) = (self.settings.tolerance, f64::INFINITY, 0.0, 0);
+        for iterations in 0..=MOST_STEPS {
+            self.problem.set_parameter(at.parameter);
+            self.bordered.linearize(self.problem, &at.x, &at.tension);
+            let residuals = Residuals::new(self.problem, &self.bordered.tangent.at, &at.tension);
+            let size = larger(residuals.force, residuals.length);
+            // no step makes residuals smaller that rounding errors of the unknowns make
+            let rounding = larger(MOST_ROUNDING, self.bordered.rounding_force(max_abs(&at.x)));
+            let rounded = residuals.length <= tolerance && size <= rounding;
+            if size <= tolerance || (polished == MOST_POLISHED && rounded) {
+                let found = self.precise(Corrected { at, residuals, off, iterations }, plane)?;
+                return Ok(Some(found).filter(|found| self.is_sound(found)));
+            }
+            if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
+                break;
+            }
+            self.bordered.factor()?;
+            let (force, missing) = (
+                self.bordered.tangent.at.force(&at.tension),
+                self.bordered.tangent.at.missing(&at.tension, self.problem.compliance()),
+            );
+            let (step, residual) = self.bordered.solve(&force, &missing, 0.0, plane);
+            let length = norm_blocked(&step.x).hypot(step.parameter / self.bordered.unit());
+            let small = length <= ROUNDING * larger(max_abs(&at.x), self.bordered.length());
+            // from one side of a kink to the other steps may become longer
+            let contracts = self.problem.may_have_kinks() || length <= SLOWEST_CONTRACTION * last;
+            if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || contracts) {
+                // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
+                let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), self.bordered.length());
+                let kept = Corrected { at, residuals, off, iterations };
+                let found = (rounded && is_short).then(|| self.bettered(kept, &step));
+                return Ok(found.filter(|found| self.is_sound(found)));
+            }
+            if iterations == 0 {
+                off = length;
+            }
+            polished += usize::from(small);
+            last = length;
+            at.add(1.0, &step);
+        }
+        Ok(None)
     }
-    bordered.factor()?;
-    let force = bordered.at.force(&found.at.tension);
-    let (step, residual) = bordered.solve(&force, &missing, 0.0, plane);
-    Ok(if residual <= REFUSED_RESIDUAL { bettered(problem, bordered, found, &step) } else { found })
-}
 
-/// Returns the state that a step leads to if its residuals are smaller, otherwise the state as it is.
-fn bettered<P: ParametrizedProblem>(
-    problem: &mut P,
-    bordered: &mut Bordered,
-    kept: Corrected,
-    step: &Rates,
-) -> Corrected {
-    let mut at = kept.at.clone();
-    at.add(1.0, step);
-    problem.set_parameter(at.parameter);
-    bordered.linearize(problem, &at.x, &at.tension);
-    let residuals = Residuals::new(problem, &bordered.at, &at.tension);
-    if larger(residuals.force, residuals.length) < larger(kept.residuals.force, kept.residuals.length) {
-        return Corrected { at, residuals, off: kept.off, iterations: kept.iterations + 1 };
+    /// Whether derivatives tell something about a state.
+    fn is_sound(&self, found: &Corrected) -> bool {
+        self.problem.breakdown(&found.at.x).is_none() && self.problem.energy(&found.at.x).is_finite()
     }
-    problem.set_parameter(kept.at.parameter);
-    bordered.linearize(problem, &kept.at.x, &kept.at.tension);
-    kept
-}
 
-/// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
-fn relieved<P: ParametrizedProblem>(
-    problem: &mut P,
-    bordered: &mut Bordered,
-    found: Corrected,
-) -> Result<Corrected, FactorError> {
-    let tension = &found.at.tension;
-    let least = if !problem.compliance().contains(&0.0) {
-        None
-    } else if bordered.is_unstressed(tension) {
-        Some(vec![0.0; tension.len()]).filter(|none| none != tension)
-    } else if bordered.has_self_stress(tension) {
-        without_self_stress(problem, &bordered.at, tension)
-    } else {
-        None
-    };
-    let Some(tension) = least else { return Ok(found) };
-    bordered.linearize(problem, &found.at.x, &tension);
-    let residuals = Residuals::new(problem, &bordered.at, &tension);
-    let at = Guess { tension, ..found.at.clone() };
-    if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {
-        bordered.factor()?;
-        return Ok(Corrected { at, residuals, ..found });
+    /// Returns a state whose gaps are within the tolerance, but not those that very stiff measures have by their tensions,
+    /// after one step more: a self stress of theirs would be that of the guess.
+    fn precise(&mut self, found: Corrected, plane: &Plane) -> Result<Corrected, FactorError> {
+        let missing = self.bordered.tangent.at.missing(&found.at.tension, self.problem.compliance());
+        let stretched = self
+            .problem
+            .compliance()
+            .iter()
+            .zip(&found.at.tension)
+            .fold(0.0, |most, (c, t)| f64::max(most, c * t.abs()));
+        if max_abs(&missing) <= STRETCH_ERROR * stretched || stretched == 0.0 {
+            return Ok(found);
+        }
+        self.bordered.factor()?;
+        let force = self.bordered.tangent.at.force(&found.at.tension);
+        let (step, residual) = self.bordered.solve(&force, &missing, 0.0, plane);
+        Ok(if residual <= REFUSED_RESIDUAL { self.bettered(found, &step) } else { found })
     }
-    bordered.linearize(problem, &found.at.x, &found.at.tension);
-    bordered.factor()?;
-    Ok(found)
-}
 
-/// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
-/// inertia.
-pub(super) fn complete<P: ParametrizedProblem>(
-    problem: &mut P,
-    bordered: &mut Bordered,
-    found: Corrected,
-    plane: &Plane,
-    arc_length: f64,
-) -> Result<PathState, FactorError> {
-    bordered.factor()?;
-    let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } =
-        relieved(problem, bordered, found)?;
-    let negative_eigenvalues = bordered.negative_eigenvalues()?;
-    let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
-    let (mut tangent, _) = bordered.solve(&forces, &stretches, 1.0, plane);
-    let speed = norm_blocked(&tangent.x).hypot(tangent.parameter / bordered.unit()) / bordered.length();
-    tangent.x.iter_mut().chain(&mut tangent.tension).for_each(|rate| *rate /= speed);
-    tangent.parameter /= speed;
-    let conjugate =
-        [problem.conjugate(&bordered.at, &x, &tension), problem.conjugate_rate(&bordered.at, &x, &tension, &tangent)];
-    let (work_along, rate_errors) = (bordered.work_along(&tangent), bordered.rate_errors());
-    Ok(PathState {
-        arc_length,
-        x,
-        tension,
-        parameter,
-        tangent,
-        conjugate,
-        residual_force: residuals.force,
-        residual_length: residuals.length,
-        negative_eigenvalues,
-        work_along,
-        rate_errors,
-        iterations,
-        choice: problem.choice(),
-    })
+    /// Returns the state that a step leads to if its residuals are smaller, otherwise the state as it is.
+    fn bettered(&mut self, kept: Corrected, step: &Rates) -> Corrected {
+        let mut at = kept.at.clone();
+        at.add(1.0, step);
+        self.problem.set_parameter(at.parameter);
+        self.bordered.linearize(self.problem, &at.x, &at.tension);
+        let residuals = Residuals::new(self.problem, &self.bordered.tangent.at, &at.tension);
+        if larger(residuals.force, residuals.length) < larger(kept.residuals.force, kept.residuals.length) {
+            return Corrected { at, residuals, off: kept.off, iterations: kept.iterations + 1 };
+        }
+        self.problem.set_parameter(kept.at.parameter);
+        self.bordered.linearize(self.problem, &kept.at.x, &kept.at.tension);
+        kept
+    }
+
+    /// Takes a self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
+    fn relieved(&mut self, found: Corrected) -> Result<Corrected, FactorError> {
+        let tension = &found.at.tension;
+        let least = if !self.problem.compliance().contains(&0.0) {
+            None
+        } else if self.bordered.is_unstressed(tension) {
+            Some(vec![0.0; tension.len()]).filter(|none| none != tension)
+        } else if self.bordered.has_self_stress(tension) {
+            without_self_stress(self.problem, &self.bordered.tangent.at, tension)
+        } else {
+            None
+        };
+        let Some(tension) = least else { return Ok(found) };
+        self.bordered.linearize(self.problem, &found.at.x, &tension);
+        let residuals = Residuals::new(self.problem, &self.bordered.tangent.at, &tension);
+        let at = Rates { tension, ..found.at.clone() };
+        if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {
+            self.bordered.factor()?;
+            return Ok(Corrected { at, residuals, ..found });
+        }
+        self.bordered.linearize(self.problem, &found.at.x, &found.at.tension);
+        self.bordered.factor()?;
+        Ok(found)
+    }
+
+    /// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
+    /// inertia.
+    fn complete(&mut self, found: Corrected, plane: &Plane, arc_length: f64) -> Result<PathState, FactorError> {
+        self.bordered.factor()?;
+        let Corrected { at: Rates { x, tension, parameter }, residuals, iterations, .. } = self.relieved(found)?;
+        let negative_eigenvalues = self.bordered.negative_eigenvalues()?;
+        let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
+        let (mut tangent, _) = self.bordered.solve(&forces, &stretches, 1.0, plane);
+        let speed = norm_blocked(&tangent.x).hypot(tangent.parameter / self.bordered.unit()) / self.bordered.length();
+        tangent.x.iter_mut().chain(&mut tangent.tension).for_each(|rate| *rate /= speed);
+        tangent.parameter /= speed;
+        let conjugate = [
+            self.problem.conjugate(&self.bordered.tangent.at, &x, &tension),
+            self.problem.conjugate_rate(&self.bordered.tangent.at, &x, &tension, &tangent),
+        ];
+        let (work_along, rate_errors) = (self.bordered.work_along(&tangent), self.bordered.rate_errors());
+        Ok(PathState {
+            arc_length,
+            x,
+            tension,
+            parameter,
+            tangent,
+            conjugate,
+            residual_force: residuals.force,
+            residual_length: residuals.length,
+            negative_eigenvalues,
+            work_along,
+            rate_errors,
+            iterations,
+            choice: self.problem.choice(),
+        })
+    }
 }
 
 impl Plane {

@@ -5,8 +5,8 @@ use super::branching::guesses;
 use super::exits::SAME_STATE;
 use super::follower::{Follower, LEAST_TANGENT_COSINE};
 use super::interpolant::Cubic;
-use super::outcome::{PathError, PathMark};
-use super::problem::{ParametrizedProblem, PathState};
+use super::outcome::{Found, PathMark};
+use super::problem::{Ends, ParametrizedProblem, PathState};
 
 /// Part of a step to which sign changes are located, and the largest number of states tried.
 const LOCATED_PART: f64 = 1e-12;
@@ -25,6 +25,9 @@ const NEARER: f64 = 0.5;
 const MOST_ADDED: usize = 8;
 /// Largest number of changes of the level that are sought in a step.
 const MOST_BRANCH_POINTS: usize = 16;
+
+/// States at which something happens, and what.
+pub(super) type Marks = Vec<(PathState, PathMark)>;
 
 /// Functions that the observer of a path watches besides the solver's own.
 pub trait Watch<P> {
@@ -101,11 +104,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// what tells of them as it was. `watched` are the values of the watched functions at both ends.
     pub(super) fn marks(
         &mut self,
-        [from, to]: [&PathState; 2],
+        [from, to]: Ends<'_>,
         middle: Option<&PathState>,
         watched: [&[f64]; 2],
         watch: &mut dyn Watch<P>,
-    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
+    ) -> Found<Marks> {
         let mut found = vec![];
         let inner = middle.filter(|middle| middle.arc_length < to.arc_length);
         let states = self.with_least_rates([from].into_iter().chain(inner).chain([to]).cloned().collect())?;
@@ -120,10 +123,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// function.
     pub(super) fn marks_asked_for(
         &mut self,
-        [from, to]: [&PathState; 2],
+        [from, to]: Ends<'_>,
         watched: [&[f64]; 2],
         watch: &mut dyn Watch<P>,
-    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
+    ) -> Found<Marks> {
         let mut found = vec![];
         for function in (0..watched[0].len()).filter(|&k| changed(watched[0][k], watched[1][k])) {
             let mut value = |problem: &P, state: &PathState| watch.values(problem, state)[function];
@@ -145,7 +148,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Returns the states of a step, and between two neighbours one where a rate is far smaller than at both, by the cubic
     /// through them: it may turn on either side of it.
-    fn with_least_rates(&mut self, mut states: Vec<PathState>) -> Result<Vec<PathState>, PathError> {
+    fn with_least_rates(&mut self, mut states: Vec<PathState>) -> Found<Vec<PathState>> {
         let (mut first, mut added) = (0, 0);
         while first + 1 < states.len() {
             let [from, to] = [&states[first], &states[first + 1]];
@@ -161,11 +164,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Locates the extrema and branch points between two states of a step, or of a piece of it.
-    fn own_marks(
-        &mut self,
-        step: [&PathState; 2],
-        [from, to]: [&PathState; 2],
-    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
+    fn own_marks(&mut self, step: Ends<'_>, [from, to]: Ends<'_>) -> Found<Marks> {
         let mut found = vec![];
         let mut level = Level { turn: None };
         let rates = [from, to].map(|state| state.tangent.parameter);
@@ -188,12 +187,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
     /// states that are taken for one are one, of higher multiplicity.
-    fn branch_points(
-        &mut self,
-        [from, to]: [&PathState; 2],
-        ends: [&PathState; 2],
-        level: &Level,
-    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
+    fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level) -> Found<Marks> {
         let mut found = vec![];
         let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(found) };
         if self.problem.has_kinks() {
@@ -230,7 +224,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// vanishes, by inverse interpolation between states around it. At the point itself neither Newton's method nor a
     /// count of signs is exact: rounding errors move a state along the null vector, and stiffnesses that are rounding
     /// errors count as positive.
-    fn refined(&mut self, [from, to]: [&PathState; 2], mut at: f64) -> Result<Crossing, PathError> {
+    fn refined(&mut self, [from, to]: Ends<'_>, mut at: f64) -> Found<Crossing> {
         let (cubic, mut guess) = (Cubic::new(from, to), guesses(from.x.len()).next().unwrap_or_default());
         for _ in 0..MOST_SHIFTS {
             let apart = f64::min(AROUND / (to.arc_length - from.arc_length), 0.4 * f64::min(at, 1.0 - at));
@@ -267,10 +261,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// between is found.
     fn bisect(
         &mut self,
-        [from, to]: [&PathState; 2],
+        [from, to]: Ends<'_>,
         [mut low, mut high]: [f64; 2],
         holds: &mut dyn FnMut(&PathState) -> bool,
-    ) -> Result<Option<(f64, PathState)>, PathError> {
+    ) -> Found<Option<(f64, PathState)>> {
         let mut best = None;
         while high - low > LOCATED_PART {
             let middle = 0.5 * (low + high);
@@ -292,9 +286,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// found.
     pub(super) fn locate(
         &mut self,
-        [from, to]: [&PathState; 2],
+        [from, to]: Ends<'_>,
         value: &mut dyn FnMut(&P, &PathState) -> f64,
-    ) -> Result<Option<PathState>, PathError> {
+    ) -> Found<Option<PathState>> {
         let mut low = (0.0, value(self.problem, from));
         let mut high = (1.0, value(self.problem, to));
         let mut best = None;

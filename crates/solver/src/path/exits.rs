@@ -7,11 +7,10 @@
 //! where Newton's system is singular, nothing could be decided.
 
 use super::bordered::Plane;
-use super::corrector::Guess;
 use super::follower::Follower;
 use super::interpolant::Cubic;
-use super::outcome::{MarkedState, PathError};
-use super::problem::{ParametrizedProblem, PathState, Rates};
+use super::outcome::{Found, MarkedState};
+use super::problem::{Ends, ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::vector::{add_scaled, norm_blocked};
 
 /// Distance in arc length below which two states are one.
@@ -38,8 +37,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         &mut self,
         number: usize,
         exits: &'e [Exit],
-        [last, next]: [&PathState; 2],
-    ) -> Result<Option<&'e MarkedState>, PathError> {
+        [last, next]: Ends<'_>,
+    ) -> Found<Option<&'e MarkedState>> {
         for exit in exits.iter().filter(|exit| number > 0 && exit.taken_by != Some(number)) {
             if self.passes(last, next, &exit.first)? {
                 return Ok(Some(&exit.point));
@@ -58,7 +57,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Whether a state is on the branch between two states that follow each other on it.
-    pub fn passes(&mut self, from: &PathState, to: &PathState, state: &PathState) -> Result<bool, PathError> {
+    pub fn passes(&mut self, from: &PathState, to: &PathState, state: &PathState) -> Found<bool> {
         let Some((mut guess, off)) = self.beside([from, to], state) else { return Ok(false) };
         let chord = Cubic::new(from, to).chord();
         let along = self.product(&off, &chord) / self.product(&chord, &chord);
@@ -68,13 +67,13 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Whether a state is beside the way between two others, and nearer to it than they are to each other.
-    pub fn is_near(&self, between: [&PathState; 2], state: &PathState) -> bool {
+    pub fn is_near(&self, between: Ends<'_>, state: &PathState) -> bool {
         self.beside(between, state).is_some()
     }
 
     /// The interpolant between two states beside another one, and what leads from it to that; `None` where the other
     /// state is not beside the way, farther from it than the two from each other, or written in another way.
-    fn beside(&self, [from, to]: [&PathState; 2], state: &PathState) -> Option<(Guess, Rates)> {
+    fn beside(&self, [from, to]: Ends<'_>, state: &PathState) -> Option<(Rates, Rates)> {
         if [from, to].iter().any(|end| end.choice != state.choice) {
             return None;
         }

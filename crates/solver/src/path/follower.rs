@@ -1,9 +1,8 @@
 //! Steps along a path: predictor, corrector, and the length of the next step.
 
 use super::bordered::{Bordered, Plane};
-use super::corrector::{Guess, complete, correct};
 use super::interpolant::Cubic;
-use super::outcome::{PathError, PathSettings};
+use super::outcome::{Found, PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::vector::dot;
 
@@ -40,7 +39,7 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
 
 impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// Makes room for the systems of a problem.
-    pub fn new(problem: &'a mut P, settings: PathSettings) -> Result<Self, PathError> {
+    pub fn new(problem: &'a mut P, settings: PathSettings) -> Found<Self> {
         let (bordered, kinks, origin) = (Bordered::new(problem)?, problem.may_have_kinks(), problem.parameter());
         Ok(Self { problem, bordered, settings, kinks, origin, largest: [0.0; 2] })
     }
@@ -53,16 +52,16 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
-    pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<PathState, PathError> {
+    pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Found<PathState> {
         let plane = Plane::of_parameter(x.len(), sign);
-        let guess = Guess { x, tension, parameter: self.problem.parameter() };
+        let guess = Rates { x, tension, parameter: self.problem.parameter() };
         let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
         self.problem.accept(&mut state.x);
         Ok(state)
     }
 
     /// Goes to how a state is written, with the reference that belongs to it.
-    pub fn go_to(&mut self, state: &PathState, reference: &[f64]) -> Result<(), PathError> {
+    pub fn go_to(&mut self, state: &PathState, reference: &[f64]) -> Found<()> {
         self.problem.set_reference(reference);
         if self.problem.choice() != state.choice {
             self.problem.set_choice(&state.choice);
@@ -72,7 +71,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The last state of a path as it is written by a new choice, where the present one would soon be singular.
-    pub fn chosen_anew(&mut self, last: &PathState) -> Result<Option<PathState>, PathError> {
+    pub fn chosen_anew(&mut self, last: &PathState) -> Found<Option<PathState>> {
         let Some([x, rates]) = self.problem.choose_anew(&last.x, &last.tangent.x) else { return Ok(None) };
         self.bordered = Bordered::new(self.problem)?;
         let tangent = Rates { x: rates, ..last.tangent.clone() };
@@ -83,14 +82,6 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         Ok(Some(PathState { x, tangent: tangent.scaled(per_length), conjugate, work_along, choice, ..last.clone() }))
     }
 
-    /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
-    pub fn settle(&mut self, guess: Guess, plane: &Plane, arc: f64) -> Result<Option<(PathState, f64)>, PathError> {
-        let Self { problem, bordered, settings, .. } = self;
-        let Some(found) = correct(*problem, bordered, guess, plane, settings.tolerance)? else { return Ok(None) };
-        let off = found.off;
-        Ok(Some((complete(*problem, bordered, found, plane, arc)?, off)))
-    }
-
     /// One step from the last of two states (or the only one) of about this length. Returns the state and the length
     /// of the next step; `None` where no step leads on.
     pub fn step(
@@ -98,28 +89,27 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         before: Option<&PathState>,
         last: &PathState,
         length: f64,
-    ) -> Result<Option<(PathState, f64)>, PathError> {
+    ) -> Found<Option<(PathState, f64)>> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
+        let (begins, way_of_drive) = (before.is_none() && self.kinks, last.tangent.parameter.signum());
+        let along_the_drive = Plane::of_parameter(last.x.len(), way_of_drive);
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
             let at_kink = self.kinks && length < KINK_STEP * self.settings.max_step;
-            // at a kink the path may go on either way, but from its beginning only as the parameter does
-            let begins = before.is_none() && self.kinks;
-            let sign = last.tangent.parameter.signum();
-            let of_parameter = || Plane::of_parameter(last.x.len(), sign);
+            // at a kink the path may go on either way, but at its beginning only as the drive does
             let [across, of_unknowns] = [false, true].map(|of_unknowns| self.plane(&last.tangent, of_unknowns));
-            let planes = [Some(across), at_kink.then_some(of_unknowns), begins.then(of_parameter)];
+            let planes = [Some(across), at_kink.then_some(of_unknowns), begins.then(|| along_the_drive.clone())];
             for plane in planes.into_iter().flatten() {
                 let Some((mut state, off)) = self.settle(guess.clone(), &plane, 0.0)? else { continue };
                 let chord = Cubic::new(last, &state).chord();
                 let way = self.size(&chord);
                 let turn = self.cosine(&last.tangent, &state.tangent);
-                let folds = self.bordered.at.largest_measure_change(&chord.x);
+                let folds = self.bordered.tangent.at.largest_measure_change(&chord.x);
                 let error = off / (unit_of_length * length);
                 let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
                 let is_short = folds <= LARGEST_MEASURE_CHANGE && self.problem.admits(&last.x, &state.x);
-                let leads_on = !begins || sign * chord.parameter >= 0.0;
+                let leads_on = !begins || way_of_drive * chord.parameter >= 0.0;
                 if leads_on && is_short && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
@@ -156,7 +146,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The state of the path at a part of the way from one state to the next.
-    pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Result<Option<PathState>, PathError> {
+    pub fn between(&mut self, from: &PathState, to: &PathState, part: f64) -> Found<Option<PathState>> {
         let cubic = Cubic::new(from, to);
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
         // where there may be a kink only the plane across the unknowns may meet the path, as in a step
@@ -171,14 +161,9 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     }
 
     /// The state of the path with this parameter next to a part of the way from one state to the next.
-    pub fn at_parameter(
-        &mut self,
-        from: &PathState,
-        to: &PathState,
-        parameter: f64,
-    ) -> Result<Option<PathState>, PathError> {
+    pub fn at_parameter(&mut self, from: &PathState, to: &PathState, parameter: f64) -> Found<Option<PathState>> {
         let part = (parameter - from.parameter) / (to.parameter - from.parameter);
-        let guess = Guess { parameter, ..Cubic::new(from, to).at(part) };
+        let guess = Rates { parameter, ..Cubic::new(from, to).at(part) };
         let plane = Plane::of_parameter(from.x.len(), (to.parameter - from.parameter).signum());
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
         if let Some((state, _)) = self.settle(guess, &plane, arc_length)? {
@@ -192,7 +177,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
 }
 
 /// The state predicted at this arc length beyond the last of two states, or beyond the only one.
-fn predicted(before: Option<&PathState>, last: &PathState, length: f64) -> Guess {
+fn predicted(before: Option<&PathState>, last: &PathState, length: f64) -> Rates {
     if let Some(before) = before {
         let part = 1.0 + length / (last.arc_length - before.arc_length);
         // far beyond the interval a cubic is worth less than the tangent

@@ -1,6 +1,5 @@
 //! States between two states of a path, and beyond them: cubic Hermite interpolation in arc length.
 
-use super::corrector::Guess;
 use super::problem::{PathState, Rates};
 
 /// The cubic between two states.
@@ -36,7 +35,7 @@ impl<'a> Cubic<'a> {
     }
 
     /// The state at this part of the way; beyond the second state for parts above 1.
-    pub fn at(&self, part: f64) -> Guess {
+    pub fn at(&self, part: f64) -> Rates {
         self.mixed(weights(part, self.length))
     }
 

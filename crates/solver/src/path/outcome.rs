@@ -134,3 +134,6 @@ pub enum PathError {
     #[error(transparent)]
     Factor(#[from] FactorError),
 }
+
+/// What is found on a path, or why no path leads on.
+pub(super) type Found<T> = Result<T, PathError>;

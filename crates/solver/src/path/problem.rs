@@ -95,6 +95,9 @@ pub struct PathState {
     pub choice: Vec<f64>,
 }
 
+/// Both ends of a piece of a path.
+pub(super) type Ends<'a> = [&'a PathState; 2];
+
 impl PathState {
     /// Unknowns, tensions and parameter.
     pub(super) fn place(&self) -> Rates {

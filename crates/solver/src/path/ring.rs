@@ -13,9 +13,8 @@
 //! states are found on a wide ring: it is narrowed.
 
 use super::bordered::{Plane, Planes, REFUSED_RESIDUAL};
-use super::corrector::Guess;
 use super::follower::Follower;
-use super::outcome::PathError;
+use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use foldwell_numerics::vector::{add_scaled, dot, larger, max_abs, norm_blocked};
 use std::f64::consts::TAU;
@@ -56,7 +55,7 @@ struct Ring<'a> {
 #[derive(Clone)]
 struct OnRing {
     angle: f64,
-    at: Guess,
+    at: Rates,
     pull: f64,
     residual: f64,
 }
@@ -78,7 +77,7 @@ impl Ring<'_> {
     }
 
     /// A guess moved to another angle.
-    fn turned(&self, mut at: Guess, [from, to]: [[f64; 2]; 2]) -> Guess {
+    fn turned(&self, mut at: Rates, [from, to]: [[f64; 2]; 2]) -> Rates {
         for (null, (from, to)) in self.nulls.iter().zip(from.into_iter().zip(to)) {
             at.add(to - from, null);
         }
@@ -93,7 +92,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         &mut self,
         point: &PathState,
         nulls: &[Rates; 2],
-    ) -> Result<Option<(usize, Vec<PathState>)>, PathError> {
+    ) -> Found<Option<(usize, Vec<PathState>)>> {
         let unit = self.bordered.unit();
         let planes = [0, 1].map(|k| Plane { x: nulls[k].x.clone(), parameter: nulls[k].parameter / unit });
         let (mut rung, mut narrow, mut wide) = (0, -NARROWER_RINGS - 1, WIDER_RINGS + 1);
@@ -110,7 +109,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Seeks the half branches that pass a ring, at the zeros of the tangential force round it.
-    fn passing(&mut self, ring: &Ring<'_>) -> Result<Passing, PathError> {
+    fn passing(&mut self, ring: &Ring<'_>) -> Found<Passing> {
         let Some(tried) = self.round(ring, TRIED)? else { return Ok(Passing::TooWide) };
         if !self.is_clear(&tried, CLEAR) {
             return Ok(Passing::TooNarrow);
@@ -136,7 +135,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// States at evenly spaced angles of a ring; `None` where one is not found.
-    fn round(&mut self, ring: &Ring<'_>, count: usize) -> Result<Option<Vec<OnRing>>, PathError> {
+    fn round(&mut self, ring: &Ring<'_>, count: usize) -> Found<Option<Vec<OnRing>>> {
         let mut states: Vec<OnRing> = vec![];
         for k in 0..count {
             let angle = FIRST_ANGLE + TAU * k as f64 / count as f64;
@@ -151,7 +150,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// The state on a ring at this angle, by Newton's method from a guess.
-    fn on_ring(&mut self, ring: &Ring<'_>, angle: f64, mut at: Guess) -> Result<Option<OnRing>, PathError> {
+    fn on_ring(&mut self, ring: &Ring<'_>, angle: f64, mut at: Rates) -> Found<Option<OnRing>> {
         let (sin, cos) = angle.sin_cos();
         let mut along: Vec<f64> = ring.nulls[1].x.iter().map(|x| cos * x).collect();
         add_scaled(&mut along, -sin, &ring.nulls[0].x);
@@ -160,11 +159,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         for _ in 0..=MOST_STEPS {
             self.problem.set_parameter(at.parameter);
             self.bordered.linearize(self.problem, &at.x, &at.tension);
-            let mut force = self.bordered.at.force(&at.tension);
+            let mut force = self.bordered.tangent.at.force(&at.tension);
             add_scaled(&mut force, -pull, &pulls[0]);
-            let missing = self.bordered.at.missing(&at.tension, self.problem.compliance());
+            let missing = self.bordered.tangent.at.missing(&at.tension, self.problem.compliance());
             let open = missing.iter().zip(self.problem.gap_scale()).map(|(gap, scale)| gap.abs() / scale);
-            let largest = self.bordered.at.largest_force;
+            let largest = self.bordered.tangent.at.largest_force;
             let residual = open.fold(max_abs(&force) / largest, larger);
             if last <= LAST_STEP * ring.radius {
                 return Ok(Some(OnRing { angle, at, pull: pull / largest, residual }));
@@ -192,7 +191,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// The equilibria between neighbouring states of a ring whose tangential forces have different signs.
-    fn equilibria(&mut self, ring: &Ring<'_>, states: &[OnRing], zeros: &[usize]) -> Result<Vec<PathState>, PathError> {
+    fn equilibria(&mut self, ring: &Ring<'_>, states: &[OnRing], zeros: &[usize]) -> Found<Vec<PathState>> {
         let mut found = vec![];
         for &k in zeros {
             let Some(zero) = self.zero(ring, [&states[k], &states[(k + 1) % states.len()]])? else { continue };
@@ -208,7 +207,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// The zero of the tangential force between two states, by false position with halved ends.
-    fn zero(&mut self, ring: &Ring<'_>, [from, to]: [&OnRing; 2]) -> Result<Option<OnRing>, PathError> {
+    fn zero(&mut self, ring: &Ring<'_>, [from, to]: [&OnRing; 2]) -> Found<Option<OnRing>> {
         let (mut low, mut high) = (from.clone(), to.clone());
         high.angle = low.angle + (high.angle - low.angle).rem_euclid(TAU);
         let (mut best, mut ends) = (low.clone(), [low.pull, high.pull]);

@@ -1,11 +1,11 @@
 //! A path with all its branches, from where each begins to where it ends.
 
 use super::bordered::Plane;
-use super::events::Watch;
+use super::events::{Marks, Watch};
 use super::exits::Exit;
 use super::follower::Follower;
-use super::outcome::{Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings};
-use super::problem::{ParametrizedProblem, PathState};
+use super::outcome::{Branch, BranchEnd, Found, MarkedState, PathError, PathMark, PathSettings};
+use super::problem::{Ends, ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
 use super::work::Step;
 use crate::tension;
@@ -43,14 +43,14 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         watch: &'a mut dyn Watch<P>,
         observer: &'a mut dyn PathObserver<P>,
         record: PathRecord,
-    ) -> Result<Self, PathError> {
+    ) -> Found<Self> {
         let follower = Follower::new(problem, settings.clone())?;
         let (branches, points, exits) = (vec![], vec![], vec![]);
         Ok(Self { follower, watch, observer, record, branches, points, exits })
     }
 
     /// Follows the branch from a start towards larger (`1.0`) or smaller parameters.
-    pub fn main_branch(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Result<(), PathError> {
+    pub fn main_branch(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Found<()> {
         let state = self.follower.begin(x, tension, sign)?;
         let first = self.marked(state, None, 0.0);
         self.branch(vec![first], None)
@@ -58,7 +58,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
 
     /// Follows one branch from its first states to its end, which they may reach already; of what is recorded nothing is
     /// computed again.
-    pub fn branch(&mut self, states: Vec<MarkedState>, end: Option<BranchEnd>) -> Result<(), PathError> {
+    pub fn branch(&mut self, states: Vec<MarkedState>, end: Option<BranchEnd>) -> Found<()> {
         let number = self.branches.len();
         self.branches.push(Branch { states: vec![], end: BranchEnd::Interrupted, half_branches: BTreeMap::new() });
         let (recorded, mut way) = (self.record.take(number, &states), Way::default());
@@ -102,7 +102,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     }
 
     /// Appends recorded states to their branch; returns whether the branch goes on.
-    fn was_found(&mut self, entry: PathEntry, way: &mut Way) -> Result<bool, PathError> {
+    fn was_found(&mut self, entry: PathEntry, way: &mut Way) -> Found<bool> {
         for marked in &entry.states {
             self.follower.problem.set_parameter(marked.state.parameter);
             self.follower.go_to(&marked.state, &marked.reference)?;
@@ -136,7 +136,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     }
 
     /// One step of a branch with all that lies in it, and the values of the watched functions at its end.
-    fn step(&mut self, number: usize, way: &Way) -> Result<(PathEntry, Vec<f64>), PathError> {
+    fn step(&mut self, number: usize, way: &Way) -> Found<(PathEntry, Vec<f64>)> {
         let ended = |states: Vec<MarkedState>, end: BranchEnd| {
             (PathEntry { branch: number, begins: false, states, next_step: way.length, end: Some(end) }, vec![])
         };
@@ -184,8 +184,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         number: usize,
         states: &mut Vec<MarkedState>,
         from: &mut PathState,
-        mut marks: Vec<(PathState, PathMark)>,
-    ) -> Result<bool, PathError> {
+        mut marks: Marks,
+    ) -> Found<bool> {
         marks.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
         for (state, mark) in marks {
             states.push(self.worked(number, states, from, state.clone(), Some(mark), None)?);
@@ -228,7 +228,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
 
     /// Lets the path go on from the last of these states towards larger (`1.0`) or smaller parameters. Returns whether
     /// it does.
-    fn turned(&mut self, states: &mut [MarkedState], sign: f64) -> Result<bool, PathError> {
+    fn turned(&mut self, states: &mut [MarkedState], sign: f64) -> Found<bool> {
         let Some(last) = states.last_mut() else { return Ok(false) };
         self.follower.problem.set_parameter(last.state.parameter);
         self.follower.problem.set_reference(&last.reference);
@@ -240,7 +240,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     }
 
     /// Whether a branch passed a state before, so that it goes on over its own states. Its last step is not asked.
-    fn retraces(&mut self, number: usize, state: &PathState) -> Result<bool, PathError> {
+    fn retraces(&mut self, number: usize, state: &PathState) -> Found<bool> {
         let between = |pair: &[&PathState]| {
             let [low, high] = [pair[0].parameter.min(pair[1].parameter), pair[0].parameter.max(pair[1].parameter)];
             (low..=high).contains(&state.parameter)
@@ -267,9 +267,9 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     pub fn end_between(
         &mut self,
         number: usize,
-        [last, next]: [&PathState; 2],
+        [last, next]: Ends<'_>,
         beside: f64,
-    ) -> Result<Option<(PathState, BranchEnd)>, PathError> {
+    ) -> Found<Option<(PathState, BranchEnd)>> {
         let [from, to] = [last.parameter, next.parameter];
         let passed = |value: f64| (from - value) * (to - value) <= 0.0 && (from - value).abs() > beside;
         let (target, most) = (self.target(number), self.follower.settings.length);
@@ -298,7 +298,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         state: PathState,
         mark: Option<PathMark>,
         known: Option<f64>,
-    ) -> Result<MarkedState, PathError> {
+    ) -> Found<MarkedState> {
         self.follower.measure(&state);
         let work = known.map_or_else(|| self.follower.work(from, &state).map(|worked| worked.on_path()), Ok)?;
         let before = states.last().or(self.states(number).last()).map_or(0.0, |marked| marked.work);

@@ -3,7 +3,7 @@
 use super::branching::Leaving;
 use super::exits::Exit;
 use super::interpolant::Cubic;
-use super::outcome::{BranchEnd, HalfBranches, MarkedState, PathError, PathMark};
+use super::outcome::{BranchEnd, Found, HalfBranches, MarkedState, PathMark};
 use super::problem::{ParametrizedProblem, PathState};
 use super::run::Run;
 
@@ -14,7 +14,7 @@ const AT_THE_POINT: f64 = 1e-6;
 
 impl<P: ParametrizedProblem> Run<'_, P> {
     /// Follows the branches that leave at the branch points found, theirs too.
-    pub fn other_branches(&mut self) -> Result<(), PathError> {
+    pub fn other_branches(&mut self) -> Found<()> {
         let mut number = 0;
         while self.follower.settings.switch && number < self.branches.len() {
             let known = self.exits.len();
@@ -47,7 +47,7 @@ impl<P: ParametrizedProblem> Run<'_, P> {
     }
 
     /// Finds the ways out of the branch points of a branch that no other one has.
-    fn find_exits(&mut self, number: usize) -> Result<(), PathError> {
+    fn find_exits(&mut self, number: usize) -> Found<()> {
         for state in 0..self.branches[number].states.len() {
             let point = self.branches[number].states[state].clone();
             let Some(PathMark::BranchPoint(multiplicity)) = point.mark else { continue };
@@ -73,7 +73,7 @@ impl<P: ParametrizedProblem> Run<'_, P> {
     }
 
     /// Follows the branch that leaves through an exit.
-    fn leave(&mut self, exit: usize) -> Result<(), PathError> {
+    fn leave(&mut self, exit: usize) -> Found<()> {
         self.exits[exit].taken_by = Some(self.branches.len());
         let Exit { point, first, .. } = self.exits[exit].clone();
         let from = PathState { arc_length: 0.0, ..point.state.clone() };
@@ -98,7 +98,7 @@ impl<P: ParametrizedProblem> Run<'_, P> {
     }
 
     /// Whether a state is on a branch that has been followed.
-    fn is_known(&mut self, state: &PathState) -> Result<bool, PathError> {
+    fn is_known(&mut self, state: &PathState) -> Found<bool> {
         for branch in 0..self.branches.len() {
             for second in 1..self.branches[branch].states.len() {
                 let pair = [second - 1, second].map(|k| self.branches[branch].states[k].state.clone());

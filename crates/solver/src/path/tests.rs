@@ -371,7 +371,7 @@ fn neighbouring_branches_are_told_apart() {
     let mut states = vec![];
     for (load, side) in [(0.0, 1.0), (0.04, 1.0), (0.1, 1.0), (0.06, 1.0), (0.06, -1.0)] {
         let x = vec![f64::sin(3.0 * load) + side * APART, load];
-        let guess = corrector::Guess { x, tension: vec![], parameter: load };
+        let guess = Rates { x, tension: vec![], parameter: load };
         let (mut state, _) = follower.settle(guess, &bordered::Plane::of_parameter(2, 1.0), 0.0).unwrap().unwrap();
         // between the chord and the curve, which differ by less than what is told apart
         state.arc_length = load * (1.0 + 9.0 + 2.0f64).sqrt() / std::f64::consts::SQRT_2;

@@ -2,8 +2,8 @@
 
 use super::follower::{Follower, LEAST_TANGENT_COSINE, SHRINK};
 use super::interpolant::Cubic;
-use super::outcome::PathError;
-use super::problem::{ParametrizedProblem, PathState};
+use super::outcome::Found;
+use super::problem::{Ends, ParametrizedProblem, PathState};
 use foldwell_numerics::larger;
 
 /// How often a piece is halved at most.
@@ -54,7 +54,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         before: Option<&PathState>,
         last: &PathState,
         mut length: f64,
-    ) -> Result<Option<Step>, PathError> {
+    ) -> Found<Option<Step>> {
         let reference = self.problem.reference(&last.x);
         loop {
             let Some((state, longer)) = self.step(before, last, length)? else { return Ok(None) };
@@ -78,7 +78,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// The work from one state to the next. It is integrated by cubic interpolation between them and as many states of the
     /// path in between as it takes until the potential changes by it, as far as both are known; the better known of the
     /// two is the work. Where stiffness jumps no interpolation is good, and it is the change of the potential.
-    pub(super) fn work(&mut self, from: &PathState, to: &PathState) -> Result<Worked, PathError> {
+    pub(super) fn work(&mut self, from: &PathState, to: &PathState) -> Found<Worked> {
         let potentials = [self.potential(from), self.potential(to)];
         if self.problem.has_kinks() {
             let change = potentials[1] - potentials[0];
@@ -87,7 +87,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.divided([from, to], potentials, MOST_HALVINGS)
     }
 
-    fn divided(&mut self, ends: [&PathState; 2], known: [f64; 2], left: usize) -> Result<Worked, PathError> {
+    fn divided(&mut self, ends: Ends<'_>, known: [f64; 2], left: usize) -> Found<Worked> {
         let [from, to] = ends;
         let whole = Cubic::new(from, to).work();
         let middle = if to.arc_length > from.arc_length { self.between(from, to, 0.5)? } else { None };
@@ -112,12 +112,12 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Compares integrated work with the change of the potential, which is known but for rounding errors of sums, and for
     /// measures and forces that are not quite met.
-    fn compared(&mut self, [from, to]: [&PathState; 2], [before, after]: [f64; 2], integrated: f64) -> Worked {
+    fn compared(&mut self, [from, to]: Ends<'_>, [before, after]: [f64; 2], integrated: f64) -> Worked {
         let change = after - before;
         let rounding = self.rounding(from, before) + self.rounding(to, after);
         let unbalanced = (change - integrated).abs();
         // what is left of forces works too
-        let left = larger(from.residual_force, to.residual_force) * self.bordered.at.largest_force;
+        let left = larger(from.residual_force, to.residual_force) * self.bordered.tangent.at.largest_force;
         let left = left * from.x.iter().zip(&to.x).map(|(x, y)| (y - x).abs()).sum::<f64>();
         let known = noise(from, to) + rounding + left + UNBALANCED * self.largest[1];
         let balanced = unbalanced.is_nan() || unbalanced <= known;
