@@ -92,15 +92,12 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     ) -> Found<Option<(PathState, f64)>> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
-        let (begins, way_of_drive) = (before.is_none() && self.kinks, last.tangent.parameter.signum());
-        let along_the_drive = Plane::of_parameter(last.x.len(), way_of_drive);
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
             let at_kink = self.kinks && length < KINK_STEP * self.settings.max_step;
-            // at a kink the path may go on either way, but at its beginning only as the drive does
-            let [across, of_unknowns] = [false, true].map(|of_unknowns| self.plane(&last.tangent, of_unknowns));
-            let planes = [Some(across), at_kink.then_some(of_unknowns), begins.then(|| along_the_drive.clone())];
-            for plane in planes.into_iter().flatten() {
+            // at a kink the path may go on either way
+            for of_unknowns in [false, true].into_iter().filter(|of_unknowns| at_kink || !of_unknowns) {
+                let plane = self.plane(&last.tangent, of_unknowns);
                 let Some((mut state, off)) = self.settle(guess.clone(), &plane, 0.0)? else { continue };
                 let chord = Cubic::new(last, &state).chord();
                 let way = self.size(&chord);
@@ -109,8 +106,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
                 let error = off / (unit_of_length * length);
                 let is_smooth = turn >= LEAST_TANGENT_COSINE && error <= 10.0 * WANTED_ERROR;
                 let is_short = folds <= LARGEST_MEASURE_CHANGE && self.problem.admits(&last.x, &state.x);
-                let leads_on = !begins || way_of_drive * chord.parameter >= 0.0;
-                if leads_on && is_short && (is_smooth || at_kink) {
+                if is_short && (is_smooth || at_kink) {
                     state.arc_length = last.arc_length + way;
                     self.problem.accept(&mut state.x);
                     let factor = (WANTED_ERROR / error.max(1e-12)).powf(1.0 / 3.0);
