@@ -53,7 +53,7 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if sheet.record.turned_over {
         notes.push(TURNED_OVER.to_owned());
     }
-    notes.extend(sheet.record.redrawing.said());
+    notes.extend(sheet.remarks());
     if ending == "obj" && !sheet.listed_edges.is_empty() {
         notes.push("OBJ has no list of edges: their order is not kept".to_owned());
     }

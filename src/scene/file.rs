@@ -18,6 +18,7 @@ use super::spec::Scene;
 use crate::sheet::SheetError;
 use crate::sheet::similar::{did_you_mean, did_you_mean_of};
 use crate::sheet::text::{line_and_column, shortened};
+use crate::sheet::written::in_words;
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.
@@ -112,7 +113,7 @@ impl SceneFile {
 
     /// Returns the error of a file that is not there, with the name of a file beside it that may be meant.
     pub(super) fn no_file(&self, span: Range<usize>, path: &Path) -> SceneError {
-        let beside = path.parent().and_then(|folder| fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+        let beside = fs::read_dir(Path::new(".").join(path.parent().unwrap_or(path))).into_iter().flatten().flatten();
         let beside: Vec<String> = beside.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let question = did_you_mean(&name, beside.iter().map(String::as_str));
@@ -240,23 +241,26 @@ fn not_a_kind(text: &Arc<NamedSource<String>>, span: Range<usize>) -> SceneError
 /// Converts an error of the TOML reader or of serde to one in the terms of this program.
 fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneError {
     let (span, question) = (fault.span().unwrap_or(0..0), did_you_mean_of(fault.message()));
-    let (wrong, right) = match fault.message().split_once(", expected ") {
-        Some((wrong, right)) => (wrong, Some(plain_words(right))),
-        None => (fault.message(), None),
-    };
-    if let Some(key) = quoted_after(wrong, "unknown field ") {
+    let (wrong, right) = in_words(fault.message());
+    let named = text.inner().get(span.clone()).unwrap_or_default();
+    if wrong == "duplicate key" {
+        let help = "each key, and each table in brackets, is given once";
+        return error_at(text, span.clone(), format!("`{named}` is given a second time"), Some(help.into()));
+    }
+    if let Some(key) = quoted_after(&wrong, "unknown field ") {
         let help = question + &unknown_key_help(&key, right);
         return error_at(text, span, format!("unknown key `{key}`"), Some(help));
     }
-    if let Some(key) = quoted_after(wrong, "missing field ") {
+    if let Some(key) = quoted_after(&wrong, "missing field ") {
         return error_at(text, span, format!("missing key `{key}`"), Some(format!("`{key}` has to be given here")));
     }
     if wrong.starts_with("invalid float") || wrong.starts_with("invalid integer") {
         let help = "expected a number such as 0.5, -3 or 1e-3; there are no formulas here";
         return error_at(text, span, "this is no number".into(), Some(help.into()));
     }
-    let message = wrong.replace("unknown variant", "unknown word");
-    error_at(text, span, message, right.map(|right| format!("{question}expected {right}")))
+    let is_header = right.as_deref() == Some("a list [..]") && named.starts_with('[');
+    let right = if is_header { Some(format!("a list of tables, each under [{named}]")) } else { right };
+    error_at(text, span, wrong, right.map(|right| format!("{question}expected {right}")))
 }
 
 fn quoted_after(text: &str, start: &str) -> Option<String> {
@@ -271,21 +275,6 @@ fn unknown_key_help(key: &str, right: Option<String>) -> String {
     match kinds_with_key(key).as_slice() {
         [] => here,
         kinds => format!("`{key}` is a key of studies of kind {}; {here}", kinds.join(", ")),
-    }
-}
-
-/// Replaces serde's names of Rust types by words.
-fn plain_words(expected: &str) -> String {
-    match expected {
-        "f64" => "a number".into(),
-        "usize" | "u64" | "u32" => "a whole number, 0 or more".into(),
-        "i64" => "a whole number".into(),
-        "a boolean" => "true or false".into(),
-        "a sequence" => "a list [..]".into(),
-        "map" | "a map" => "a table".into(),
-        struct_name if struct_name.starts_with("struct ") => "a table".into(),
-        "path string" => "a path in quotes".into(),
-        other => other.into(),
     }
 }
 

@@ -9,6 +9,7 @@ use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
 use super::rows::numbered_lines;
 use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec, HingeYieldSpec, LawForm};
+use super::turns::fault_of_turns;
 use super::{Located, SceneError, SceneFile};
 use crate::model::{
     Bilinear, CurveError, ElasticPlastic, Formula, FormulaError, GreenLagrange, Law, Laws, Measured, Memory, OfAngle,
@@ -99,7 +100,9 @@ fn of_hinges(file: &SceneFile, (spec, span): (&HingeLawSpec, Range<usize>)) -> R
     match spec {
         HingeLawSpec::Stiffening { limits } => Ok(alone(Stiffening { limits: limits.0 })),
         HingeLawSpec::Power { exponent } => Ok(alone(OfAngle(Power { exponent: exponent.0 }))),
-        HingeLawSpec::Bilinear { ratio, at } => Ok(alone(OfAngle(Bilinear { ratio: ratio.0, at: at.0 }))),
+        HingeLawSpec::Bilinear { ratio, at } => {
+            Ok(alone(OfAngle(Bilinear { ratio: ratio.0, at: at.0.map(|angle| angle.radians) })))
+        }
         HingeLawSpec::Table(curve) => table(file, (curve, span), ["angle", "torque"], OfAngle),
         HingeLawSpec::Formula { torque } => formula(file, span, Formula::of_angle(torque), "angle"),
     }
@@ -226,7 +229,10 @@ fn rows(path: &Path, columns: [&'static str; 2]) -> Result<Vec<CurveRow>, SceneE
             let number = field.parse().ok().filter(|number: &f64| number.is_finite());
             number.ok_or_else(|| fault(line, TableFault::Number { field: field.into(), column }))
         };
-        Ok((line, [number(first, columns[0])?, number(second, columns[1])?]))
+        let first = number(first, columns[0])?;
+        let beyond = fault_of_turns(first).filter(|_| columns[0] == "angle");
+        beyond.map_or(Ok(()), |[message, help]| Err(fault(line, TableFault::Turns { message, help })))?;
+        Ok((line, [first, number(second, columns[1])?]))
     };
     lines.map(read).collect()
 }

@@ -26,7 +26,7 @@ pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
         ));
     }
     let record = &assembly.sheet().record;
-    notes.extend(record.redrawing.said());
+    notes.extend(assembly.sheet().remarks());
     notes.extend(frames_said(record.frame, record.further_frames).filter(|_| file.scene.sheet.frame.is_none()));
     notes
 }

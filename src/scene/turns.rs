@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::spec::{StudyKind, StudySpec};
+use super::spec::{HingeLawSpec, StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::Terms;
 use crate::sheet::angle::Angle;
@@ -46,6 +46,10 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     };
     for rest in scene.energy.rests().into_iter().flatten() {
         rest.angles().into_iter().try_for_each(|angle| at(angle, rest.span()))?;
+    }
+    for law in scene.energy.hinges().into_iter().filter_map(|spec| spec?.law.as_ref()) {
+        let mut changes = law.each().into_iter().flat_map(HingeLawSpec::changes);
+        changes.try_for_each(|angle| at(angle, law.span()))?;
     }
     for angle in scene.locks.iter().filter_map(|lock| lock.angle.as_ref()) {
         at(**angle, angle.span())?;

@@ -165,12 +165,14 @@ pub enum Problem {
     DuplicateEdge { edge: usize, other: usize, ends: DrawnEdge },
     #[error(
         "edge {edge} of the list, {ends}, is a side of no face; every edge should bound a face, and the outline of the \
-         sheet be listed too"
+         sheet be listed too; bars without faces, as of a truss, are read where `faces_vertices` is given, if only as []"
     )]
     LooseEdge { edge: usize, ends: DrawnEdge },
     #[error("edges {a} and {b} cross or touch in the plane; edges should meet at common vertices only")]
     Crossing { a: DrawnEdge, b: DrawnEdge },
-    #[error("edge {0} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it")]
+    #[error(
+        "edge {0} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it, or [] for a truss of bars"
+    )]
     Upright(DrawnEdge),
     #[error(
         "edge {edge} of the list, {ends}, belongs to edges inside a face that are not joined to the others; give \

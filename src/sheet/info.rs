@@ -143,7 +143,7 @@ impl Info {
             touching_vertices: touching(sheet),
             frame: sheet.record.frame,
             further_frames: sheet.record.further_frames,
-            remarks: sheet.record.redrawing.said(),
+            remarks: sheet.remarks(),
         }
     }
 }

@@ -30,9 +30,8 @@ use crate::math::Vec3;
 /// # Errors
 /// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse`].
 pub fn read(path: &Path) -> Result<Sheet, SheetError> {
-    let bytes = text::read_bytes(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
-    // names and comments may be in any encoding
-    parse(&String::from_utf8_lossy(&bytes), &path.display().to_string())
+    let text = text::read_drawing(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
+    parse(&text, &path.display().to_string())
 }
 
 /// Reads the sheet of an OBJ text. `name` is the name of its file: it appears in messages, and is the title if the

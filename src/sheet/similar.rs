@@ -7,7 +7,7 @@ const SIMILAR: f64 = 0.6;
 /// are left out, added, replaced or exchanged make words less similar (Damerau's distance over the longer length).
 pub fn most_similar<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let mut best = (SIMILAR, None);
-    for candidate in known {
+    for candidate in known.into_iter().filter(|known| *known != word) {
         let similarity = strsim::normalized_damerau_levenshtein(word, candidate);
         if similarity > best.0 {
             best = (similarity, Some(candidate));

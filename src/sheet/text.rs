@@ -37,12 +37,33 @@ pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     })
 }
 
+/// Returns the text of a drawing: UTF-8, or UTF-16 that begins with its mark. In older encodings what is drawn is ASCII,
+/// and letters of titles and comments that are not are replacement characters.
+pub(crate) fn read_drawing(path: &Path) -> io::Result<String> {
+    let bytes = read_bytes(path)?;
+    let utf16 = |unit: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].as_chunks::<2>().0.iter().map(|pair| unit(*pair));
+        char::decode_utf16(units).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    Ok(match bytes[..] {
+        [0xff, 0xfe, ..] => utf16(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => utf16(u16::from_be_bytes),
+        _ => String::from_utf8_lossy(&bytes).into_owned(),
+    })
+}
+
 /// Returns the line and column, from 1, of a place in a text, which is given in bytes.
 pub(crate) fn line_and_column(text: &str, offset: usize) -> [usize; 2] {
     let before = &text.as_bytes()[..offset.min(text.len())];
     let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
     let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
     [line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1]
+}
+
+/// Returns the message of an error in JSON without the line and column.
+pub(crate) fn without_place(error: &serde_json::Error) -> String {
+    let message = error.to_string();
+    message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message).to_owned()
 }
 
 /// Returns a text that is cut after this number of characters.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
-use serde::de::{Error as _, SeqAccess, Unexpected};
+use serde::de::{SeqAccess, Unexpected};
 use thiserror::Error;
 
 use crate::scene::values::{Exactly, checked, numbers};
@@ -86,8 +86,8 @@ pub enum HingeLawSpec {
     Bilinear {
         /// The stiffness beyond them over k, at least 0.
         ratio: Ratio,
-        /// The angles off rest in radians: a number on both sides, or [low, high], of which one may be infinite.
-        at: Yields,
+        /// The angles off rest: one on both sides, or [low, high], of which one may be infinite.
+        at: Turns,
     },
     /// A curve through measured points.
     Table(CurveSpec),
@@ -106,6 +106,19 @@ impl BarLawSpec {
 }
 
 impl HingeLawSpec {
+    /// The finite angles off rest that it has in the scene; those of points may be up to a whole turn.
+    pub(crate) fn changes(&self) -> Vec<Angle> {
+        let angles: Vec<Angle> = match self {
+            Self::Bilinear { at, .. } => vec![at.0[1], at.0[0]],
+            Self::Table(curve) => {
+                let points = curve.points.iter().flatten();
+                points.map(|point| Angle { radians: point[0], has_unit: true }).collect()
+            }
+            _ => vec![],
+        };
+        angles.into_iter().filter(|angle| angle.radians.is_finite()).collect()
+    }
+
     /// The measured curve, if it is one.
     pub(crate) fn curve(&self) -> Option<&CurveSpec> {
         if let Self::Table(curve) = self { Some(curve) } else { None }
@@ -184,7 +197,42 @@ numbers! { LawFault:
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yields(pub(crate) [f64; 2]);
 
-read_as_written!(Yields);
+/// The angles off rest at which the stiffness of a bilinear law changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turns(pub(crate) [Angle; 2]);
+
+read_as_written!(Yields, Turns);
+
+impl Written for Turns {
+    const FORMS: &str = "an angle above 0, or [low, high] with low <= 0 <= high";
+
+    fn from_number<E: serde::de::Error>(size: f64, written: Unexpected<'_>) -> Result<Self, E> {
+        Yields::from_number(size, written).map(|Yields(at)| Self(at.map(Angle::from)))
+    }
+
+    fn from_word<E: serde::de::Error>(text: &str) -> Result<Self, E> {
+        let angle: Angle = text.parse().map_err(E::custom)?;
+        Yields::from_number(angle.radians, Unexpected::Str(text))
+            .map(|Yields(at)| Self(at.map(|radians| Angle { radians, ..angle })))
+    }
+
+    fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let Exactly(at) = Exactly::<Angle, 2>::deserialize(SeqAccessDeserializer::new(list))?;
+        Yields::between(at.map(|angle| angle.radians)).map(|_| Self(at))
+    }
+}
+
+schema_any_of!(Turns as "Turns", generator, [
+    generator.subschema_for::<Angle>(),
+    generator.subschema_for::<[Angle; 2]>(),
+]);
+
+impl Yields {
+    fn between<E: serde::de::Error>([low, high]: [f64; 2]) -> Result<Self, E> {
+        let valid = low <= 0.0 && 0.0 <= high && (low.is_finite() || high.is_finite());
+        if valid { Ok(Self([low, high])) } else { Err(E::custom(LawFault::Yields(low, high))) }
+    }
+}
 
 impl Written for Yields {
     const FORMS: &str = "a number above 0, or [low, high] with low <= 0 <= high";
@@ -194,9 +242,8 @@ impl Written for Yields {
     }
 
     fn from_list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
-        let Exactly([low, high]) = Exactly::<f64, 2>::deserialize(SeqAccessDeserializer::new(list))?;
-        let valid = low <= 0.0 && 0.0 <= high && (low.is_finite() || high.is_finite());
-        if valid { Ok(Self([low, high])) } else { Err(A::Error::custom(LawFault::Yields(low, high))) }
+        let Exactly(at) = Exactly::<f64, 2>::deserialize(SeqAccessDeserializer::new(list))?;
+        Self::between(at)
     }
 }
 

@@ -3,7 +3,7 @@
 use serde_json::value::RawValue;
 
 use crate::sheet::error::{Problem, SheetError};
-use crate::sheet::text::{line_and_column, shortened};
+use crate::sheet::text::{line_and_column, shortened, without_place};
 
 /// A text and the name of its file.
 pub(super) struct Source<'a> {
@@ -30,9 +30,7 @@ impl<'a> Source<'a> {
 
     /// Returns the error of the JSON parser, without the position in its message.
     pub(crate) fn syntax(&self, error: &serde_json::Error) -> SheetError {
-        let full = error.to_string();
-        let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned();
-        SheetError::bad(self.name, [error.line(), error.column()], Problem::Syntax { message })
+        SheetError::bad(self.name, [error.line(), error.column()], Problem::Syntax { message: without_place(error) })
     }
 
     /// Reads the value as a `T`; `what` is the name of the value in messages, and `right` describes what it should

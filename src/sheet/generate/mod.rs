@@ -38,6 +38,7 @@ use toml::{Table, Value};
 
 use super::cell::Sheet;
 use super::similar::{did_you_mean_of, there_are};
+use super::written::in_words;
 pub use eggbox::Eggbox;
 pub use error::GenerateError;
 pub use four_parallelogram::FourParallelogram;
@@ -154,12 +155,15 @@ impl Pattern {
         let name = table.get("pattern").and_then(Value::as_str);
         let name = name.ok_or_else(|| unknown("the table names no pattern: `pattern` is missing".to_owned(), ""))?;
         Self::help(name)?;
-        table.clone().try_into().map_err(|error: toml::de::Error| match error.message().split_once(", expected ") {
-            Some((wrong, right)) => GenerateError::Unknown {
+        table.clone().try_into().map_err(|error: toml::de::Error| {
+            let (wrong, right) = in_words(error.message());
+            let found = wrong.strip_prefix("the value is ").map(|found| found.trim_matches('`').to_owned());
+            let named = table.iter().find(|(_, value)| found == Some(value.to_string()));
+            let wrong = named.map_or(wrong.clone(), |(key, _)| wrong.replace("the value", &format!("`{key}`")));
+            GenerateError::Unknown {
                 message: wrong.replace("unknown field", &format!("`{name}` has no parameter")),
-                help: format!("{}expected {right}", did_you_mean_of(error.message())),
-            },
-            None => GenerateError::Unknown { message: error.message().to_owned(), help: String::new() },
+                help: right.map(|right| did_you_mean_of(error.message()) + "expected " + &right).unwrap_or_default(),
+            }
         })
     }
 }

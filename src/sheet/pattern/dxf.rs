@@ -56,8 +56,11 @@ const KNOT: i32 = 40;
 const WEIGHT: i32 = 41;
 const FIRST: [i32; 2] = [10, 20];
 const SECOND: [i32; 2] = [11, 21];
-/// z of the normal of the plane in which a flat entity lies; x is the other way where it points down.
-const NORMAL: i32 = 230;
+const HEIGHT: i32 = 30;
+/// The normal of the plane in which a flat entity lies; x is the other way where it points down.
+const NORMAL: [i32; 3] = [210, 220, 230];
+/// Largest slope of a line, or of the plane of a flat entity, that is taken for a rounding error.
+const LEVEL: f64 = 1e-4;
 /// The entities that lie in such a plane; others have coordinates of the drawing.
 const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
 /// Number that is 1 for entities that are not drawn, and for those of a page beside the drawing.
@@ -104,7 +107,7 @@ pub(super) fn lines(text: &str) -> Lines {
                 let corner = entity.corners().map_err(located)?;
                 open.iter_mut().for_each(|polyline: &mut Polyline| polyline.corners.extend(corner.iter()));
             }
-            ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(Polyline::outline)),
+            ("SEQEND", "ENTITIES") => outlines.extend(open.take().map(Polyline::outline).transpose().map_err(located)?),
             (_, "ENTITIES") if entity.is_hidden(&hidden) => {}
             (name, "ENTITIES") if !IGNORED.contains(&name) => {
                 let (line, named) = entity.meaning(&layers).map_err(located)?;
@@ -125,9 +128,12 @@ pub(super) fn lines(text: &str) -> Lines {
     Ok(drawn)
 }
 
+/// A corner, the bulge of the side that begins there, and its height z.
+type Corner = (Point, f64, f64);
+
 /// A polyline whose corners follow as entities of their own.
 struct Polyline {
-    corners: Vec<(Point, f64)>,
+    corners: Vec<Corner>,
     closed: bool,
     placed: Affine,
     line: Line,
@@ -135,8 +141,9 @@ struct Polyline {
 }
 
 impl Polyline {
-    fn outline(self) -> Outline {
-        Outline { path: self.placed * polyline(&self.corners, self.closed), line: self.line, named: self.named }
+    fn outline(self) -> Result<Outline, PatternFault> {
+        let path = self.placed * polyline(&self.corners, self.closed)?;
+        Ok(Outline { path, line: self.line, named: self.named })
     }
 }
 
@@ -188,7 +195,12 @@ impl<'t> Entity<'t> {
 
     /// Returns the map from the plane in which the entity lies to the drawing.
     fn placed(&self) -> Result<Affine, PatternFault> {
-        let turned = FLAT.contains(&self.name) && self.number(NORMAL)? < 0.0;
+        let [x, y, z] = NORMAL.map(|code| self.number(code));
+        let (across, z) = (x?.hypot(y?), z?);
+        if across > LEVEL * z.abs() && !["LINE", "SPLINE"].contains(&self.name) {
+            return Err(tilted(format!("a {} in a plane that is tilted", self.name)));
+        }
+        let turned = FLAT.contains(&self.name) && z < 0.0;
         Ok(if turned { Affine::FLIP_X } else { Affine::IDENTITY })
     }
 
@@ -204,13 +216,14 @@ impl<'t> Entity<'t> {
 
     /// Returns the corners of a polyline, each with the bulge of the side that begins there: the tangent of a quarter
     /// of the angle of its arc, 0 for a straight side.
-    fn corners(&self) -> Result<Vec<(Point, f64)>, PatternFault> {
-        let mut corners: Vec<(Point, f64)> = Vec::new();
+    fn corners(&self) -> Result<Vec<Corner>, PatternFault> {
+        let mut corners: Vec<Corner> = Vec::new();
         for (code, part) in &self.parts {
             match (*code, corners.last_mut()) {
-                (10, _) => corners.push((Point::new(number(part)?, 0.0), 0.0)),
+                (10, _) => corners.push((Point::new(number(part)?, 0.0), 0.0, 0.0)),
                 (20, Some(corner)) => corner.0.y = number(part)?,
                 (BULGE, Some(corner)) => corner.1 = number(part)?,
+                (HEIGHT, Some(corner)) => corner.2 = number(part)?,
                 _ => {}
             }
         }
@@ -219,8 +232,11 @@ impl<'t> Entity<'t> {
 
     fn outline(&self) -> Result<BezPath, PatternFault> {
         match self.name {
-            "LINE" => Ok(polyline(&[(self.point(FIRST)?, 0.0), (self.point(SECOND)?, 0.0)], false)),
-            "LWPOLYLINE" => Ok(polyline(&self.corners()?, self.has_flag(CLOSED))),
+            "LINE" => {
+                let [low, high] = [self.number(HEIGHT)?, self.number(HEIGHT + 1)?];
+                polyline(&[(self.point(FIRST)?, 0.0, low), (self.point(SECOND)?, 0.0, high)], false)
+            }
+            "LWPOLYLINE" => polyline(&self.corners()?, self.has_flag(CLOSED)),
             "CIRCLE" => {
                 let radius = self.number(RADIUS)?;
                 Ok(Circle::new(self.point(FIRST)?, radius).to_path(ROUND * radius.abs()))
@@ -246,7 +262,7 @@ impl<'t> Entity<'t> {
         let [from, to] = [self.number(PARAMETERS[0])?, self.number(PARAMETERS[1])?];
         let sweep = (to - from).rem_euclid(TAU);
         // seen from below, the short half axis and the parameters go the other way round
-        let side = if self.number(NORMAL)? < 0.0 { -1.0 } else { 1.0 };
+        let side = if self.number(NORMAL[2])? < 0.0 { -1.0 } else { 1.0 };
         let radii = (long.hypot(), self.number(RADIUS)? * long.hypot());
         // a whole ellipse goes from 0 to 2 pi, whose remainder may be a rounding error
         let sweep = if sweep < ROUND { TAU } else { sweep };
@@ -259,7 +275,7 @@ impl<'t> Entity<'t> {
             self.parts.iter().filter(|(known, _)| *known == code).map(|(_, part)| number(part)).collect()
         };
         let weights = all(WEIGHT)?;
-        let control = self.corners()?.into_iter().map(|(point, _)| point).collect();
+        let control = level(&self.corners()?)?.iter().map(|(point, ..)| *point).collect();
         let spline = BSpline::new(self.number(DEGREE)? as usize, all(KNOT)?, control);
         match spline.filter(|_| weights.iter().all(|weight| *weight == weights[0])) {
             Some(spline) => Ok(spline.path()),
@@ -332,11 +348,25 @@ fn rgb(index: u8) -> [u8; 3] {
     }
 }
 
+/// Returns corners if all have one height.
+fn level(corners: &[Corner]) -> Result<&[Corner], PatternFault> {
+    let sloping = |[a, b]: &[Corner; 2]| (b.2 - a.2).abs() > LEVEL * (b.0 - a.0).hypot();
+    match corners.array_windows().find(|side| sloping(side)) {
+        Some([a, b]) => Err(tilted(format!("a line from the height z = {} to {}", a.2, b.2))),
+        None => Ok(corners),
+    }
+}
+
+fn tilted(element: String) -> PatternFault {
+    PatternFault::Element { element, right: "lay the drawing into the plane of x and y: it is seen along z" }
+}
+
 /// Returns the path along corners with the bulges of the sides that begin there.
-fn polyline(corners: &[(Point, f64)], closed: bool) -> BezPath {
+fn polyline(corners: &[Corner], closed: bool) -> Result<BezPath, PatternFault> {
     let mut path = BezPath::new();
+    let corners = level(corners)?;
     let next = corners.iter().skip(1).chain(corners.first().filter(|_| closed));
-    for (k, (&(from, bulge), &(to, _))) in corners.iter().zip(next).enumerate() {
+    for (k, (&(from, bulge, _), &(to, ..))) in corners.iter().zip(next).enumerate() {
         if k == 0 {
             path.move_to(from);
         }
@@ -350,5 +380,5 @@ fn polyline(corners: &[(Point, f64)], closed: bool) -> BezPath {
         let arc = Arc::new(centre, (spoke.hypot(), spoke.hypot()), spoke.atan2(), sweep, 0.0);
         path.extend(arc.append_iter(ROUND * spoke.hypot()));
     }
-    path
+    Ok(path)
 }

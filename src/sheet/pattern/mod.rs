@@ -54,6 +54,7 @@ mod svg_style;
 mod write;
 mod xml;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 pub use cleanup::Cleanup;
@@ -103,7 +104,7 @@ impl Format {
 /// # Errors
 /// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse_cleaned`].
 pub fn read(path: &Path, format: Format, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
-    let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
+    let text = text::read_drawing(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
     parse_cleaned(&text, &path.display().to_string(), format, cleanup)
 }
 
@@ -122,6 +123,8 @@ pub fn parse(text: &str, name: &str, format: Format) -> Result<Sheet, SheetError
 /// As [`parse`]; also if the distance is not positive or above a tenth of the extent.
 pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) -> Result<Sheet, SheetError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    // old programs end lines by a carriage return alone
+    let text = &if text.contains('\n') { Cow::from(text) } else { text.replace('\r', "\n").into() };
     let read = match format {
         Format::Svg => svg::lines(text),
         Format::Cp => cp::lines(text),

@@ -13,7 +13,7 @@ use serde_json::value::RawValue;
 use super::cp::{self, LineType, typed};
 use super::line::{DrawnLines, Line, Lines, offset};
 use crate::sheet::pattern_fault::PatternFault;
-use crate::sheet::text::line_and_column;
+use crate::sheet::text::{line_and_column, without_place};
 
 /// The format as messages name it.
 const FORMAT: &str = "an ORI file of Oriedita, which is JSON";
@@ -43,7 +43,8 @@ struct Segment {
 
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
-    let syntax = |error: &serde_json::Error| PatternFault::Syntax { format: FORMAT, message: error.to_string() }.into();
+    let syntax =
+        |error: &serde_json::Error| PatternFault::Syntax { format: FORMAT, message: without_place(error) }.into();
     let save: Save =
         serde_json::from_str(text).map_err(|error| ([error.line().max(1), error.column().max(1)], syntax(&error)))?;
     let mut drawn =

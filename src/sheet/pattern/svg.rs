@@ -2,17 +2,17 @@
 //!
 //! Shapes with a stroke are lines of the pattern: `line`, `polyline`, `polygon`, `rect`, `circle`, `ellipse` and
 //! `path`, in groups and clones (`use`), with their transforms; curves become polylines. Lengths are those of the
-//! drawing's own coordinates: the size of the page does not count. What has no stroke, or is not displayed, is ignored,
-//! and so are texts and images.
+//! drawing's own coordinates: the size of the page does not count. What has no stroke, no width, or is not
+//! displayed, is ignored, and so are texts, images and elements of other programs.
 
 use kurbo::Affine;
 use roxmltree::{Document, Node};
-use svgtypes::{Color, Transform};
+use svgtypes::{Color, Transform, ViewBox};
 
 use super::colour;
 use super::line::{DrawnLines, Line, Lines, Misread, flip};
 use super::outline::{self, Outline};
-use super::svg_shape::{length, outline};
+use super::svg_shape::{Units, outline};
 use super::svg_style::{Properties, Rules, Style};
 use super::xml;
 use crate::math::Vec2;
@@ -36,7 +36,7 @@ pub(super) fn lines(text: &str) -> Lines {
     let title = root.children().find(|node| node.tag_name().name() == "title").and_then(|node| node.text());
     let mut drawing =
         Drawing { document: &document, rules: Rules::new(&document)?, elements: 0, grey: 0, outlines: vec![] };
-    drawing.read(root, &Around::default(), 0)?;
+    drawing.read(root, &Around::root(root), 0)?;
     let mut drawn = DrawnLines { title: title.unwrap_or_default().trim().to_owned(), ..DrawnLines::default() };
     drawn.redrawing.grey = drawing.grey;
     outline::draw(&drawing.outlines, &mut drawn);
@@ -47,10 +47,13 @@ pub(super) fn lines(text: &str) -> Lines {
 }
 
 /// Properties that an element inherits from the elements around it.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Around {
     style: Style,
     transform: Affine,
+    units: Units,
+    /// Width and height that a clone gives to its original; no numbers where it gives none.
+    room: [f64; 2],
 }
 
 struct Drawing<'d, 'input> {
@@ -74,19 +77,20 @@ impl<'d, 'input> Drawing<'d, 'input> {
         }
         let properties = self.rules.properties(node);
         let mut here = around.with(&properties).map_err(located)?;
-        if !here.style.displayed {
+        here.room = UNKNOWN;
+        let is_foreign = node.tag_name().namespace() != document.root_element().tag_name().namespace();
+        if is_foreign || !here.style.displayed {
             return Ok(());
         }
         match node.tag_name().name() {
-            "svg" | "symbol" if depth > 0 && node.has_attribute("viewBox") => {
-                let element = format!("`{}` with a `viewBox` of its own", node.tag_name().name());
-                Err(located(PatternFault::Element { element, right: "only the outermost `svg` should have one" }))
-            }
-            // without languages or features of its own the first child is the one that applies
-            "switch" => node.first_element_child().map_or(Ok(()), |child| self.read(child, &here, depth + 1)),
-            "svg" | "g" | "a" | "symbol" => {
-                if depth > 0 && node.tag_name().name() == "svg" {
-                    here.shift(node).map_err(located)?;
+            // without languages or features of its own the first child that asks for no extension applies
+            "switch" => node
+                .children()
+                .find(|child| child.is_element() && !child.has_attribute("requiredExtensions"))
+                .map_or(Ok(()), |child| self.read(child, &here, depth + 1)),
+            name @ ("svg" | "g" | "a" | "symbol") => {
+                if depth > 0 && matches!(name, "svg" | "symbol") {
+                    here.frame(node, around.room).map_err(located)?;
                 }
                 // symbols are drawn where they are used
                 let drawn = node.children().filter(|child| child.is_element() && child.tag_name().name() != "symbol");
@@ -94,6 +98,7 @@ impl<'d, 'input> Drawing<'d, 'input> {
             }
             "use" => {
                 here.shift(node).map_err(located)?;
+                here.room = here.size(node, UNKNOWN).map_err(located)?;
                 let original = self.original(node).map_err(located)?;
                 self.read(original, &here, depth + 1)
             }
@@ -112,10 +117,11 @@ impl<'d, 'input> Drawing<'d, 'input> {
     }
 
     fn shape(&mut self, node: Node, here: &Around) -> Result<(), PatternFault> {
-        let Some(colour) = here.style.stroke.filter(|colour| here.style.visible && colour.alpha > 0) else {
+        let Some(colour) = here.style.stroke.filter(|colour| here.style.visible && here.style.wide && colour.alpha > 0)
+        else {
             return Ok(());
         };
-        let Some(outline) = outline(node)? else { return Ok(()) };
+        let Some(outline) = outline(node, &here.units)? else { return Ok(()) };
         let rgb = [colour.red, colour.green, colour.blue];
         let [red, green, blue] = rgb;
         let name = || format!("#{red:02x}{green:02x}{blue:02x}");
@@ -147,12 +153,69 @@ fn angle(letter: Assignment, opacity: f64, colour: Color) -> Option<f64> {
     }
 }
 
+/// The width and height of what has none.
+const UNKNOWN: [f64; 2] = [f64::NAN; 2];
+
 impl Around {
+    /// Returns what is around the outermost element; letters are as large as browsers draw them.
+    fn root(node: Node) -> Self {
+        let units = Units { viewport: UNKNOWN, em: 16.0 };
+        let mut root = Self { style: Style::default(), transform: Affine::IDENTITY, units, room: UNKNOWN };
+        let view: Option<ViewBox> = node.attribute("viewBox").and_then(|text| text.parse().ok());
+        root.units.viewport = view.map_or_else(|| root.size(node, UNKNOWN).unwrap_or(UNKNOWN), |view| [view.w, view.h]);
+        root
+    }
+
+    /// Returns width and height of an element, or those that it has otherwise.
+    fn size(&self, node: Node, mut otherwise: [f64; 2]) -> Result<[f64; 2], PatternFault> {
+        for (size, name) in otherwise.iter_mut().zip(["width", "height"]) {
+            if node.attribute(name).is_some_and(|text| text != "auto") {
+                *size = self.units.length(node, name)?;
+            }
+        }
+        Ok(otherwise)
+    }
+
+    /// Moves into the viewport of an element in others, which fits its `viewBox` into its size.
+    fn frame(&mut self, node: Node, room: [f64; 2]) -> Result<(), PatternFault> {
+        self.shift(node)?;
+        let own = self.size(node, self.units.viewport)?;
+        let size = [0, 1].map(|k| if room[k].is_nan() { own[k] } else { room[k] });
+        self.units.viewport = size;
+        let Some(text) = node.attribute("viewBox") else { return Ok(()) };
+        let right = "`x y width height` in an element whose size is known";
+        let view: Option<ViewBox> = text.parse().ok().filter(|_| size.iter().all(|size| size.is_finite()));
+        let view = view.ok_or_else(|| PatternFault::value(text, "`viewBox` that is read", right))?;
+        let aspect = node.attribute("preserveAspectRatio").unwrap_or_default();
+        let [x, y] = [size[0] / view.w, size[1] / view.h];
+        let [x, y] = match aspect {
+            _ if aspect.contains("none") => [x, y],
+            _ if aspect.contains("slice") => [x.max(y); 2],
+            _ => [x.min(y); 2],
+        };
+        let part = |low, high| {
+            if aspect.contains(low) {
+                0.0
+            } else if aspect.contains(high) {
+                1.0
+            } else {
+                0.5
+            }
+        };
+        let rest = [(size[0] - x * view.w) * part("xMin", "xMax"), (size[1] - y * view.h) * part("YMin", "YMax")];
+        self.transform *= Affine::new([x, 0.0, 0.0, y, rest[0] - x * view.x, rest[1] - y * view.y]);
+        self.units.viewport = [view.w, view.h];
+        Ok(())
+    }
+
     /// Returns what an element with these properties says to those in it.
     fn with(&self, properties: &Properties) -> Result<Self, PatternFault> {
-        let style = self.style.of(properties)?;
+        let (style, mut units) = (self.style.of(properties)?, self.units);
+        if let Some(size) = properties.get("font-size").filter(|size| **size != "inherit") {
+            units.em = units.number(size, units.em).unwrap_or(f64::NAN);
+        }
         let Some(text) = properties.get("transform").filter(|text| **text != "none") else {
-            return Ok(Self { style, ..*self });
+            return Ok(Self { style, units, ..*self });
         };
         if let Some(origin) = properties.get("transform-origin").filter(|origin| !is_origin(origin)) {
             return Err(PatternFault::value(
@@ -163,12 +226,13 @@ impl Around {
         }
         let wrong = |_| PatternFault::value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like");
         let Transform { a, b, c, d, e, f } = text.parse().map_err(wrong)?;
-        Ok(Self { style, transform: self.transform * Affine::new([a, b, c, d, e, f]) })
+        let transform = self.transform * Affine::new([a, b, c, d, e, f]);
+        Ok(Self { style, units, transform, ..*self })
     }
 
     /// Translates by the attributes `x` and `y` of an element.
     fn shift(&mut self, node: Node) -> Result<(), PatternFault> {
-        self.transform *= Affine::translate((length(node, "x")?, length(node, "y")?));
+        self.transform *= Affine::translate((self.units.length(node, "x")?, self.units.length(node, "y")?));
         Ok(())
     }
 

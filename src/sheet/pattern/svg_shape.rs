@@ -1,5 +1,7 @@
 //! The outlines of SVG shapes, in the coordinates of the shape.
 
+use std::f64::consts::SQRT_2;
+
 use kurbo::{BezPath, Ellipse, Point, Rect, RoundedRect, RoundedRectRadii, Shape};
 use roxmltree::Node;
 use svgtypes::{Length, LengthUnit, NumberListParser, SimplePathSegment, SimplifyingPathParser};
@@ -9,43 +11,69 @@ use crate::sheet::pattern_fault::PatternFault;
 /// Largest distance of the cubic curves of a circle from it, relative to its radius.
 const ROUND: f64 = 1e-6;
 
-/// Returns the outline of a shape; `None` if the element is no shape, such as a text.
-pub(super) fn outline(node: Node) -> Result<Option<BezPath>, PatternFault> {
+/// Returns the outline of a shape, empty if it has no size; `None` if the element is no shape, such as a text.
+pub(super) fn outline(node: Node, units: &Units) -> Result<Option<BezPath>, PatternFault> {
     Ok(Some(match node.tag_name().name() {
-        "line" => joined(&[point(node, "x1", "y1")?, point(node, "x2", "y2")?], false),
+        "line" => joined(&[units.point(node, "x1", "y1")?, units.point(node, "x2", "y2")?], false),
         "polyline" => joined(&points(node)?, false),
         "polygon" => joined(&points(node)?, true),
-        "rect" => rectangle(node)?,
+        "rect" => rectangle(node, units)?,
         "path" => path(node.attribute("d").unwrap_or_default())?,
         "circle" => {
-            let radius = length(node, "r")?;
-            ellipse(node, [radius; 2])?
+            let radius = units.length(node, "r")?;
+            ellipse(units.point(node, "cx", "cy")?, [radius; 2])
         }
-        "ellipse" => ellipse(node, [length(node, "rx")?, length(node, "ry")?])?,
+        "ellipse" => {
+            let radii = [units.length(node, "rx")?, units.length(node, "ry")?];
+            ellipse(units.point(node, "cx", "cy")?, radii)
+        }
         _ => return Ok(None),
     }))
 }
 
-/// Returns a length in user units, of which an inch has 96; 0 if it is not given.
-pub(super) fn length(node: Node, name: &str) -> Result<f64, PatternFault> {
-    let Some(text) = node.attribute(name) else { return Ok(0.0) };
-    let length: Option<Length> = text.trim().parse().ok();
-    let unit = |unit: LengthUnit| match unit {
-        LengthUnit::None | LengthUnit::Px => Some(1.0),
-        LengthUnit::Mm => Some(96.0 / 25.4),
-        LengthUnit::Cm => Some(96.0 / 2.54),
-        LengthUnit::In => Some(96.0),
-        LengthUnit::Pt => Some(96.0 / 72.0),
-        LengthUnit::Pc => Some(16.0),
-        _ => None,
-    };
-    let number = length.and_then(|length| Some(length.number * unit(length.unit)?)).filter(|number| number.is_finite());
-    number
-        .ok_or_else(|| PatternFault::value(text, "length", "a number, without a unit or with px, mm, cm, in, pt or pc"))
+/// What the units of lengths are.
+#[derive(Clone, Copy)]
+pub(super) struct Units {
+    /// Width and height of what percentages are parts of; no numbers where they are not known.
+    pub viewport: [f64; 2],
+    /// Size of letters.
+    pub em: f64,
 }
 
-fn point(node: Node, x: &str, y: &str) -> Result<Point, PatternFault> {
-    Ok(Point::new(length(node, x)?, length(node, y)?))
+impl Units {
+    /// Returns a length in user units, of which an inch has 96; 0 if it is not given.
+    pub(super) fn length(&self, node: Node, name: &str) -> Result<f64, PatternFault> {
+        let Some(text) = node.attribute(name) else { return Ok(0.0) };
+        let [width, height] = self.viewport;
+        let whole = match name {
+            "x" | "x1" | "x2" | "cx" | "rx" | "width" => width,
+            "y" | "y1" | "y2" | "cy" | "ry" | "height" => height,
+            _ => width.hypot(height) / SQRT_2,
+        };
+        let right = "a number, without a unit or with px, mm, cm, in, pt, pc or em, or with % of a known size";
+        self.number(text, whole).ok_or_else(|| PatternFault::value(text, "length", right))
+    }
+
+    /// Returns the number that a length says; percentages are parts of `whole`.
+    pub(super) fn number(&self, text: &str, whole: f64) -> Option<f64> {
+        let length: Length = text.trim().parse().ok()?;
+        let unit = match length.unit {
+            LengthUnit::None | LengthUnit::Px => 1.0,
+            LengthUnit::Mm => 96.0 / 25.4,
+            LengthUnit::Cm => 96.0 / 2.54,
+            LengthUnit::In => 96.0,
+            LengthUnit::Pt => 96.0 / 72.0,
+            LengthUnit::Pc => 16.0,
+            LengthUnit::Em => self.em,
+            LengthUnit::Ex => self.em / 2.0,
+            LengthUnit::Percent => whole / 100.0,
+        };
+        Some(length.number * unit).filter(|number| number.is_finite())
+    }
+
+    fn point(&self, node: Node, x: &str, y: &str) -> Result<Point, PatternFault> {
+        Ok(Point::new(self.length(node, x)?, self.length(node, y)?))
+    }
 }
 
 /// Returns the points of a polyline or polygon.
@@ -68,18 +96,24 @@ fn joined(points: &[Point], closed: bool) -> BezPath {
     path
 }
 
-fn ellipse(node: Node, radii: [f64; 2]) -> Result<BezPath, PatternFault> {
-    let centre = point(node, "cx", "cy")?;
-    Ok(Ellipse::new(centre, (radii[0], radii[1]), 0.0).to_path(ROUND * radii[0].abs().max(radii[1].abs())))
+fn ellipse(centre: Point, radii: [f64; 2]) -> BezPath {
+    if !radii.iter().all(|radius| *radius > 0.0) {
+        return BezPath::new();
+    }
+    Ellipse::new(centre, (radii[0], radii[1]), 0.0).to_path(ROUND * radii[0].max(radii[1]))
 }
 
 /// Returns a rectangle, whose corners are round if it has one radius or two equal ones.
-fn rectangle(node: Node) -> Result<BezPath, PatternFault> {
-    let rect = Rect::from_origin_size(point(node, "x", "y")?, (length(node, "width")?, length(node, "height")?));
+fn rectangle(node: Node, units: &Units) -> Result<BezPath, PatternFault> {
+    let size = (units.length(node, "width")?, units.length(node, "height")?);
+    if !(size.0 > 0.0 && size.1 > 0.0) {
+        return Ok(BezPath::new());
+    }
+    let rect = Rect::from_origin_size(units.point(node, "x", "y")?, size);
     let mut radii = Vec::new();
     for name in ["rx", "ry"] {
         if !matches!(node.attribute(name), None | Some("auto")) {
-            radii.push(length(node, name)?);
+            radii.push(units.length(node, name)?);
         }
     }
     match radii[..] {

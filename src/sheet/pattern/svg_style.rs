@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, Selector, StyleSheet};
-use svgtypes::{Color, Paint};
+use svgtypes::{Color, Length, Paint};
 
 use super::line::Misread;
 use super::xml;
@@ -14,11 +14,16 @@ use crate::sheet::pattern_fault::PatternFault;
 const USED: [&str; 8] =
     ["stroke", "stroke-opacity", "opacity", "display", "visibility", "color", "transform", "transform-origin"];
 
+/// Those that give no line a letter.
+const SIZES: [&str; 2] = ["stroke-width", "font-size"];
+
 /// How elements are drawn, as far as a crease pattern needs it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
     /// Colour of the stroke; `None` for shapes without one.
     pub stroke: Option<Color>,
+    /// Whether the stroke has a width.
+    pub wide: bool,
     /// Opacity of the stroke alone, from 0 to 1.
     pub stroke_opacity: f64,
     /// Opacity of the element and all groups around it.
@@ -33,7 +38,7 @@ pub(super) struct Style {
 impl Default for Style {
     fn default() -> Self {
         let (opacity, color) = (1.0, Color::black());
-        Self { stroke: None, stroke_opacity: opacity, opacity, visible: true, displayed: true, color }
+        Self { stroke: None, wide: true, stroke_opacity: opacity, opacity, visible: true, displayed: true, color }
     }
 }
 
@@ -76,7 +81,8 @@ impl<'a> Rules<'a> {
     /// Returns the properties that an element is given; important rules come before `style`, that before other rules,
     /// and they before attributes.
     pub(super) fn properties(&self, node: Node<'a, '_>) -> Properties<'a> {
-        let attributes = node.attributes().map(|attribute| (attribute.name(), attribute.value()));
+        let attributes = node.attributes().filter(|attribute| attribute.namespace().is_none());
+        let attributes = attributes.map(|attribute| (attribute.name(), attribute.value()));
         let attributes: Vec<(String, &str)> = attributes.map(|(name, value)| (name.to_owned(), value)).collect();
         let matching: Vec<_> = self.0.rules.iter().filter(|rule| rule.selector.matches(&Element(node))).collect();
         let ruled = |important: bool| {
@@ -87,7 +93,7 @@ impl<'a> Rules<'a> {
         let attributes = attributes.iter().map(|(name, value)| (name.as_str(), *value));
         let mut properties = Properties::new();
         for (name, value) in attributes.chain(ruled(false)).chain(own).chain(ruled(true)) {
-            if let Some(known) = USED.iter().find(|known| **known == name) {
+            if let Some(known) = USED.iter().chain(&SIZES).find(|known| **known == name) {
                 properties.insert(known, value.trim());
             }
         }
@@ -106,6 +112,9 @@ impl Style {
         }
         if let Some(text) = given("stroke") {
             style.stroke = stroke(text, style.color, self.stroke)?;
+        }
+        if let Some(text) = given("stroke-width") {
+            style.wide = !text.parse().is_ok_and(|width: Length| width.number == 0.0);
         }
         if let Some(text) = given("stroke-opacity") {
             style.stroke_opacity = opacity(text)?;

@@ -96,18 +96,22 @@ const FAULTS: &[Fault] = &[
     // the language
     fault(2, "[sheet", "2:7", "unclosed table", "expected `]`"),
     fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
-    fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "duplicate key", ""),
-    fault(1, "title = 3", "1:9", "invalid type: integer `3`", "expected a string"),
+    fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "`title` is given a second time", "each key, and each table in brackets, is given once"),
+    fault(7, "bars = { stiffness = 2020-01-01 }", "7:22", "the value is a date", "expected a number, or a text in quotes"),
+    fault(8, "creases = { stiffness = 1.0, law = { kind = \"bilinear\", ratio = 0.1, at = 30 } }", "8:36", "the angle 30 is beyond pi", "angles are radians; did you mean \"30 deg\", 0.523599 rad?"),
+    fault(8, "creases = { stiffness = 1.0, law = { M = { kind = \"bilinear\", ratio = 0.1, at = [-90, inf] } } }", "8:36", "the angle -90 is beyond pi", "angles are radians; did you mean \"-90 deg\", -1.570796 rad?"),
+    fault(9, "facets = { stiffness = 1.0, law = { kind = \"table\", points = [[-90.0, -1.0], [0.0, 0.0], [90.0, 1.0]] } }", "9:35", "the angle -90 is more than a whole turn", "angles are radians: -90 degrees are -1.570796 rad"),
+    fault(1, "title = 3", "1:9", "the value is `3`", "expected a text in quotes"),
     fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "did you mean `title`? the keys here are `title`, `sheet`, `units`, `material`, `energy`, `mass`, `lock`, `load`, `pressure`, `pin`, `part`, `tie`, `spring`, `drive`, `study`, `sweep`"),
     // the sheet
     fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
-    fault(3, "mesh = 3", "3:8", "invalid type: integer `3`", "expected a path in quotes"),
+    fault(3, "mesh = 3", "3:8", "the value is `3`", "expected a path in quotes"),
     fault(4, "domain = \"pipe\"", "4:10", "unknown word `pipe`", "expected one of `screw`, `patch`, `torus`, `tube`"),
     fault(5, "cells = [0, 6]", "5:9", "there are 0 x 6 cells", "expected at least 1 in either direction"),
     fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2 values"),
     fault(5, "cells = [4000000000, 4000000000]", "5:9", "4000000000 x 4000000000 cells are more than can be numbered", "expected at most 2147483647 in all"),
-    fault(5, "cells = [99999999999999999999, 1]", "5:10", "invalid type: integer `99999999999999999999` as i128", "expected a whole number"),
+    fault(5, "cells = [99999999999999999999, 1]", "5:10", "the value is `99999999999999999999`", "expected a whole number"),
     fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "did you mean `cells`? the keys here are `mesh`, `merge`, `frame`, `generate`, `domain`, `cells`, `lattice`, `seam`, `closing`, `inwards`"),
     fault(4, "domain = \"tube\"", "4:10", "a tube without a seam", "give seam = [n1, n2], the cell that lies on cell [0, 0] when the sheet is rolled up"),
     fault(4, "domain = \"tube\"\nseam = [0, 0]", "5:8", "there is no tube with the seam [0, 0]", "expected whole numbers of at most 1000, not both 0"),
@@ -124,7 +128,7 @@ const FAULTS: &[Fault] = &[
     fault(7, "bars = { stiffness = 0 }", "7:22", "the stiffness is 0", "expected a positive number or `inf` (exactly rigid)"),
     fault(7, "bars = { stiffness = -3.0 }", "7:22", "the stiffness is -3", "expected a positive number or `inf` (exactly rigid)"),
     fault(7, "bars = { stiffness = nan }", "7:22", "the stiffness is NaN", "expected a positive number or `inf` (exactly rigid)"),
-    fault(7, "bars = { stiffness = \"soft\" }", "7:22", "invalid value: string \"soft\"", "expected a number, `inf`, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }"),
+    fault(7, "bars = { stiffness = \"soft\" }", "7:22", "the value is \"soft\"", "expected a number, `inf`, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }"),
     fault(7, "bars = { stifness = 1 }", "7:10", "unknown key `stifness`", "did you mean `stiffness`? the keys here are `stiffness`, `rest`, `law`, `yield`"),
     fault(7, "bars = {}", "7:8", "missing key `stiffness`", "`stiffness` has to be given here, or follow from [material], for creases with `crease_length`"),
     fault(6, "[material]\nyoung = 3200.0\npoisson = 0.6\nthickness = 0.3\n[energy]", "8:11", "Poisson's ratio is 0.6", "expected a number above -1, and at most 0.5"),
@@ -132,12 +136,12 @@ const FAULTS: &[Fault] = &[
     fault(6, "[material]\nyoung = 0.0\npoisson = 0.3\nthickness = 0.3\n[energy]", "7:9", "the number is 0", "expected a finite number above 0"),
     fault(8, "creases = { rest = 1.0 }", "8:11", "missing key `stiffness`", "`stiffness` has to be given here, or follow from [material], for creases with `crease_length`"),
     fault(9, "facets = \"N5B9\"", "9:10", "unknown word `N5B9`", "did you mean `N5B8`? expected `N4B5` or `N5B8`"),
-    fault(9, "facets = 3", "9:10", "invalid type: integer `3`", "expected \"N4B5\", \"N5B8\" or a table { model, stiffness, rest, fraction, law }"),
+    fault(9, "facets = 3", "9:10", "the value is `3`", "expected \"N4B5\", \"N5B8\" or a table { model, stiffness, rest, fraction, law }"),
     fault(6, "[units]\nlong = \"mm\"\n[energy]", "7:1", "unknown key `long`", "the keys here are `length` or `force`"),
-    fault(7, "bars = 1000", "7:8", "invalid type: integer `1000`", "expected a table"),
-    fault(8, "creases = { stiffness = 1.0, rest = \"folded\" }", "8:37", "invalid value: string \"folded\"", "expected \"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
+    fault(7, "bars = 1000", "7:8", "the value is `1000`", "expected a table"),
+    fault(8, "creases = { stiffness = 1.0, rest = \"folded\" }", "8:37", "the value is \"folded\"", "expected \"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
     fault(8, "creases = { stiffness = 1.0, rest = inf }", "8:37", "the number is inf", "expected a finite number"),
-    fault(8, "creases = { stiffness = 1.0, rest = true }", "8:37", "invalid type: boolean `true`", "expected \"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
+    fault(8, "creases = { stiffness = 1.0, rest = true }", "8:37", "the value is `true`", "expected \"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
     fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, 0], amplitude = 0.1 } }", "8:46", "the list has 2 values", "expected 3 values"),
     fault(8, "creases = { stiffness = 1.0, rest = { mode = [0, 0, 0], amplitude = 0.1 } }", "8:46", "the mode is zero", "expected a curvature tensor [k11, k22, k12]"),
     fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, nan, 0], amplitude = 0.1 } }", "8:46", "the number is NaN", "expected a finite number"),
@@ -155,26 +159,26 @@ const FAULTS: &[Fault] = &[
     fault(7, "bars = { stiffness = { M = 1, file = \"k.csv\" } }", "7:22", "stiffnesses come from letters and from a file at once", "expected one of the two"),
     fault(7, "bars = { stiffness = { Q = 1 } }", "7:24", "unknown key `Q`", "the keys here are `M`, `V`, `F`, `U`, `B`, `C`, `J`, `file`"),
     fault(7, "bars = { stiffness = 1, rest = 0 }", "7:32", "the number is 0", "expected a finite number above 0"),
-    fault(7, "bars = { stiffness = 1, rest = \"flat\" }", "7:32", "invalid value: string \"flat\"", "expected \"drawn\", a factor on the drawn lengths or { file = \"lengths.csv\" }"),
+    fault(7, "bars = { stiffness = 1, rest = \"flat\" }", "7:32", "the value is \"flat\"", "expected \"drawn\", a factor on the drawn lengths or { file = \"lengths.csv\" }"),
     // the mass
     fault(1, "mass = { vertex = 0 }", "1:19", "the number is 0", "expected a finite number above 0"),
     fault(1, "mass = { area = -0.1 }", "1:17", "the number is -0.1", "expected a finite number above 0"),
     fault(1, "mass = { area = inf }", "1:17", "the number is inf", "expected a finite number above 0"),
     fault(1, "mass = { vertex = 1, area = 2 }", "1:29", "the sheet has both a mass per vertex and per area", "give one of { vertex = 1.0 }, the mass of each vertex, and { area = 1.0 }, a mass per area"),
     fault(1, "mass = {}", "1:8", "the mass has neither `vertex` nor `area`", "give one of { vertex = 1.0 }, the mass of each vertex, and { area = 1.0 }, a mass per area"),
-    fault(1, "mass = 1.0", "1:8", "invalid type: floating point `1.0`", "expected a table"),
+    fault(1, "mass = 1.0", "1:8", "the value is `1.0`", "expected a table"),
     fault(1, "mass = { edge = 1 }", "1:10", "unknown key `edge`", "the keys here are `vertex` or `area`"),
     // locks, loads, pins
     fault(11, "crease = [0, 1, 0]", "11:10", "the list has 3 values", "expected 4 values"),
-    fault(11, "crease = [0, 0.5, 0, 0]", "11:14", "invalid type: floating point `0.5`", "expected a whole number"),
+    fault(11, "crease = [0, 0.5, 0, 0]", "11:14", "the value is `0.5`", "expected a whole number"),
     fault(11, "crease = [0, -1, 0, 0]", "11:10", "an edge cannot start or end at vertex -1", "expected [i, j, n1, n2] with i and j counted from 0"),
     fault(11, "crease = [1, 1, 0, 0]", "11:10", "the edge runs from vertex 1 to itself", "expected two different ends in [i, j, n1, n2]"),
     fault(11, "crease = [1, 1, 9999999999, 0]", "11:10", "cell 9999999999 of an edge is out of range", "expected n1 and n2 of [i, j, n1, n2] to be small whole numbers"),
     fault(11, "crease = [0, 1, 0, -1]\n[[lock]]\ncrease = [1, 0, 0, 1]", "13:10", "the crease is locked twice", "it is locked in line 11 already; [i, j, n1, n2] and [j, i, -n1, -n2] are the same crease"),
     fault(12, "angle = nan", "12:9", "the number is NaN", "expected a finite number"),
-    fault(14, "vertex = -1", "14:10", "invalid value: integer `-1`", "expected a whole number, 0 or more"),
+    fault(14, "vertex = -1", "14:10", "the value is `-1`", "expected a whole number, 0 or more"),
     fault(15, "cell = [4, 0]", "15:8", "there is no cell [4, 0]", "cells of this patch run from [0, 0] to [3, 5]"),
-    fault(15, "cell = [-1, 0]", "15:9", "invalid value: integer `-1`", "expected a whole number, 0 or more"),
+    fault(15, "cell = [-1, 0]", "15:9", "the value is `-1`", "expected a whole number, 0 or more"),
     fault(16, "force = [0.0, 0.0, inf]", "16:9", "the number is inf", "expected a finite number"),
     fault(15, "cell = [1, 2, 3]", "15:8", "the list has 3 values", "expected 2 values"),
     fault(16, "force = [0.0, 0.0, 1.0, 2.0]", "16:9", "the list has 4 values", "expected 3 values"),
@@ -197,7 +201,7 @@ const FAULTS: &[Fault] = &[
     fault(23, "start = { random = 0.1 }", "23:9", "missing key `seed`", "`seed` has to be given here"),
     fault(23, "start = { random = -0.1, seed = 1 }", "23:20", "the number is -0.1", "expected a finite number above 0"),
     fault(23, "start = \"second\"", "23:9", "no earlier study is called `second`", "\"drawn\", the name of an earlier study with states (there are none), { random, seed } or a .vtu file"),
-    fault(23, "start = 3", "23:9", "invalid type: integer `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
+    fault(23, "start = 3", "23:9", "the value is `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
     fault(24, "tolerance = 0", "24:13", "the number is 0", "expected a finite number above 0"),
     fault(62, "resolution = 0", "62:14", "the number is 0", "expected a whole number from 1 to 4294967295"),
     fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace, path, fold; the keys here are `start`, `tolerance`, `method`, `keep_every`"),
@@ -205,11 +209,11 @@ const FAULTS: &[Fault] = &[
     fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
     fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected one of `vtk`, `svg`, `numbers`, `html`"),
     fault(38, "engine = \"fast\"", "38:10", "unknown word `fast`", "expected one of `kinematic`, `energy`, `both`"),
-    fault(39, "branch = -2", "39:10", "invalid value: integer `-2`", "expected \"all\" or the number of a branch, counted from 0"),
+    fault(39, "branch = -2", "39:10", "the value is `-2`", "expected \"all\" or the number of a branch, counted from 0"),
     fault(41, "stop = {}", "41:8", "no condition to stop at", "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true; a path also has drive, displacement = { probe, value }, reaction, states and limit_points"),
     fault(41, "stop = { curvature = 0 }", "41:22", "the number is 0", "expected a finite number above 0"),
     fault(45, "[[study]]\nname = \"late\"\nkind = \"relax\"\nstart = \"modes\"", "48:9", "`modes` is a study of kind modes, which ends in no state", "\"drawn\", the name of an earlier study with states (here \"first\", \"second\", \"third\", \"loop\"), { random, seed } or a .vtu file"),
-    fault(45, "eigenvalues = 1.5", "45:15", "invalid type: floating point `1.5`", "expected a whole number, 0 or more"),
+    fault(45, "eigenvalues = 1.5", "45:15", "the value is `1.5`", "expected a whole number, 0 or more"),
     fault(49, "modes = []", "49:9", "no modes", "give at least one, as in [[1, 0, 0]]"),
     fault(50, "amplitudes = []", "50:14", "no amplitudes", "give at least one, as in [0.01]"),
     fault(54, "grid = [0, 4]", "54:8", "there are 0 x 4 cells", "expected at least 1 in either direction"),
@@ -232,6 +236,34 @@ fn every_fault_has_its_message() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Faults that are found with the files beside a scene, or in the brackets of a table.
+#[test]
+fn slips_are_said_in_words() {
+    let energy = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1.0";
+    let scene = |mesh: &str, law: &str, study: &str| {
+        format!("[sheet]\n{mesh}\n{energy}{law} }}\n{study}\nname = \"a\"\nkind = \"relax\"\n")
+    };
+    let of_law = |law: &str| format!(", law = {law}");
+    let (right, sides) = ("mesh = \"a.fold\"", "generate = { pattern = \"kresling\", sides = \"six\" }");
+    let at = |at: &str| of_law(&format!("{{ kind = \"bilinear\", ratio = 0.1, at = {at} }}"));
+    let table = of_law("{ kind = \"table\", file = \"a.csv\" }");
+    let folder = Folder::new().with("a.fold", FINITE).with("a.csv", "angle,torque\n-90,-1\n0,0\n90,1\n");
+    for (name, text, said) in [
+        ("mesh", scene("mesh = \"b.fold\"", "", "[[study]]"), "did you mean `a.fold`? paths are relative"),
+        ("sides", scene(sides, "", "[[study]]"), "`sides` is \"six\""),
+        ("study", scene(right, "", "[study]"), "expected a list of tables, each under [[study]]"),
+        ("kind", scene(right, "", "[[study]]").replace("relax", "relx"), "did you mean `relax`?"),
+        ("table", scene(right, &table, "[[study]]"), "a.csv:2: the angle -90 is more than a whole turn"),
+    ] {
+        folder.write(format!("{name}.toml"), text);
+        folder.foldwell(&format!("info {name}.toml")).refused(said);
+    }
+    for right_at in ["\"30 deg\"", "[\"-30 deg\", inf]", "1.5"] {
+        folder.write("good.toml", scene(right, &at(right_at), "[[study]]"));
+        folder.foldwell("info good.toml").well();
+    }
 }
 
 /// The scene in which the faults are planted is valid.

@@ -417,7 +417,7 @@ fn other_drawings_are_refused_by_name() {
         (Svg, svg("<use href=\"#there\"/>"), ":2:1: `#there` is no element of this file"),
         (Svg, deep, "too many elements in a crease pattern"),
         (Svg, many, "too many elements in a crease pattern"),
-        (Svg, svg("<rect stroke=\"black\"/>"), ":2:1: there is no line to fold along; all lines have the length 0"),
+        (Svg, svg("<rect stroke=\"black\"/>"), ":1:1: there is no line to fold along; draw shapes"),
         (
             Svg,
             on_square("<line x1=\"1\" x2=\"3\" y2=\"5\" stroke=\"blue\"/>"),

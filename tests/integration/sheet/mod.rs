@@ -4,6 +4,7 @@ mod assignments;
 mod bad_meshes;
 mod careless_drawings;
 mod corpus;
+mod dialects;
 mod flattening;
 mod frames;
 mod mesh_files;
