@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::output::picture::Picture;
 use crate::output::vtk::VtuMesh;
 use crate::sheet::build::{self, Drawing};
-use crate::sheet::info::TURNED_OVER;
+use crate::sheet::info::{TURNED_OVER, remarks};
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
@@ -53,7 +53,7 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if sheet.record.turned_over {
         notes.push(TURNED_OVER.to_owned());
     }
-    notes.extend(sheet.remarks());
+    notes.extend(remarks(sheet));
     if ending == "obj" && !sheet.listed_edges.is_empty() {
         notes.push("OBJ has no list of edges: their order is not kept".to_owned());
     }

@@ -3,7 +3,7 @@
 use super::SceneFile;
 use super::rest::RestSpec;
 use crate::model::Assembly;
-use crate::sheet::info::{TURNED_OVER, frames_said, targets_said};
+use crate::sheet::info::{TURNED_OVER, frames_said, remarks, targets_said};
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Returns remarks about a scene, made before its studies.
@@ -26,7 +26,7 @@ pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
         ));
     }
     let record = &assembly.sheet().record;
-    notes.extend(assembly.sheet().remarks());
+    notes.extend(remarks(assembly.sheet()));
     notes.extend(frames_said(record.frame, record.further_frames).filter(|_| file.scene.sheet.frame.is_none()));
     notes
 }

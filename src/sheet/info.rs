@@ -143,7 +143,7 @@ impl Info {
             touching_vertices: touching(sheet),
             frame: sheet.record.frame,
             further_frames: sheet.record.further_frames,
-            remarks: sheet.remarks(),
+            remarks: remarks(sheet),
         }
     }
 }
@@ -247,6 +247,18 @@ impl fmt::Display for Info {
         write!(f, "{}: {surface}", self.title)?;
         written.chain(remarks).chain(frames).try_for_each(|(name, said)| write!(f, "\n{name:<23}{said}"))
     }
+}
+
+/// Returns a sentence for each thing that was done to the file of a sheet, or that may not be what was meant.
+pub(crate) fn remarks(sheet: &Sheet) -> Vec<String> {
+    let mut said = sheet.record.redrawing.said();
+    let rims = sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary);
+    let letters = rims.filter_map(|edge| sheet.assignments.get(&edge.key));
+    let folding = letters.filter(|letter| matches!(letter, Assignment::Mountain | Assignment::Valley)).count();
+    if folding > 0 {
+        said.push(format!("{folding} edges of the rim have the letter M or V; an edge of one face does not fold"));
+    }
+    said
 }
 
 /// Says which frame of a file is read, if it has several.

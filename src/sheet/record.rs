@@ -1,8 +1,6 @@
 //! Content of a mesh file other than the shape of the sheet, and what was done to the lines of a drawing so that they
 //! make a crease pattern.
 
-use super::assignment::Assignment;
-use super::cell::{Edge, EdgeKind, Sheet};
 use super::pattern_fault::LineName;
 
 /// Content of a mesh file other than the shape of the sheet: the keys that are kept, and the names of those that are
@@ -61,23 +59,9 @@ pub struct Gap {
     pub merged: f64,
 }
 
-impl Sheet {
-    /// Returns a sentence for each thing that was done to the file, or that may not be what was meant.
-    pub(crate) fn remarks(&self) -> Vec<String> {
-        let mut said = self.record.redrawing.said();
-        let letter = |edge: &Edge| self.assignments.get(&edge.key);
-        let folds = |edge: &&Edge| matches!(letter(edge), Some(Assignment::Mountain | Assignment::Valley));
-        let rims = self.edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).filter(folds).count();
-        if rims > 0 {
-            said.push(format!("{rims} edges of the rim have the letter M or V; an edge of one face does not fold"));
-        }
-        said
-    }
-}
-
 impl Redrawing {
     /// Returns a sentence for each thing that was done or is in doubt.
-    fn said(&self) -> Vec<String> {
+    pub(crate) fn said(&self) -> Vec<String> {
         let mut said = Vec::new();
         if let Some([distance, default]) = self.merged {
             said.push(format!(

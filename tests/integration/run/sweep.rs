@@ -210,10 +210,10 @@ fn wrong_sweeps_are_refused() {
             ["this one has 2 values, the first 1", "zip"],
         ),
         ("", ["the sweep has no axes", "energy.bars.stiffness"]),
-        ("zip = 3", ["integer `3`", "true or false"]),
+        ("zip = 3", ["the value is `3`", "true or false"]),
         ("points = [1, 2]", ["`points` has no values", "points.csv"]),
         ("points = \"none.csv\"", ["there is no file", "none.csv"]),
-        ("points = \"points.csv\"", ["points.csv:3: point 1 (energy.bars.stiffness=x): ", "invalid"]),
+        ("points = \"points.csv\"", ["points.csv:3: point 1 (energy.bars.stiffness=x): ", "the value is \"x\""]),
     ] {
         let folder = with_scene(&format!("{STAR}\n[sweep]\n{axes}\n"));
         folder.write("points.csv", "energy.bars.stiffness\n1e3\nx\n");
