@@ -16,9 +16,9 @@ use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::setting::{Setting, apply};
 use super::spec::Scene;
 use crate::sheet::SheetError;
+use crate::sheet::serde_message::in_words;
 use crate::sheet::similar::{did_you_mean, did_you_mean_of};
 use crate::sheet::text::{line_and_column, shortened};
-use crate::sheet::written::in_words;
 
 /// Arrays in the place of tables of edges, by the names that a scene has for them: one number for each edge of the
 /// cell, or of the tiling; and `loads`, three for each vertex of a patch.

@@ -34,6 +34,7 @@ pub mod ply;
 pub(crate) mod record;
 pub(crate) mod screws;
 mod seam;
+pub(crate) mod serde_message;
 pub(crate) mod sides;
 pub mod similar;
 pub mod stl;

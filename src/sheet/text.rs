@@ -60,12 +60,6 @@ pub(crate) fn line_and_column(text: &str, offset: usize) -> [usize; 2] {
     [line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1]
 }
 
-/// Returns the message of an error in JSON without the line and column.
-pub(crate) fn without_place(error: &serde_json::Error) -> String {
-    let message = error.to_string();
-    message.rsplit_once(" at line ").map_or(message.as_str(), |(message, _)| message).to_owned()
-}
-
 /// Returns a text that is cut after this number of characters.
 pub(crate) fn shortened(text: &str, length: usize) -> String {
     let end = text.char_indices().nth(length);

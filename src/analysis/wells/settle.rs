@@ -14,8 +14,8 @@ use crate::solver::{Failure, Observe, Options, Problem};
 /// When states on the way between wells are converged.
 const ON_WAY: Options = Options { tolerance: 1e-10, iterations: 60 };
 
-/// A state that has settled, or how its relaxation ended.
-type Found = Result<Settled, Box<RelaxError>>;
+/// Result of a relaxation between wells.
+type SettleResult = Result<Settled, Box<RelaxError>>;
 
 /// A settled state.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl MinimumTracker {
     }
 
     /// Relaxes from a place, next to its equilibrium where its tensions are known.
-    pub(crate) fn free(&self, from: &Configuration, options: Options, observe: Observe<'_>) -> Found {
+    pub(crate) fn free(&self, from: &Configuration, options: Options, observe: Observe<'_>) -> SettleResult {
         self.settled(self.model.clone(), from, options, observe)
     }
 
@@ -75,7 +75,7 @@ impl MinimumTracker {
     ///
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
-    pub fn near(&self, from: &Configuration, target: &[f64], options: Options, observe: Observe<'_>) -> Found {
+    pub fn near(&self, from: &Configuration, target: &[f64], options: Options, observe: Observe<'_>) -> SettleResult {
         let mut held = self.model.clone();
         held.scale_hinges(1.0 + self.strength);
         let mut rests = held.rests();
@@ -91,7 +91,7 @@ impl MinimumTracker {
         self.near(from, to, ON_WAY, observe).map_err(|error| error.failure)
     }
 
-    fn settled(&self, mut model: Model, from: &Configuration, options: Options, observe: Observe<'_>) -> Found {
+    fn settled(&self, mut model: Model, from: &Configuration, options: Options, observe: Observe<'_>) -> SettleResult {
         let start = model.enter(from);
         let (relaxed, model, x) = relax_model(model, start, options, observe)?;
         let (rho, place) = (model.hinge_angles(&x), relaxed.configuration.clone());

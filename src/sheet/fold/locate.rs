@@ -3,7 +3,8 @@
 use serde_json::value::RawValue;
 
 use crate::sheet::error::{Problem, SheetError};
-use crate::sheet::text::{line_and_column, shortened, without_place};
+use crate::sheet::serde_message::without_place;
+use crate::sheet::text::{line_and_column, shortened};
 
 /// A text and the name of its file.
 pub(super) struct Source<'a> {

@@ -37,8 +37,8 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::cell::Sheet;
+use super::serde_message::in_words;
 use super::similar::{did_you_mean_of, there_are};
-use super::written::in_words;
 pub use eggbox::Eggbox;
 pub use error::GenerateError;
 pub use four_parallelogram::FourParallelogram;
@@ -157,9 +157,16 @@ impl Pattern {
         Self::help(name)?;
         table.clone().try_into().map_err(|error: toml::de::Error| {
             let (wrong, right) = in_words(error.message());
-            let found = wrong.strip_prefix("the value is ").map(|found| found.trim_matches('`').to_owned());
-            let named = table.iter().find(|(_, value)| found == Some(value.to_string()));
-            let wrong = named.map_or(wrong.clone(), |(key, _)| wrong.replace("the value", &format!("`{key}`")));
+            // the error does not name its parameter: it is the one without which there is another error, or none
+            let is_wrong = |key: &&String| {
+                let others = table.iter().filter(|(other, _)| other != key).map(|(k, v)| (k.clone(), v.clone()));
+                let found = Table::from_iter(others).try_into::<Self>();
+                *key != "pattern" && found.err().is_none_or(|other| other.message() != error.message())
+            };
+            let wrong = table
+                .keys()
+                .find(is_wrong)
+                .map_or(wrong.clone(), |key| wrong.replace("the value", &format!("`{key}`")));
             GenerateError::Unknown {
                 message: wrong.replace("unknown field", &format!("`{name}` has no parameter")),
                 help: right.map(|right| did_you_mean_of(error.message()) + "expected " + &right).unwrap_or_default(),

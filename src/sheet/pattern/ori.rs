@@ -13,7 +13,8 @@ use serde_json::value::RawValue;
 use super::cp::{self, LineType, typed};
 use super::line::{DrawnLines, Line, Lines, offset};
 use crate::sheet::pattern_fault::PatternFault;
-use crate::sheet::text::{line_and_column, without_place};
+use crate::sheet::serde_message::without_place;
+use crate::sheet::text::line_and_column;
 
 /// The format as messages name it.
 const FORMAT: &str = "an ORI file of Oriedita, which is JSON";

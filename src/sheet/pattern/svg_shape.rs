@@ -31,7 +31,7 @@ pub(super) fn outline(node: Node, units: &Units) -> Result<Option<BezPath>, Patt
     }))
 }
 
-/// What the units of lengths are.
+/// The units of lengths that depend on the place of an element in its drawing.
 #[derive(Clone, Copy)]
 pub(super) struct Units {
     /// Width and height of what percentages are parts of; no numbers where they are not known.

@@ -14,7 +14,7 @@ use crate::sheet::pattern_fault::PatternFault;
 const USED: [&str; 8] =
     ["stroke", "stroke-opacity", "opacity", "display", "visibility", "color", "transform", "transform-origin"];
 
-/// Those that give no line a letter.
+/// Properties of sizes. A rule whose selectors cannot be read may have them: what it leaves out is a size, no line.
 const SIZES: [&str; 2] = ["stroke-width", "font-size"];
 
 /// How elements are drawn, as far as a crease pattern needs it.

@@ -253,6 +253,7 @@ fn slips_are_said_in_words() {
     for (name, text, said) in [
         ("mesh", scene("mesh = \"b.fold\"", "", "[[study]]"), "did you mean `a.fold`? paths are relative"),
         ("sides", scene(sides, "", "[[study]]"), "`sides` is \"six\""),
+        ("equal", scene(&sides.replace("\"six\"", "2.5, radius = 2.5"), "", "[[study]]"), "`sides` is `2.5`"),
         ("study", scene(right, "", "[study]"), "expected a list of tables, each under [[study]]"),
         ("kind", scene(right, "", "[[study]]").replace("relax", "relx"), "did you mean `relax`?"),
         ("table", scene(right, &table, "[[study]]"), "a.csv:2: the angle -90 is more than a whole turn"),

@@ -1,4 +1,5 @@
-//! What SVG and DXF say that draws nothing or is drawn elsewhere, texts in old encodings, and letters of rims.
+//! Drawings as other programs write them: SVG with invisible shapes, inner viewports and relative units, DXF with heights,
+//! old encodings of texts, and mountain and valley letters on the rim of a sheet.
 
 use crate::common::Folder;
 use foldwell::sheet::pattern::{self, Format};

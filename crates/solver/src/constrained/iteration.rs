@@ -30,6 +30,7 @@ const LEAST_DESCENT: f64 = 1e-4;
 
 /// The state of an iteration.
 pub(super) struct Iteration<'a, P: ConstrainedProblem> {
+    problem: &'a P,
     system: Reduced<'a, P>,
     z: Vec<f64>,
     multipliers: Vec<f64>,
@@ -62,7 +63,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
         let mut at = Derivatives::new(problem.blocks());
         at.evaluate(problem, &z, None);
         let (contraction, full, fraction, last, history) = (f64::INFINITY, false, 1.0, None, vec![]);
-        Ok(Self { system, z, multipliers, at, contraction, full, fraction, last, history })
+        Ok(Self { problem, system, z, multipliers, at, contraction, full, fraction, last, history })
     }
 
     /// Iterates until convergence.
@@ -116,7 +117,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
                 return Some(left);
             }
             self.full = true;
-            self.at.evaluate(self.system.problem, &self.z, Some(&self.multipliers));
+            self.at.evaluate(self.problem, &self.z, Some(&self.multipliers));
         }
         let accuracy = self.contraction.clamp(FINEST_ACCURACY, GRADIENT_ACCURACY);
         let newton = self.system.newton(&self.at, gauss.clone(), (0.0, accuracy));
@@ -141,10 +142,10 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
                 let cost = self.system.cost_of_closing(&trial.at.values);
                 let below = self.value(&trial.z) + dot_blocked(&multipliers, &trial.at.values) + 0.5 * cost;
                 if below <= merit - LEAST_DESCENT * fraction * slope {
-                    let left = energy_norm(&trial.correction, self.system.problem.compliance());
+                    let left = energy_norm(&trial.correction, self.problem.compliance());
                     let next = self.accept(trial, fraction, [left.max(f64::MIN_POSITIVE), left]);
                     (self.full, self.contraction, self.last) = (true, f64::INFINITY, None);
-                    self.at.evaluate(self.system.problem, &self.z, Some(&self.multipliers));
+                    self.at.evaluate(self.problem, &self.z, Some(&self.multipliers));
                     return Some(next);
                 }
                 fraction /= 2.0;
@@ -156,14 +157,14 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// Returns `dz . ((1 + shift) D^-1 + W) dz`.
     fn curvature(&self, dz: &[f64], shift: f64) -> f64 {
         let mut image: Vec<f64> =
-            dz.iter().zip(self.system.problem.compliance()).map(|(dz, c)| (1.0 + shift) * dz / c).collect();
-        self.at.add_hessian_product(self.system.problem.blocks(), dz, &mut image);
+            dz.iter().zip(self.problem.compliance()).map(|(dz, c)| (1.0 + shift) * dz / c).collect();
+        self.at.add_hessian_product(self.problem.blocks(), dz, &mut image);
         dot_blocked(dz, &image)
     }
 
     /// Returns the function that is minimised.
     fn value(&self, z: &[f64]) -> f64 {
-        let terms = z.iter().zip(self.system.problem.target()).zip(self.system.problem.compliance());
+        let terms = z.iter().zip(self.problem.target()).zip(self.problem.compliance());
         terms.map(|((z, a), c)| (z - a) * (z - a) / (2.0 * c)).sum()
     }
 
@@ -172,7 +173,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// The first fraction that is tried is given. Returns the largest change of a variable by the correction that is
     /// left; `None` if no fraction does it.
     fn go_along(&mut self, direction: &Correction, gauss: &Correction, mut fraction: f64) -> Option<f64> {
-        let compliance = self.system.problem.compliance();
+        let compliance = self.problem.compliance();
         let (size, mut failed) = (energy_norm(&gauss.dz, compliance), false);
         while fraction >= LEAST_FRACTION {
             let trial = self.trial(direction, fraction);
@@ -198,7 +199,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// predicts.
     fn predicted(&self, gauss: &Correction) -> f64 {
         let Some((size, left)) = &self.last else { return 1.0 };
-        let compliance = self.system.problem.compliance();
+        let compliance = self.problem.compliance();
         let change: Vec<f64> = left.iter().zip(&gauss.dz).map(|(left, dz)| left - dz).collect();
         let ratio = size * energy_norm(left, compliance)
             / (energy_norm(&change, compliance) * energy_norm(&gauss.dz, compliance));
@@ -212,7 +213,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
         self.full |= fraction == 1.0 && contraction < CONTRACTION_FOR_NEWTON;
         (self.z, self.multipliers, self.at, self.fraction) = (trial.z, trial.multipliers, trial.at, fraction);
         if self.full {
-            self.at.evaluate(self.system.problem, &self.z, Some(&self.multipliers));
+            self.at.evaluate(self.problem, &self.z, Some(&self.multipliers));
         }
         let change = max_abs(&trial.correction);
         self.last = Some((size, trial.correction));
@@ -222,8 +223,8 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     fn trial(&mut self, direction: &Correction, fraction: f64) -> Trial {
         let z = moved(&self.z, fraction, &direction.dz);
         let multipliers = moved(&self.multipliers, fraction, &direction.dl);
-        let mut at = Derivatives::new(self.system.problem.blocks());
-        at.evaluate(self.system.problem, &z, None);
+        let mut at = Derivatives::new(self.problem.blocks());
+        at.evaluate(self.problem, &z, None);
         let pull = self.pull(&z, &multipliers, &at);
         let simplified = self.system.gauss_newton(&self.at, &pull, &at.values);
         Trial { z, multipliers, at, correction: simplified.dz }
@@ -232,12 +233,9 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// Returns `z - a + D J^T l`, the compliance times the residual of the first equation.
     fn pull(&self, z: &[f64], multipliers: &[f64], at: &Derivatives) -> Vec<f64> {
         let mut pull = vec![0.0; z.len()];
-        at.add_transpose_product(self.system.problem.blocks(), multipliers, &mut pull);
-        let targets = z.iter().zip(self.system.problem.target());
-        pull.iter_mut()
-            .zip(targets)
-            .zip(self.system.problem.compliance())
-            .for_each(|((p, (z, a)), c)| *p = z - a + c * *p);
+        at.add_transpose_product(self.problem.blocks(), multipliers, &mut pull);
+        let targets = z.iter().zip(self.problem.target());
+        pull.iter_mut().zip(targets).zip(self.problem.compliance()).for_each(|((p, (z, a)), c)| *p = z - a + c * *p);
         pull
     }
 
@@ -250,8 +248,8 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     ) -> Result<(), ConstrainedFailure> {
         let before = |count: fn(&Step) -> usize| self.history.iter().map(count).sum::<usize>();
         // forces of the terms, those of the constraints, and what is left of them together
-        let own = self.z.iter().zip(self.system.problem.target()).map(|(z, a)| z - a);
-        let forces = pull.iter().zip(own).zip(self.system.problem.compliance());
+        let own = self.z.iter().zip(self.problem.target()).map(|(z, a)| z - a);
+        let forces = pull.iter().zip(own).zip(self.problem.compliance());
         let (left, largest) = forces.fold((0.0, 0.0), |(left, largest), ((pull, own), c)| {
             (larger(left, (pull / c).abs()), larger(largest, (own / c).abs().max(((pull - own) / c).abs())))
         });

@@ -31,7 +31,7 @@ pub(super) struct Correction {
 
 /// The matrix `S`, its factorization, and what is needed to solve with it.
 pub(super) struct Reduced<'a, P> {
-    pub(super) problem: &'a P,
+    problem: &'a P,
     layout: Arc<Layout>,
     /// Block and place in its list, for each block with each variable.
     uses: Vec<Vec<(u32, u32)>>,

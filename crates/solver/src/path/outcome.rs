@@ -135,5 +135,5 @@ pub enum PathError {
     Factor(#[from] FactorError),
 }
 
-/// What is found on a path, or why no path leads on.
+/// Result of a computation on a path: a value, or the error with which the path ends.
 pub(super) type Found<T> = Result<T, PathError>;
