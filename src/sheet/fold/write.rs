@@ -148,7 +148,7 @@ fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
 }
 
 fn field(text: &mut String, key: &str, value: &str) {
-    let _ = writeln!(text, "  \"{key}\": {value},");
+    let _ = writeln!(text, "  {}: {value},", quoted(key));
 }
 
 fn rows(rows: impl Iterator<Item = String>) -> String {

@@ -153,6 +153,17 @@ fn letters_come_back() {
     }
 }
 
+/// Claim: keys of other programs come back whatever characters they have. Found in files with one damaged letter.
+#[test]
+fn keys_of_other_programs_come_back() {
+    for key in [r"\frame_title", r#"other:\"a\" \\"#, r"other:\n"] {
+        let faces = r#""vertices_coords": [[0, 0], [1, 0], [0, 1], [1, 1]], "faces_vertices": [[0, 1, 2], [1, 3, 2]]"#;
+        let sheet = fold::parse(&format!("{{ {faces}, \"{key}\": 1 }}"), "a.fold").unwrap();
+        assert_eq!(sheet.record.metadata.len(), 1, "{key}");
+        assert_eq!(fold::parse(&fold::write(&sheet), "a.fold").unwrap(), sheet, "{key}");
+    }
+}
+
 fn convert(folder: &Folder, from: &str, to: &str) -> (String, String) {
     let said = folder.foldwell(&format!("convert {from} {to}")).well();
     (said.err, String::from_utf8_lossy(&folder.bytes(to)).into_owned())

@@ -28,10 +28,11 @@ fn what_draws_nothing_is_no_line() {
         r#"<line x1="9" y1="50" x2="9" y2="50" stroke="blue"/><path d="M 9 50" stroke="blue"/>"#,
         r#"<i:path d="M 9 50 L 9 70" stroke="blue"/><line xmlns="urn:x" x2="9" y2="50" stroke="blue"/>"#,
         r#"<g i:stroke="mauve" i:transform="warp(3)"/>"#,
-        r#"<switch><foreignObject requiredExtensions="urn:i"/><g/><path d="M 9 50 L 9 70" stroke="blue"/></switch>"#,
     ] {
         assert_eq!(svg(&format!("{SQUARE}{nothing}")).unwrap(), plain, "{nothing}");
     }
+    let for_others = r#"<foreignObject requiredExtensions="urn:i"/>"#;
+    assert_eq!(svg(&format!("<switch>{for_others}<g>{SQUARE}</g></switch>")).unwrap(), plain);
     let wide = r#"<g stroke-width="0"><path d="M 100 0 L 0 100" stroke="blue" stroke-width="1e-3"/></g>"#;
     assert_eq!(svg(&format!("{SQUARE}{wide}")).unwrap().polygons.len(), 4);
 }
