@@ -224,8 +224,8 @@ fn letter_colour(letter: Assignment) -> Colour {
 fn turns(angle: f64) -> &'static str {
     match angle.abs() - FLAT {
         ..=PI => "",
-        ..=TAU => ", more than half a turn",
-        _ => ", more than a turn",
+        ..=TAU => "more than half a turn",
+        _ => "more than a turn",
     }
 }
 
@@ -260,9 +260,10 @@ fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
     if sides.is_empty() {
         letters(canvas, picture, level);
     }
-    let words = |angle: f64, word: &str, sign: char| format!("{word} {sign}{:.2} rad{}", angle.abs(), turns(angle));
+    let words = |angle: f64, word: &str, sign: char| format!("{word} {sign}{:.2} rad", angle.abs());
     let width = |&(angle, _, word, sign): &(f64, Colour, &str, char)| {
-        WEDGE * angle.abs() / sharpest + 14.0 + Font::LABEL.width(&words(angle, word, sign))
+        let text = Font::LABEL.width(&words(angle, word, sign)).max(Font::LABEL.width(turns(angle)));
+        WEDGE * angle.abs() / sharpest + 14.0 + text
     };
     // the legend with its text ends at the right margin
     let after = sides.last().filter(|(angle, ..)| *angle > 0.0).map_or(0.0, width);
@@ -273,7 +274,11 @@ fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
         let wedge = [[zero, level - 0.8], [zero, level + 0.8], [end, level + thick], [end, level - thick]];
         canvas.polygon(&wedge, Style::area(colour));
         let font = if angle < 0.0 { Font::LABEL.end() } else { Font::LABEL };
-        canvas.text([end + 14.0 * angle.signum(), level + 6.5], &words(angle, word, sign), font);
+        let beside = end + 14.0 * angle.signum();
+        canvas.text([beside, level + 6.5], &words(angle, word, sign), font);
+        if !turns(angle).is_empty() {
+            canvas.text([beside, level + 29.5], turns(angle), font);
+        }
     }
 }
 
@@ -340,8 +345,16 @@ mod tests {
         assert_eq!(lettered(Assignment::Valley), [true, false, true, false]);
         assert_eq!(lettered(Assignment::Mountain), [false, true, false, true]);
         assert_eq!(lettered(Assignment::Unassigned), [false; 4]);
-        assert!(drawing(&samples::hinge(4.0)).contains("valley +4.00 rad, more than half a turn<"));
-        assert!(drawing(&samples::hinge(-7.0)).contains("mountain \u{2212}7.00 rad, more than a turn<"));
+        for (angle, side, turns) in [
+            (4.0, "valley +4.00 rad", "more than half a turn"),
+            (-7.0, "mountain \u{2212}7.00 rad", "more than a turn"),
+            (3.0, "valley +3.00 rad", ""),
+        ] {
+            let text = drawing(&samples::hinge(angle));
+            let said = ["more than half a turn", "more than a turn"].map(|words| text.contains(&format!(">{words}<")));
+            assert!(text.contains(&format!(">{side}<")), "{angle}");
+            assert_eq!(said, ["more than half a turn", "more than a turn"].map(|words| words == turns), "{angle}");
+        }
     }
 
     /// Claim: the face nearer to the eye is painted later, and the crease between the two faces after both.
