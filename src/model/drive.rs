@@ -58,6 +58,8 @@ pub enum DriveError {
     FreeRotation,
     #[error("the crease is not locked")]
     NotLocked,
+    #[error("no motion of the sheet changes the angle of this crease")]
+    NoMotion,
     #[error("there are no {}", .0.name())]
     NoTerm(TermKind),
     #[error("the {} do not all have the same stiffness", .0.name())]

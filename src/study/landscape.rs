@@ -191,8 +191,8 @@ impl Along {
         if self.rounded().is_some() {
             return Vec::new();
         }
-        let above = self.samples().iter().filter(|sample| !sample.below_rounding());
-        above.map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
+        let telling = self.samples().iter().filter(|sample| sample.tells());
+        telling.map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
     }
 
     fn residual(&self) -> Option<f64> {
@@ -211,6 +211,7 @@ impl Along {
             amplitude: *amplitude,
             energy: energies.get(k).map(|(_, energy)| *energy),
             below_rounding: self.samples().get(k).is_some_and(Sample::below_rounding),
+            other_minimum: self.samples().get(k).is_some_and(|sample| sample.other_minimum),
             converged: k < energies.len(),
         };
         let fitted = self.fitted();

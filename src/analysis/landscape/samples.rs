@@ -63,12 +63,19 @@ pub struct Sample {
     pub rounds: usize,
     /// Energy that rounding of the hinges' angles and of the bars' lengths alone may make.
     pub rounding: f64,
+    /// Whether it is in another minimum than the sample before: no smaller steps led on in that one.
+    pub other_minimum: bool,
 }
 
 impl Sample {
     /// Whether so much of the energy may be rounding that it says nothing about the mode.
     pub fn below_rounding(&self) -> bool {
         !(self.relaxed.state.total() >= ABOVE * self.rounding)
+    }
+
+    /// Whether the energy tells the power with which that of the mode grows.
+    pub fn tells(&self) -> bool {
+        !self.below_rounding() && !self.other_minimum
     }
 }
 
@@ -159,9 +166,9 @@ impl Samples {
                 && let Some((sample, model, last)) = elsewhere.take()
             {
                 (self.held.model, self.last) = (model, last);
-                return Ok(Sample { iterations, ..sample });
+                return Ok(Sample { iterations, other_minimum: true, ..sample });
             } else if next == amplitude || found.is_err() {
-                return found.map(|sample| Sample { iterations, ..sample });
+                return found.map(|sample| Sample { iterations, other_minimum: !continues, ..sample });
             } else {
                 next = amplitude;
             }
@@ -196,7 +203,7 @@ impl Samples {
             torque = unbalanced(&self.held, &directions, &place);
             if torque <= BALANCED {
                 let (rest, rounding) = (rest.as_slice().to_vec(), rounding(&self.held, &place));
-                let sample = Sample { amplitude, relaxed, rest, iterations, rounds, rounding };
+                let sample = Sample { amplitude, relaxed, rest, iterations, rounds, rounding, other_minimum: false };
                 let energy = if sample.below_rounding() { f64::NAN } else { sample.relaxed.state.total() };
                 let rate = self.rate(&place);
                 let off = |other: &[f64]| norm_blocked(&moved(&sample.relaxed.state.coordinates, -1.0, other));

@@ -75,13 +75,8 @@ impl DrivenModel {
                 (Effect::Prescribed(vec![volume]), 0.0, drive.to / area)
             }
             Driven::Lock(edges) => {
-                let locks = model
-                    .stiff_of(TermKind::Locks)
-                    .filter(|(_, lock)| lock.edge().is_some_and(|edge| edges.contains(&edge)));
-                let locks: Vec<(usize, f64)> = locks.map(|(measure, lock)| (measure, lock.spring.rest)).collect();
-                let from = locks.first().map(|(_, rest)| *rest).ok_or(DriveError::NotLocked)?;
-                let offsets = locks.iter().map(|(k, rest)| (*k, rest - from)).collect();
-                (Effect::Prescribed(offsets), from, drive.to)
+                let (effect, from) = Effect::locks(&model, edges)?;
+                (effect, from, drive.to)
             }
             Driven::Rest => (Effect::rest(&model, drawn)?, begin, drive.to),
             Driven::Stiffness(kind) => Effect::stiffness(&model, *kind, drive.to)?,

@@ -81,6 +81,9 @@ pub struct SampleSummary {
     /// Whether so much of the energy may be rounding that it was left out of the fits.
     #[serde(default)]
     pub below_rounding: bool,
+    /// Whether it is in another minimum than the sample before, and was left out of the fits too.
+    #[serde(default)]
+    pub other_minimum: bool,
     /// Whether it was found.
     pub converged: bool,
 }
@@ -99,8 +102,12 @@ impl LandscapeSummary {
                 0 => String::new(),
                 count => format!(" ({} below rounding left out)", counted(count, "sample")),
             };
+            let elsewhere = match one.samples.iter().filter(|sample| sample.other_minimum).count() {
+                0 => String::new(),
+                count => format!(" ({} in another minimum left out)", counted(count, "sample")),
+            };
             let agrees = if one.fit_agrees == Some(false) { "; THE FIT DISAGREES" } else { "" };
-            format!("{mode}: exponent {exponent}{below}, predicted {c4:.6e} a^4, {c6:.6e} a^6{agrees}")
+            format!("{mode}: exponent {exponent}{below}{elsewhere}, predicted {c4:.6e} a^4, {c6:.6e} a^6{agrees}")
         });
         modes.collect::<Vec<_>>().join("; ")
     }

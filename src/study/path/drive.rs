@@ -123,17 +123,18 @@ fn end(context: &Context<'_>, spec: &PathSpec) -> Range<usize> {
     table(context, spec).map_or(context.study.kind.span(), |table| table.to.span())
 }
 
-/// Checks that a driven stiffness is one number, and another one than that at the end, and that driven rest angles are
-/// others than those of the drawn state.
+/// Checks that a driven stiffness is one number, and another one than that at the end, that driven rest angles are others
+/// than those of the drawn state, and that a driven crease can fold.
 pub(super) fn has_effect(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
     let drive = drive(context, spec)?;
-    if !matches!(drive.quantity, Driven::Stiffness(_) | Driven::Rest) {
+    if !matches!(drive.quantity, Driven::Stiffness(_) | Driven::Rest | Driven::Lock(_)) {
         return Ok(());
     }
     let (message, help) = match check_drive(context.assembly, &drive, false) {
         Ok(_) => return Ok(()),
         // the path may begin in another state
-        Err(DriveError::NoWay { .. }) if drive.quantity == Driven::Rest => return Ok(()),
+        Err(DriveError::NoWay { .. }) if !matches!(drive.quantity, Driven::Stiffness(_)) => return Ok(()),
+        Err(error @ DriveError::NoMotion) => (error.to_string(), "drive the lock of another crease"),
         Err(error @ DriveError::RestAsDrawn) => {
             (error.to_string(), "give creases rest = \"assigned\", folded flat by their letters, or other rest angles")
         }

@@ -358,3 +358,17 @@ fn studies_that_cannot_begin() {
         Scene::on("mesh = \"roof.fold\"", &tables).with("roof.fold", ROOF).refused(message);
     }
 }
+
+/// Claim: a driven lock of a crease that no motion folds is refused: its angle has no rate. Source: the crease runs
+/// straight through the period of a strip, so that both faces have the same normal in every state.
+#[test]
+fn creases_that_cannot_fold_are_not_driven() {
+    let strip = "{\"vertices_coords\": [[0, 0, 0], [0.3, 0.9, 0.2], [1, 0, 0], [1.3, 0.9, 0.2], [1.8, 1.7, 0], [0.8, 1.7, 0]], \
+                 \"faces_vertices\": [[0, 2, 1], [2, 3, 1], [1, 3, 4], [1, 4, 5]], \
+                 \"foldwell:lattice\": [[1, 0, 0], [0.8, 1.7, 0]]}";
+    let text = "[energy]\nbars = { stiffness = 30.0 }\ncreases = { stiffness = 1.0 }\n[[lock]]\ncrease = [0, 1, 0, 0]\n\
+                [[drive]]\nname = \"d\"\nlock = [0, 1, 0, 0]\nto = 2.0\n[[study]]\nname = \"p\"\nkind = \"path\"\ndraw = []";
+    let said =
+        Scene::on("mesh = \"strip.fold\"\ndomain = \"torus\"", text).with("strip.fold", strip.to_owned()).program("");
+    assert!(said.status == Some(2) && said.err.contains("no motion of the sheet changes the angle"), "{}", said.err);
+}

@@ -181,3 +181,26 @@ fn an_interrupted_fold_goes_on() {
         scene.stopped_after(left).resumed().converged().out.assert_same(&whole.out, &format!("stopped at {stop}"));
     }
 }
+
+/// Claim: a path keeps to its curve where another one is next to it, whatever the longest step: an imperfect dome snaps up
+/// and down at the same loads. Source: an independent arc-length continuation, which turns at -0.00199265 and never comes
+/// to the other curve, whose energy differs by 4e-6 of the largest work. Tolerance: 1e-10, to which limit points are located.
+#[test]
+fn long_steps_keep_to_their_curve() {
+    let text = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 0.001 }\n\
+                [[pin]]\nvertices = [6, 7, 8, 9, 10]\n\
+                [[load]]\nvertices = [0, 1, 2, 3, 4, 5]\nforce = [0.0, 0.0, -1.0]\n\
+                [[drive]]\nname = \"load\"\nload = true\nto = [0.004, -0.004]\n\
+                [[study]]\nname = \"p\"\nkind = \"path\"\nsnap = true\ndraw = []\nmax_step = ";
+    for max_step in [0.05, 0.1, 0.2, 0.3] {
+        let ran = Scene::on("mesh = \"cases/dome-of-five.fold\"", &format!("{text}{max_step}")).converged();
+        let events = &ran.path("p").branches[0].events;
+        let limits = events.iter().filter(|event| event.event == "limit-load").filter_map(|event| event.drive);
+        let limits: Vec<f64> = limits.collect();
+        let [up, down] = limits[..] else { panic!("{max_step}: {events:?}") };
+        assert!(
+            (up - 0.0022165401424).abs() <= 1e-10 && (down + 0.0019926774315).abs() <= 1e-10,
+            "{max_step}: {limits:?}"
+        );
+    }
+}

@@ -23,6 +23,12 @@ const BEYOND: f64 = 1.2;
 /// in a step that are found to see it.
 const NEARER: f64 = 0.5;
 const MOST_ADDED: usize = 8;
+/// Distance in arc length of two neighbours on a curve, and how many times farther states in their places are apart that
+/// are on two curves.
+const NEIGHBOURS: f64 = 1e-7;
+const FARTHEST_NEIGHBOUR: f64 = 10.0;
+/// Rate of the parameter at its located extremum, over that at the end of the step, above which the extremum is a corner.
+const CORNER: f64 = 1e-3;
 /// Largest number of changes of the level that are sought in a step.
 const MOST_BRANCH_POINTS: usize = 16;
 
@@ -101,22 +107,23 @@ fn zero_of(values: &[[f64; 2]]) -> f64 {
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
     /// Locates the marks between two states, of which one in the middle may be known: two in one step may leave
-    /// what tells of them as it was. `watched` are the values of the watched functions at both ends.
+    /// what tells of them as it was. `watched` are the values of the watched functions at both ends. Returns too whether
+    /// the step stays on one curve, as far as changes of the number of negative eigenvalues tell.
     pub(super) fn marks(
         &mut self,
         [from, to]: Ends<'_>,
         middle: Option<&PathState>,
         watched: [&[f64]; 2],
         watch: &mut dyn Watch<P>,
-    ) -> Found<Marks> {
-        let mut found = vec![];
+    ) -> Found<(Marks, bool)> {
+        let (mut found, mut is_one_curve) = (vec![], true);
         let inner = middle.filter(|middle| middle.arc_length < to.arc_length);
         let states = self.with_least_rates([from].into_iter().chain(inner).chain([to]).cloned().collect())?;
         for piece in states.windows(2) {
-            found.extend(self.own_marks([from, to], [&piece[0], &piece[1]])?);
+            is_one_curve &= self.own_marks([from, to], [&piece[0], &piece[1]], &mut found)?;
         }
         found.extend(self.marks_asked_for([from, to], watched, watch)?);
-        Ok(found)
+        Ok((found, is_one_curve))
     }
 
     /// Locates the sign changes of the watched functions between two states, and the listed parameters, function by
@@ -163,15 +170,22 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(states)
     }
 
-    /// Locates the extrema and branch points between two states of a step, or of a piece of it.
-    fn own_marks(&mut self, step: Ends<'_>, [from, to]: Ends<'_>) -> Found<Marks> {
-        let mut found = vec![];
+    /// Locates the extrema and branch points between two states of a step, or of a piece of it. Returns whether it stays
+    /// on one curve.
+    fn own_marks(&mut self, step: Ends<'_>, [from, to]: Ends<'_>, found: &mut Marks) -> Found<bool> {
         let mut level = Level { turn: None };
         let rates = [from, to].map(|state| state.tangent.parameter);
         if turned(rates, [from, to].map(|state| state.rate_errors[0]))
             && let Some(state) = self.locate([from, to], &mut |_, state| state.tangent.parameter)?
         {
-            level.turn = Some((rates[0].signum(), (state.work_along * rates[1]).signum() as i64));
+            let change = match [from.negative_eigenvalues, to.negative_eigenvalues] {
+                // at a corner the stiffness jumps over zero
+                [Some(before), Some(after)] if state.tangent.parameter.abs() > CORNER * rates[1].abs() => {
+                    (after as i64 - before as i64).signum()
+                }
+                _ => (state.work_along * rates[1]).signum() as i64,
+            };
+            level.turn = Some((rates[0].signum(), change));
             found.push((state, PathMark::ParameterTurns));
         }
         let rates = [from, to].map(|state| state.conjugate[1]);
@@ -181,30 +195,32 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         {
             found.push((state, PathMark::ConjugateTurns));
         }
-        found.extend(self.branch_points(step, [from, to], &level)?);
-        Ok(found)
+        self.branch_points(step, [from, to], &level, found)
     }
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
-    /// states that are taken for one are one, of higher multiplicity.
-    fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level) -> Found<Marks> {
-        let mut found = vec![];
-        let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(found) };
+    /// states that are taken for one are one, of higher multiplicity. Returns whether the
+    /// states on both sides of all other changes are next to each other.
+    fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level, found: &mut Marks) -> Found<bool> {
+        let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(true) };
         if self.problem.has_kinks() {
-            return Ok(found); // where stiffness jumps, a change of the level is no zero of it
+            return Ok(true); // where stiffness jumps, a change of the level is no zero of it
         }
         let length = to.arc_length - from.arc_length;
         let [mut part, end] = ends.map(|state| (state.arc_length - from.arc_length) / length);
-        let beside = SAME_STATE / length;
+        let (beside, mut is_one_curve) = (SAME_STATE / length, true);
         for _ in 0..MOST_BRANCH_POINTS {
             if before == last {
                 break;
             }
             let mut differs = |state: &PathState| level.of(state).is_some_and(|here| here != before);
-            let Some((at, state)) = self.bisect([from, to], [part, end], &mut differs)? else { break };
+            let Some((at, state)) = self.bisect([from, to], [part, end], &mut differs)? else { return Ok(false) };
             let beyond = if at + beside < end { self.between(from, to, at + beside)? } else { None };
             let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
             let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
+            if self.kinks || matches!(crossing, Crossing::Nowhere) {
+                is_one_curve &= self.is_continuous([from, to], at)?;
+            }
             let point = match crossing {
                 Crossing::At(at, state) => Some((at, *state)),
                 Crossing::Nowhere => None,
@@ -217,7 +233,16 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             }
             (part, before) = (at + beside, after);
         }
-        Ok(found)
+        Ok(is_one_curve)
+    }
+
+    /// Whether the states on both sides of a part of the way between two others are next to each other.
+    fn is_continuous(&mut self, [from, to]: Ends<'_>, part: f64) -> Found<bool> {
+        let apart = NEIGHBOURS / (to.arc_length - from.arc_length);
+        let before = self.between(from, to, part - 0.5 * apart)?;
+        let after = self.between(from, to, part + 0.5 * apart)?;
+        let gap = before.zip(after).map(|(before, after)| self.size(&Cubic::new(&before, &after).chord()));
+        Ok(gap.is_some_and(|gap| gap <= FARTHEST_NEIGHBOUR * NEIGHBOURS))
     }
 
     /// Locates a branch point near this part of the way where the stiffness of the softest motion across the path

@@ -3,11 +3,11 @@
 use super::bordered::Plane;
 use super::events::{Marks, Watch};
 use super::exits::Exit;
-use super::follower::Follower;
+use super::follower::{Follower, SHRINK};
 use super::outcome::{Branch, BranchEnd, Found, MarkedState, PathError, PathMark, PathSettings};
 use super::problem::{Ends, ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
-use super::work::Step;
+use super::work::{SHORTEST_CHECKED, Step};
 use crate::tension;
 use std::collections::BTreeMap;
 
@@ -145,6 +145,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let last = chosen_anew.as_ref().unwrap_or(last);
         let before =
             way.known.len().checked_sub(2).map(|k| &way.known[k]).filter(|before| before.choice == last.choice);
+        let reference = self.follower.problem.reference(&last.x);
         let Some(Step { state: next, middle, work, longer }) = self.follower.balanced_step(before, last, way.length)?
         else {
             return Ok(ended(vec![], BranchEnd::Failed));
@@ -160,7 +161,14 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             None => (next, None, Some(work)),
         };
         let values = self.watched(&to);
-        let marks = self.follower.marks([last, &to], middle.as_ref(), [&way.watched, &values], self.watch)?;
+        let watched = [&way.watched[..], &values];
+        let (marks, is_one_curve) = self.follower.marks([last, &to], middle.as_ref(), watched, self.watch)?;
+        let length = to.arc_length - last.arc_length;
+        if !is_one_curve && length > SHORTEST_CHECKED * self.follower.settings.max_step {
+            self.follower.problem.set_reference(&reference);
+            let known = before.into_iter().chain([last]).cloned().collect();
+            return self.step(number, &Way { known, watched: way.watched.clone(), length: SHRINK * length });
+        }
         let (mut states, mut from) = (vec![], last.clone());
         if self.meets(number, &mut states, &mut from, marks)? {
             return Ok(ended(states, BranchEnd::Marked));

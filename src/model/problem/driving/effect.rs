@@ -3,9 +3,13 @@
 use crate::model::drive::DriveError;
 use crate::model::element::{Element, TermKind};
 use crate::model::problem::Model;
+use crate::solver::{HessianKind, Linearization, Problem};
+use std::collections::BTreeMap;
 
 /// Difference of two stiffnesses, relative to them, that counts as rounding.
 const SAME_STIFFNESS: f64 = 1e-12;
+/// Rate of an angle by displacements in units of length that counts as rounding.
+const NO_RATE: f64 = 1e-9;
 /// Difference of two rest values, relative to them, that counts as rounding.
 const SAME_REST: f64 = 1e-9;
 
@@ -34,6 +38,26 @@ impl Effect {
     pub(super) fn prescribed(model: &Model, measures: std::ops::Range<usize>) -> Self {
         let first = model.compliance.len() - model.supports.len();
         Self::Prescribed(measures.map(|k| (k, model.supports[k - first].rest)).collect())
+    }
+
+    /// Fold angles of the locks on these edges, of which the first, returned too, is the parameter.
+    pub(super) fn locks(model: &Model, edges: &[usize]) -> Result<(Self, f64), DriveError> {
+        let is_meant = |lock: &Element<'_>| lock.edge().is_some_and(|edge| edges.contains(&edge));
+        let locks: Vec<_> = model.stiff_of(TermKind::Locks).filter(|(_, lock)| is_meant(lock)).collect();
+        let from = locks.first().map(|(_, lock)| lock.spring.rest).ok_or(DriveError::NotLocked)?;
+        let mut at = Linearization::new(model.layout());
+        model.linearize(&model.start(), &vec![0.0; model.compliance.len()], HessianKind::Full, &mut at);
+        let moves = |k: usize| {
+            // a vertex may be one of its corners more than once, by its images
+            let mut rates = BTreeMap::new();
+            let members = model.layout().stiff.members(k).iter().zip(&at.jacobian[model.layout().stiff.range(k)]);
+            members.for_each(|(unknown, rate)| *rates.entry(unknown).or_insert(0.0) += rate);
+            rates.values().any(|rate: &f64| rate.abs() > NO_RATE * at.sizes[k])
+        };
+        if !locks.iter().any(|(k, _)| moves(*k)) {
+            return Err(DriveError::NoMotion);
+        }
+        Ok((Self::Prescribed(locks.iter().map(|(k, lock)| (*k, lock.spring.rest - from)).collect()), from))
     }
 
     /// Loads with the displacement that they have in the reference state.
