@@ -61,6 +61,10 @@ pub enum AssemblyError {
     Loose,
     #[error("only faces of a patch have a pressure")]
     NoPatch,
-    #[error("the loads push the whole sheet along {} with a force of {force}", ["x", "y", "z"][*axis])]
-    Unbalanced { axis: usize, force: f64 },
+    #[error(
+        "the loads push {} along {} with a force of {force}",
+        piece.map_or("the whole sheet".to_owned(), |vertex| format!("the piece of the sheet with vertex {vertex}")),
+        ["x", "y", "z"][*axis]
+    )]
+    Unbalanced { piece: Option<usize>, axis: usize, force: f64 },
 }

@@ -282,10 +282,9 @@ impl Builder {
             let numbers = vertices.into_iter().map(|vertex| numbered(&bare, vertex));
             terms.parts.push(Part { vertices: numbers.collect::<Result<_, _>>()?, free });
         }
-        match terms.unbalanced_axis(&[]) {
-            Some((axis, force)) => Err(AssemblyError::Unbalanced { axis, force }),
-            None => Ok(bare.with_terms(terms).with_best_axis()),
-        }
+        let assembly = bare.with_terms(terms);
+        assembly.check_balance(&[])?;
+        Ok(assembly.with_best_axis())
     }
 }
 

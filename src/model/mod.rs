@@ -24,6 +24,7 @@ mod assemble;
 mod assembly;
 mod assembly_error;
 mod axis;
+mod balance;
 mod boundary;
 mod builder;
 mod configuration;

@@ -10,8 +10,6 @@ use std::collections::BTreeSet;
 /// The stiffness of a term that is exactly rigid: infinity.
 pub const RIGID: f64 = f64::INFINITY;
 
-/// Largest component of the sum of the loads, relative to the largest component of any load, that counts as balanced.
-const BALANCED: f64 = 1e-12;
 
 /// Stiffness and rest lengths of the bars.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +48,6 @@ impl<S: Into<Stiffness>> From<S> for Bars {
         Self { stiffness: stiffness.into(), rest: RestLengths::Drawn }
     }
 }
-/// Part of a direction that is not among others, relative to its length, below which it counts as one of them.
-const SAME_DIRECTION: f64 = 1e-9;
 
 /// Stiffness and rest angles of the creases, or of the facets.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,32 +193,6 @@ impl Terms {
     /// Returns the number of coordinates that pins hold.
     pub fn pinned(&self) -> usize {
         self.pins.iter().map(|(_, axes)| axes.iter().filter(|held| **held).count()).sum()
-    }
-
-    /// Returns the axis (0, 1, 2 for x, y, z) along which most of the loads is neither balanced nor supported, and the
-    /// sum of the loads along it that is not; there is no equilibrium then. `None` if there is no such axis. Pins,
-    /// guides and parts that are held along an axis support loads, and so do other supports of the sheet along
-    /// `directions`, unit vectors.
-    pub fn unbalanced_axis(&self, directions: &[Vec3]) -> Option<(usize, f64)> {
-        let largest = self.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
-        let mut left: Vec3 = self.loads.iter().map(|(_, force)| force).sum();
-        let axes = (0..3).filter(|&axis| self.holds(axis)).map(|axis| Vec3::ith(axis, 1.0));
-        let others = self.guides.iter().map(|(_, normal)| *normal).chain(directions.iter().copied());
-        let mut supported: Vec<Vec3> = Vec::new();
-        for direction in axes.chain(others) {
-            let own = supported.iter().fold(direction, |own, other| own - other * other.dot(&own));
-            let Some(own) = own.try_normalize(SAME_DIRECTION) else { continue };
-            left -= own * own.dot(&left);
-            supported.push(own);
-        }
-        let axis = left.iamax();
-        (left[axis].abs() > BALANCED * largest).then(|| (axis, left[axis]))
-    }
-
-    /// Whether a pin, or a part that is held, keeps the sheet from moving along an axis.
-    fn holds(&self, axis: usize) -> bool {
-        let pinned = self.pins.iter().any(|(_, axes)| axes[axis]);
-        pinned || self.parts.iter().any(|part| !part.free[axis])
     }
 
     /// Returns the same terms with the rest angles of all creases and facets replaced by `angles`, one for each edge

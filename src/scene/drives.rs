@@ -58,13 +58,18 @@ pub(super) fn check_all(file: &SceneFile, assembly: &Assembly) -> Result<(), Sce
     file.scene.drives.iter().try_for_each(|spec| resolve(file, assembly, spec).map(|_| ()))
 }
 
-/// Returns the directions along which drives move vertices or parts, and so support loads.
-pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec3>, SceneError> {
+/// Returns vertices, those of parts among them, with directions along which drives move them, and so support loads.
+pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, SceneError> {
     let mut directions = Vec::new();
     for spec in &file.scene.drives {
         match resolve(file, assembly, spec)?.quantity {
-            Driven::Vertices { direction, .. } => directions.push(direction),
-            Driven::Part { axis, .. } if axis < 3 => directions.push(Vec3::ith(axis, 1.0)),
+            Driven::Vertices { vertices, direction } => {
+                directions.extend(vertices.into_iter().map(|vertex| (vertex, direction)));
+            }
+            Driven::Part { part, axis } if axis < 3 => {
+                let vertices = &assembly.terms().parts[part].vertices;
+                directions.extend(vertices.iter().map(|&vertex| (vertex, Vec3::ith(axis, 1.0))));
+            }
             Driven::Part { .. } | Driven::Loads | Driven::Pressure(_) | Driven::Volume(_) => {}
             Driven::Lock(_) | Driven::Rest | Driven::Stiffness(_) => {}
         }

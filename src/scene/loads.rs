@@ -172,11 +172,10 @@ fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>)
 /// no equilibrium.
 fn balance(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
     let driven = drives::supported(file, assembly)?;
-    let Some((axis, force)) = assembly.terms().unbalanced_axis(&driven) else { return Ok(()) };
+    let Err(error) = assembly.check_balance(&driven) else { return Ok(()) };
     let place = |load: &Located<LoadSpec>| load.force.as_ref().or(load.weight.as_ref()).map_or(0..0, Located::span);
     let span = file.scene.loads.first().map_or(0..0, place);
-    let message = AssemblyError::Unbalanced { axis, force }.to_string();
     let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
                 still turns as a whole, until its loads pull straight";
-    Err(file.error_at(span, message, help))
+    Err(file.error_at(span, error.to_string(), help))
 }

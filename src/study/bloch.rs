@@ -38,7 +38,7 @@ const AVERAGED: usize = 64;
 /// Number of wavenumbers at which the picture shows decay rates.
 const DRAWN: usize = 240;
 
-/// Checks that the sheet has a lattice and as many constraints as coordinates.
+/// Checks that the sheet has a lattice, and as many constraints as coordinates unless bands alone are asked for.
 pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
     let (file, assembly) = (context.file, context.assembly);
     if let Some(start) = &spec.start {
@@ -53,9 +53,15 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     strip::check(context, spec)?;
     let square = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
     let Err(error) = square else { return Ok(()) };
+    let has_bands = spec.path.is_some() || spec.density.is_some();
+    let asks_for_more = spec.strip.is_some() || spec.zero_modes_at.is_some() || spec.modes.is_some();
     let help = match error {
         BlochError::NoLattice => "a periodic sheet has the key `foldwell:lattice` in its mesh",
-        _ => "give facets a stiffness, so that polygons bend: bars alone make as many conditions as coordinates",
+        _ if has_bands && !asks_for_more => return Ok(()),
+        _ if assembly.sheet().is_surface() => {
+            "give facets a stiffness, so that polygons bend: bars alone make as many conditions as coordinates"
+        }
+        _ => "of assemblies with other numbers of bars ask for bands alone: give `path` or `density`",
     };
     Err(context.refuse(error.to_string(), help).into())
 }

@@ -18,7 +18,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
     start::check(context, spec.start.as_ref())?;
     check_loads(context, spec)?;
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
-    supported::drawn_lengths(context, "eigenvalues in the drawn state")?;
+    supported::drawn_lengths(context, "eigenvalues")?;
     if **count > 0 {
         masses(context)?;
     }

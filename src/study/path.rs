@@ -6,7 +6,7 @@ mod plot;
 mod summary;
 mod table;
 
-use self::drive::{drive, drive_name, folds, follows, has_effect, lists, moves, snaps, stays_on_one_branch, then};
+use self::drive::{drive, drive_name, folds, follows, has_effect, lists, may_snap, moves, snaps, then};
 use self::end::{INSIDE_OUT, end_word, inside_out, reason};
 use self::plot::{Words, event_word, figure};
 use super::sides::RestSides;
@@ -47,7 +47,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
     stop(context, spec)?;
     probes(context, spec)?;
     follows(context, spec)?;
-    stays_on_one_branch(context, spec)?;
+    may_snap(context, spec)?;
     match spec.start.as_ref().map(|start| (&**start, start.span())) {
         Some((StartSpec::Random(_), span)) => {
             let help =

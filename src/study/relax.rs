@@ -38,7 +38,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), Study
     if !context.assembly.terms().has_energy() {
         return Err(context.refuse("there is no energy to relax", "give bars, creases or facets a stiffness").into());
     }
-    if context.assembly.terms().unbalanced_axis(&[]).is_some() {
+    if context.assembly.check_balance(&[]).is_err() {
         let help = "balance the loads, or pin a vertex along their direction; a path can hold it instead";
         return Err(context.refuse("only a drive supports the loads, and a relaxation drives nothing", help).into());
     }

@@ -57,7 +57,7 @@ pub enum BlochError {
 impl BlochError {
     /// Whether this says that there is no determinant to speak of, so that what needs one does not exist.
     pub(crate) fn is_of_determinant(&self) -> bool {
-        matches!(self, Self::Vanishes { .. } | Self::NoDeterminant { .. })
+        matches!(self, Self::NotSquare { .. } | Self::Vanishes { .. } | Self::NoDeterminant { .. })
     }
 }
 

@@ -201,6 +201,11 @@ impl Model {
         out.largest_force = out.largest_force.max((self.load_factor * largest).abs());
         let free = self.free.iter().zip(&mut out.gradient).filter(|(k, _)| **k < self.loads.len() as u32);
         free.for_each(|(&k, g)| *g -= self.load_factor * self.loads[k as usize]);
+        self.add_loads_of_parts(all, self.load_factor, out);
+    }
+
+    /// Adds the potential of this multiple of the loads on rigid parts, which is curved where they turn.
+    fn add_loads_of_parts(&self, all: &[f64], force: f64, out: &mut Linearization) {
         let first = self.soft_elements();
         let mut local = Local::default();
         for (number, (part, forces)) in self.loaded_parts().into_iter().enumerate() {
@@ -208,7 +213,7 @@ impl Model {
             Self::scale(&mut local, &self.pose_units());
             let (gradient, hessian) = (&local.gradient, &local.hessian);
             // its measure is the potential itself, of stiffness zero
-            let (force, size) = (self.load_factor, f64::INFINITY);
+            let size = f64::INFINITY;
             out.add_soft(first + number, &SoftElement { stiffness: 0.0, excess: 0.0, force, size, gradient, hessian });
         }
     }
@@ -284,13 +289,14 @@ impl Model {
         }
     }
 
-    /// Returns the Hessian that these forces of soft elements and tensions of stiff measures have by the curvature of their
-    /// measures: the geometric stiffness.
-    pub(super) fn geometric_stiffness(&self, x: &[f64], forces: &[f64], tension: &[f64]) -> Linearization {
+    /// Returns the Hessian that these forces of soft elements and tensions of stiff measures, and this multiple of the loads,
+    /// have by the curvature of their measures: the geometric stiffness.
+    pub(super) fn geometric_stiffness(&self, x: &[f64], forces: &[f64], tension: &[f64], loads: f64) -> Linearization {
         let (all, mut out) = (self.generalised(x), Linearization::new(&self.layout));
         out.clear(HessianKind::Full);
         self.add_soft_terms(&all, true, |element, _| [0.0, forces[element.number], 0.0, 0.0], &mut out);
         self.linearize_stiff(&all, tension, &mut out);
+        self.add_loads_of_parts(&all, loads, &mut out);
         out
     }
 

@@ -117,6 +117,13 @@ impl Model {
         piece.iter().map(of).unzip()
     }
 
+    /// Returns the vertices of each connected piece of the sheet, ascending.
+    pub(crate) fn pieces_of_vertices(&self) -> Vec<Vec<usize>> {
+        let points = self.points() - self.equations.domain.shared();
+        let of = |piece: Vec<usize>| piece.into_iter().filter(|k| *k < points && k % 3 == 0).map(|k| k / 3).collect();
+        self.pieces().into_iter().map(of).collect()
+    }
+
     /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them,
     /// which come after all coordinates. Elements, rigid parts and supports connect points. Points without elements
     /// count as one piece, and the coordinates that all points share are those of the first.

@@ -27,14 +27,23 @@ pub(super) fn folds(context: &Context<'_>) -> bool {
 
 /// Whether the sheet snaps where the driven value turns back.
 pub(super) fn snaps(context: &Context<'_>, spec: &PathSpec) -> bool {
-    spec.snap.as_ref().map_or_else(|| folds(context) && !spec.switch, |snap| **snap)
+    let yields = context.assembly.terms().laws.first_with_memory().is_some();
+    spec.snap.as_ref().map_or_else(|| folds(context) && !spec.switch && !yields, |snap| **snap)
 }
 
-/// Checks that a sheet that snaps, which is on one branch, is to follow no others.
-pub(super) fn stays_on_one_branch(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
-    let Some(snap) = spec.snap.as_ref().filter(|snap| ***snap && spec.switch) else { return Ok(()) };
-    let help = "leave out snap or switch";
-    Err(context.file.error_at(snap.span(), "a sheet that snaps follows no other branches", help).into())
+/// Checks that a sheet that snaps, which is on one branch, is to follow no others, and that nothing yields in it: a snap is
+/// one step to the minimum beyond, and what yields on the way there decides which.
+pub(super) fn may_snap(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    let Some(snap) = spec.snap.as_ref().filter(|snap| ***snap) else { return Ok(()) };
+    let (message, help) = if context.assembly.terms().laws.first_with_memory().is_some() {
+        let message = "where a sheet snaps to depends on its motion where elements yield, and paths know no motion";
+        (message, "leave out `snap`, and drive a displacement: it passes the states between")
+    } else if spec.switch {
+        ("a sheet that snaps follows no other branches", "leave out snap or switch")
+    } else {
+        return Ok(());
+    };
+    Err(context.file.error_at(snap.span(), message, help).into())
 }
 
 /// Returns the name of the drive that the study names, or of the only one of the scene.

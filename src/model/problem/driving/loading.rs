@@ -33,8 +33,8 @@ impl DrivenModel {
         }
         let none = vec![0.0; forces.len()];
         let stress = self_stress(&self.model, &tangent.at, &rates.dt);
-        let of_stress = stress.map(|stress| self.model.geometric_stiffness(x, &none, &stress));
-        (self.model.geometric_stiffness(x, &forces, &rates.dt), of_stress)
+        let of_stress = stress.map(|stress| self.model.geometric_stiffness(x, &none, &stress, 0.0));
+        (self.model.geometric_stiffness(x, &forces, &rates.dt, 1.0), of_stress)
     }
 }
 
