@@ -125,7 +125,7 @@ struct FoundModes {
 
 /// Computes the modes of the state that the scene names.
 pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Answer, NoAnswer> {
-    let found = find(context, spec, ground(context, spec)?)?;
+    let found = find(context, spec, ground(context, spec)?).map_err(NoAnswer::because)?;
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     let survey = found.survey.as_ref().ok();
     answer.add(format!("{name}.csv"), table(survey.map_or(&[], |survey| &survey.decays)));
@@ -152,8 +152,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Answer,
 }
 
 /// Computes the survey and the bands, unless the observer asks to stop.
-fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<FoundModes, NoAnswer> {
-    let interrupted = || NoAnswer::because("interrupted");
+fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<FoundModes, BlochError> {
     let options = SurveyOptions {
         wavenumbers: wavenumbers(spec),
         averaged: AVERAGED,
@@ -164,18 +163,16 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Found
     let survey = match bloch::survey(&ground.rigidity, &options, &mut go_on) {
         // counts and bands need no determinant
         Err(error) if error.is_of_determinant() => Err(error),
-        found => Ok(found.map_err(NoAnswer::because)?.ok_or_else(interrupted)?),
+        found => Ok(found?),
     };
     let wanted = spec.zero_modes_at.iter().flat_map(|list| list.iter());
-    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0).map_err(NoAnswer::because));
-    let counts = counts.collect::<Result<_, _>>()?;
+    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
     let strip = |strip: &Located<StripSpec>| {
         let rigid = facets_are_rigid(context.file, context.assembly);
-        let found = strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers);
-        found.map_err(NoAnswer::because)?.ok_or_else(interrupted)
+        strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers)
     };
     let strip = spec.strip.as_ref().map(strip).transpose()?;
-    let bands = bands::compute(context, spec).map_err(NoAnswer::because)?.ok_or_else(interrupted)?;
+    let bands = bands::compute(context, spec)?;
     Ok(FoundModes { ground, survey, grid: options.grid, bands, strip, counts })
 }
 

@@ -115,13 +115,13 @@ fn matrix(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<DynamicalMat
     DynamicalMatrix::new(assembly.sheet(), stiffnesses).map(Some)
 }
 
-/// Computes the bands along the path of the scene and the density of states; `None` if the observer asked to stop.
-pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<FoundBands>, BlochError> {
+/// Computes the bands along the path of the scene and the density of states.
+pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<FoundBands, BlochError> {
     let mut found = FoundBands { path: vec![], density: None };
     if spec.path.is_none() && spec.density.is_none() {
-        return Ok(Some(found));
+        return Ok(found);
     }
-    let Some(matrix) = matrix(context, spec)? else { return Ok(Some(found)) };
+    let Some(matrix) = matrix(context, spec)? else { return Ok(found) };
     let heavy = masses(context.assembly).map(|masses| matrix.clone().with_masses(&masses));
     let corners: Vec<[f64; 2]> = spec.path.iter().flat_map(|path| path.iter()).map(|corner| corner.0).collect();
     for q in along_path(&corners, STEPS) {
@@ -131,11 +131,11 @@ pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<
     if let (Some(density), Some(heavy)) = (&spec.density, &heavy) {
         let (grid, bins) = (grid(density), density.bins.as_ref().map_or(BINS, |bins| bins.0 as usize));
         let total = grid[0] * grid[1];
-        let Some(all) = heavy.on_grid(grid, |step| context.step(step, Some(total)))? else { return Ok(None) };
+        let all = heavy.on_grid(grid, |step| context.step(step, Some(total)))?;
         stable(&all, grid)?;
         found.density = Some(Density::new(&all, grid, bins));
     }
-    Ok(Some(found))
+    Ok(found)
 }
 
 /// Checks that no wave grows: a density of states counts frequencies.

@@ -88,16 +88,15 @@ struct Halves {
     determinant: [Option<Determinant>; 2],
 }
 
-/// Computes the strip at all wavenumbers; `None` if the observer asked to stop, or the other cell cannot be read any
-/// more.
+/// Computes the strip at all wavenumbers; it ends as if interrupted where the other cell cannot be read any more.
 pub(super) fn compute(
     context: &Context<'_>,
     spec: &StripSpec,
     (rigidity, rigid): (&Rigidity, bool),
     wavenumbers: &[f64],
-) -> Result<Option<FoundStrip>, BlochError> {
+) -> Result<FoundStrip, BlochError> {
     let cells = spec.cells.0 as usize;
-    let Ok(above) = other(context, spec) else { return Ok(None) };
+    let above = other(context, spec).map_err(|_| BlochError::Interrupted)?;
     let upper = above.as_ref().map(|above| Rigidity::of_sheet(above, rigid)).transpose()?;
     let below = determinant_of(rigidity)?;
     let of_upper = upper.as_ref().map(determinant_of).transpose()?;
@@ -116,16 +115,14 @@ pub(super) fn compute(
     let upper = of_upper.flatten();
     let mut found = FoundStrip { rows: Vec::new(), upper, summary: StripSummary { cells, ..StripSummary::default() } };
     for (k, q1) in wavenumbers.iter().enumerate() {
-        if !context.step(k, Some(wavenumbers.len())) {
-            return Ok(None);
-        }
+        BlochError::unless(context.step(k, Some(wavenumbers.len())))?;
         halves.add(*q1, &mut found)?;
     }
     let summary = &mut found.summary;
     summary.error = worst(found.rows.iter().filter_map(|row| Some((row.measured? - row.predicted).abs())));
     summary.compared = found.rows.iter().filter(|row| row.measured.is_some()).count();
     summary.unmatched = found.rows.len() - summary.compared;
-    Ok(Some(found))
+    Ok(found)
 }
 
 /// The determinant of a cell; `None` where there is none to speak of.
