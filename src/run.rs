@@ -78,15 +78,6 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
     single::check(file, options)
 }
 
-/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it into a file of the format of its
-/// ending. Returns a sentence for each part of the pattern that the file does not keep.
-///
-/// # Errors
-/// [`RunError`] if a parameter is wrong, the ending is unknown or the file cannot be written.
-pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<Vec<String>, RunError> {
-    write_sheet(&new_sheet(table)?, out, None)
-}
-
 /// Generates the sheet of a pattern from the table `{ pattern = "miura", .. }`.
 ///
 /// # Errors

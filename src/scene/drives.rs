@@ -53,11 +53,6 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Checks all drives of a scene with its sheet.
-pub(super) fn check_all(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
-    file.scene.drives.iter().try_for_each(|spec| resolve(file, assembly, spec).map(|_| ()))
-}
-
 /// Returns the directions along which drives move vertices or parts, and so support loads.
 pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec3>, SceneError> {
     let mut directions = Vec::new();

@@ -313,7 +313,7 @@ fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochS
         on_circle: Some(polarization.on_circle),
         positive_fraction: real.as_ref().map(|(zone, _)| zone.positive_fraction(grid)),
         zero_lines: traced.map(|lines| lines.lines.len()),
-        no_zero_lines: survey.no_lines().map(ToString::to_string),
+        no_zero_lines: real.as_ref().and_then(|(_, lines)| Some(lines.as_ref().err()?.to_string())),
         lines: traced.iter().flat_map(|traced| traced.lines.iter().map(summarized)).collect(),
         regions: traced.map_or(vec![], |traced| traced.regions.clone()),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),

@@ -52,12 +52,6 @@ impl Survey {
     pub fn lines(&self) -> Option<&ZeroLines> {
         self.real.as_ref().and_then(|(_, lines)| lines.as_ref().ok())
     }
-
-    /// Returns why the lines of zero modes could not be followed; `None` where they were, or the determinant is not
-    /// real.
-    pub fn no_lines(&self) -> Option<&BlochError> {
-        self.real.as_ref().and_then(|(_, lines)| lines.as_ref().err())
-    }
 }
 
 /// Surveys the spatially varying modes of bars; `go_on` is told the number of each finished step.

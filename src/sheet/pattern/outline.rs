@@ -30,11 +30,6 @@ impl Outline {
             self.line
         }
     }
-
-    /// Whether its line says no more than that the sheet ends there.
-    fn is_boundary(&self) -> bool {
-        self.line.auxiliary || self.line.letter == Assignment::Boundary
-    }
 }
 
 /// Adds the sides of outlines to the lines of a drawing; curves become polylines, and are counted.
@@ -46,7 +41,7 @@ pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
     if curved > 0 {
         drawn.redrawing.curves = Some((curved, tolerance));
     }
-    let boundaries = outlines.iter().all(Outline::is_boundary);
+    let boundaries = outlines.iter().all(|Outline { line, .. }| line.auxiliary || line.letter == Assignment::Boundary);
     for outline in outlines {
         let line = outline.meant(boundaries);
         let [mut first, mut at] = [Point::ZERO; 2];
