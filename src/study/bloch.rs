@@ -185,15 +185,12 @@ fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
 
 /// Returns a row for every root at every wavenumber.
 fn table(decays: &[Decay]) -> Table {
-    let mut table = Table::new("q1,root,kappa2,q2,condition,on_circle,multiplicity");
-    for decay in decays {
-        for (k, root) in decay.roots.iter().enumerate() {
-            let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
-            let last = [i64::from(root.on_circle()).into(), root.multiplicity.into()];
-            table.push([decay.q.into(), k.into()].into_iter().chain(numbers).chain(last));
-        }
-    }
-    table
+    let all = decays.iter().flat_map(|decay| decay.roots.iter().enumerate().map(|(k, root)| (decay.q, k, root)));
+    Table::new("q1,root,kappa2,q2,condition,on_circle,multiplicity").with_rows(all.map(|(q, k, root)| {
+        let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
+        let last = [i64::from(root.on_circle()).into(), root.multiplicity.into()];
+        [q.into(), k.into()].into_iter().chain(numbers).chain(last)
+    }))
 }
 
 /// Adds the map of the determinant, the lines of zero modes and the displacements of modes, if the study asks for them.

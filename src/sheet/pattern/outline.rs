@@ -37,7 +37,8 @@ pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
     let finite = outlines.iter().map(|outline| outline.path.control_box()).filter(Rect::is_finite);
     let bounds = finite.reduce(|all, one| all.union(one)).unwrap_or_default();
     let tolerance = FLATNESS * bounds.width().max(bounds.height());
-    let curved = outlines.iter().filter(|outline| outline.path.iter().any(|part| is_curved(&part))).count();
+    let is_curved = |part: PathEl| matches!(part, PathEl::QuadTo(..) | PathEl::CurveTo(..));
+    let curved = outlines.iter().filter(|outline| outline.path.iter().any(is_curved)).count();
     if curved > 0 {
         drawn.redrawing.curves = Some((curved, tolerance));
     }
@@ -61,8 +62,4 @@ pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
             }
         });
     }
-}
-
-fn is_curved(part: &PathEl) -> bool {
-    matches!(part, PathEl::QuadTo(..) | PathEl::CurveTo(..))
 }

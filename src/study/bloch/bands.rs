@@ -195,22 +195,19 @@ fn band_table(path: &[Bands]) -> Table {
     let count = |of: fn(&Bands) -> &Vec<f64>| path.iter().map(|at| of(at).len()).max().unwrap_or(0);
     let bands = (0..count(|at| &at.values)).map(|k| format!("band_{k}"));
     let frequencies = (0..count(|at| &at.frequencies)).map(|k| format!("frequency_{k}"));
-    let mut table = Table::new("length,q1,q2").with(bands).with(frequencies);
-    for (length, Bands { q, values, frequencies }) in lengths(path).into_iter().zip(path) {
-        let row = [length, q[0], q[1]].into_iter().chain(values.iter().chain(frequencies).copied());
-        table.push(row.map(Value::Number));
-    }
-    table
+    let rows = lengths(path).into_iter().zip(path).map(|(length, Bands { q, values, frequencies })| {
+        [length, q[0], q[1]].into_iter().chain(values.iter().chain(frequencies).copied()).map(Value::Number)
+    });
+    Table::new("length,q1,q2").with(bands).with(frequencies).with_rows(rows)
 }
 
 /// Returns a row for every bin: its lower and its upper edge, the density in it, and the number of states up to the
 /// upper edge.
 fn density_table(density: &Density) -> Table {
-    let mut table = Table::new("frequency_low,frequency_high,density,states_below");
     let mut states = 0.0;
-    for (ends, value) in density.edges.windows(2).zip(&density.values) {
+    let rows = density.edges.windows(2).zip(&density.values).map(|(ends, value)| {
         states += value * (ends[1] - ends[0]);
-        table.push([ends[0], ends[1], *value, states].map(Value::Number));
-    }
-    table
+        [ends[0], ends[1], *value, states].map(Value::Number)
+    });
+    Table::new("frequency_low,frequency_high,density,states_below").with_rows(rows)
 }

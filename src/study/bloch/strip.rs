@@ -233,25 +233,22 @@ fn matched<'a>(
 
 /// Returns a row for every root at every wavenumber and edge.
 pub(super) fn table(found: &FoundStrip) -> Table {
-    let mut table =
+    let table =
         Table::new("q1,zero_modes,self_stresses,gap,edge,kappa2_measured,kappa2_predicted,difference,condition");
-    for row in &found.rows {
+    table.with_rows(found.rows.iter().map(|row| {
         let [modes, stresses] = row.found.map(Value::from);
         let difference = row.measured.map(|measured| measured - row.predicted);
         let first = [row.q1.into(), modes, stresses, row.gap.into(), Value::Word(row.place)];
         let rates = [row.measured.into(), row.predicted.into(), difference.into(), row.condition.into()];
-        table.push(first.into_iter().chain(rates));
-    }
-    table
+        first.into_iter().chain(rates)
+    }))
 }
 
 /// Returns a row for every wavenumber at which zero modes and self stresses were counted.
 pub(super) fn count_table(counts: &[Counts]) -> Table {
-    let mut table = Table::new("q1,q2,zero_modes,self_stresses,self_stresses_opposite,gap");
-    for found in counts {
+    Table::new("q1,q2,zero_modes,self_stresses,self_stresses_opposite,gap").with_rows(counts.iter().map(|found| {
         let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
         let q = found.q.into_iter().map(Value::from);
-        table.push(q.chain(numbers.map(Value::from)).chain([found.gap.into()]));
-    }
-    table
+        q.chain(numbers.map(Value::from)).chain([found.gap.into()])
+    }))
 }
