@@ -11,7 +11,7 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     let sheet = foldwell::sheet::fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold")?;
     let options = SurveyOptions { grid: [48, 24], ..SurveyOptions::default() };
-    let found = survey(&Rigidity::of_sheet(&sheet, false)?, &options, &mut |_| true)?.ok_or("stopped")?;
+    let found = survey(&Rigidity::of_sheet(&sheet, false)?, &options, &mut |_| true)?;
     println!("sign of the determinant over q1 (across) and q2 (upwards), both from -pi to pi:");
     for row in found.map[0].chunks(48).rev() {
         println!("  {}", row.iter().map(|value| if *value < 0.0 { '-' } else { '+' }).collect::<String>());

@@ -234,7 +234,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
                 return say(&parameters::help(&pattern)?);
             }
             let (table, out) = parameters::parse(&pattern, &parameters)?;
-            remark(&out, &run::new_mesh(&table, &out)?);
+            remark(&out, &run::write_sheet(&run::new_sheet(&table)?, &out, None)?);
             Ok(0)
         }
         Command::Convert { from, to, frame, merge, split, flatten, weld, thickness } => {

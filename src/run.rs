@@ -24,6 +24,7 @@ mod report;
 mod resume;
 mod runner;
 pub mod schema;
+mod session;
 mod single;
 mod summary;
 mod sweep;
@@ -77,15 +78,6 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
     single::check(file, options)
 }
 
-/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it into a file of the format of its
-/// ending. Returns a sentence for each part of the pattern that the file does not keep.
-///
-/// # Errors
-/// [`RunError`] if a parameter is wrong, the ending is unknown or the file cannot be written.
-pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<Vec<String>, RunError> {
-    write_sheet(&new_sheet(table)?, out, None)
-}
-
 /// Generates the sheet of a pattern from the table `{ pattern = "miura", .. }`.
 ///
 /// # Errors
@@ -134,7 +126,7 @@ impl Wanted {
         if ending(mesh_or_scene) == "toml" {
             return Ok(crate::scene::build::sheet(&self.scene(mesh_or_scene)?)?);
         }
-        let sheet = read_mesh(mesh_or_scene, self.frame, meshes::READ_OR_SCENE)?;
+        let sheet = read_mesh(mesh_or_scene, self.frame, None, meshes::READ_OR_SCENE)?;
         if self.settings.is_empty() { Ok(sheet) } else { Err(RunError::NoScene { path: mesh_or_scene.into() }) }
     }
 }
@@ -148,8 +140,8 @@ impl Wanted {
 /// are to be merged in a file of faces.
 pub fn read_sheet(path: &Path, frame: Option<usize>, merge: Option<f64>) -> Result<Sheet, RunError> {
     match merge {
-        Some(_) => meshes::read_cleaned(path, frame, &Cleanup { merge, split: true }),
-        None => read_mesh(path, frame, meshes::READ),
+        Some(_) => read_mesh(path, frame, Some(&Cleanup { merge, split: true }), meshes::CLEANED),
+        None => read_mesh(path, frame, None, meshes::READ),
     }
 }
 
@@ -161,7 +153,7 @@ pub fn read_sheet(path: &Path, frame: Option<usize>, merge: Option<f64>) -> Resu
 /// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, if there is no such
 /// frame, if the new file is for flat sheets and the sheet is not flat, and if the thickness is not above 0.
 pub fn convert(from: &Path, to: &Path, frame: Option<usize>, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
-    write_sheet(&read_mesh(from, frame, meshes::READ)?, to, thickness)
+    write_sheet(&read_mesh(from, frame, None, meshes::READ)?, to, thickness)
 }
 
 /// Does the same as [`convert`] with a flat crease pattern whose vertices are merged, and whose edges are split where
@@ -176,7 +168,7 @@ pub fn convert_cleaned(
     frame: Option<usize>,
     cleanup: &Cleanup,
 ) -> Result<Vec<String>, RunError> {
-    write_sheet(&meshes::read_cleaned(from, frame, cleanup)?, to, None)
+    write_sheet(&read_mesh(from, frame, Some(cleanup), meshes::CLEANED)?, to, None)
 }
 
 /// Does the same as [`convert`] with the crease pattern of a folded sheet: the sheet unfolded into the plane, with its
@@ -185,7 +177,7 @@ pub fn convert_cleaned(
 /// # Errors
 /// As [`convert`]; also if the sheet cannot be unfolded.
 pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
-    let folded = read_mesh(from, frame, meshes::READ)?;
+    let folded = read_mesh(from, frame, None, meshes::READ)?;
     let pattern = flatten(&folded).map_err(|reason| RunError::NotDevelopable { path: from.into(), reason })?;
     write_sheet(&pattern, to, None)
 }
@@ -195,7 +187,7 @@ pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result
 /// # Errors
 /// As [`convert`]; also if what is joined is no sheet.
 pub fn convert_welded(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
-    let apart = read_mesh(from, frame, meshes::READ)?;
+    let apart = read_mesh(from, frame, None, meshes::READ)?;
     let (sheet, [vertices, faces]) =
         welded(&apart).map_err(|defect| RunError::NoSheet { path: from.into(), defect })?;
     let mut notes = write_sheet(&sheet, to, None)?;

@@ -89,12 +89,8 @@ impl FaceWalk {
         let steps = plan.steps;
         let cells: Vec<[i32; 2]> = plan.cells.into_iter().collect::<Option<_>>().ok_or_else(disconnected)?;
         let shifts: Vec<[i32; 2]> = loops.iter().map(|closing| closing.cell).collect();
-        let words = sheet.is_repeated().then(|| [[1, 0], [0, 1]].map(|cell| word(&shifts, cell)));
-        let words = match words {
-            Some([Some(first), Some(second)]) => Some([first, second]),
-            Some(_) => return Err(disconnected()),
-            None => None,
-        };
+        let word = |cell: [i32; 2]| word(&shifts, cell).ok_or_else(disconnected);
+        let words = if sheet.is_repeated() { Some([word([1, 0])?, word([0, 1])?]) } else { None };
         Ok(Self { cells, steps, loops, words })
     }
 

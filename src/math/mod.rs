@@ -46,6 +46,11 @@ pub(crate) fn in_lower_triangle(row: usize, column: usize) -> usize {
     high * (high + 1) / 2 + low
 }
 
+/// Returns the rows and columns of the entries of a lower triangle, row by row.
+pub(crate) fn lower_triangle(size: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..size).flat_map(|row| (0..=row).map(move |column| (row, column)))
+}
+
 /// A point or vector in the plane.
 pub(crate) type Vec2 = nalgebra::Vector2<f64>;
 

@@ -25,11 +25,15 @@ impl Assembly {
         }
         let pieces = self.model(Gauge::Held).pieces_of_vertices();
         let mut piece_of = vec![0; self.tiling().positions.len()];
-        pieces.iter().enumerate().for_each(|(number, piece)| piece.iter().for_each(|&vertex| piece_of[vertex] = number));
+        pieces
+            .iter()
+            .enumerate()
+            .for_each(|(number, piece)| piece.iter().for_each(|&vertex| piece_of[vertex] = number));
         let along = |vertex: usize, held: [bool; 3]| {
             (0..3).filter(move |axis| held[*axis]).map(move |axis| (vertex, Vec3::ith(axis, 1.0)))
         };
-        let parts = terms.parts.iter().filter_map(|part| Some((*part.vertices.first()?, [0, 1, 2].map(|k| !part.free[k]))));
+        let parts =
+            terms.parts.iter().filter_map(|part| Some((*part.vertices.first()?, [0, 1, 2].map(|k| !part.free[k]))));
         let held = terms.pins.iter().copied().chain(parts).flat_map(|(vertex, held)| along(vertex, held));
         let supports = held.chain(terms.guides.iter().copied()).chain(driven.iter().copied());
         let mut left = vec![Vec3::zeros(); pieces.len()];
@@ -43,7 +47,8 @@ impl Assembly {
             supported.push(own);
         }
         let most = (0..pieces.len()).max_by(|a, b| left[*a].amax().total_cmp(&left[*b].amax())).unwrap_or_default();
-        let (axis, largest) = (left[most].iamax(), terms.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max));
+        let (axis, largest) =
+            (left[most].iamax(), terms.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max));
         let force = left[most][axis];
         if force.abs() <= BALANCED * largest {
             return Ok(());

@@ -65,7 +65,8 @@ pub struct OfStrain<C>(pub C);
 
 impl<C: ForceCurve + 'static> Law for OfStrain<C> {
     fn at(&self, length: f64, rest: f64) -> [f64; 3] {
-        of_stretch(rest, self.0.at((length - rest) / rest))
+        let [f, first, second] = self.0.at((length - rest) / rest);
+        [rest * rest * f, rest * first, second]
     }
 
     fn has_kinks(&self) -> bool {
@@ -85,20 +86,10 @@ impl<C: ForceCurve + 'static> Law for OfStrain<C> {
     }
 
     fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {
-        of_rest(length, rest, self.0.at((length - rest) / rest))
+        let ([f, first, second], stretch) = (self.0.at((length - rest) / rest), length / rest);
+        let twice = 2.0 * f - 2.0 * stretch * first + stretch * stretch * second;
+        [2.0 * rest * f - length * first, first - stretch * second, twice]
     }
-}
-
-/// `phi = rest^2 f(m / rest)` and its derivatives by `m`, from those of `f`.
-fn of_stretch(rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
-    [rest * rest * f, rest * first, second]
-}
-
-/// The derivatives of the same `phi` and of `phi'` by `rest`, and the second one of `phi`.
-fn of_rest(length: f64, rest: f64, [f, first, second]: [f64; 3]) -> [f64; 3] {
-    let stretch = length / rest;
-    let twice = 2.0 * f - 2.0 * stretch * first + stretch * stretch * second;
-    [2.0 * rest * f - length * first, first - stretch * second, twice]
 }
 
 /// The torque `k |d|^p` with the sign of `d`, the angle off rest in radians; `p = 4/3` is the bending of thin facets

@@ -309,7 +309,7 @@ impl<'a> Element<'a> {
 
     /// Whether it has another law than a spring.
     pub(crate) fn has_law(&self) -> bool {
-        self.stored().is_law()
+        !matches!(self.stored(), Stored::Spring)
     }
 
     /// Whether it has no force at its rest value, and the stiffness of its spring there and on both sides.

@@ -4,7 +4,7 @@ use super::domain::{Domain, Site};
 use super::element::{Elements, Head, Local, TermKind};
 use super::law::Stored;
 use crate::math::taylor::Taylor;
-use crate::math::{in_lower_triangle, point};
+use crate::math::{in_lower_triangle, lower_triangle, point};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -66,8 +66,7 @@ impl Elements for Enclosed {
             let number = |coordinate: usize| 3 * corners[coordinate / 3] + coordinate % 3;
             out.value += face.value / self.area;
             face.gradient.iter().enumerate().for_each(|(row, g)| out.gradient[number(row)] += g / self.area);
-            let places = (0..face.gradient.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
-            for ((row, column), h) in places.zip(&face.hessian) {
+            for ((row, column), h) in lower_triangle(face.gradient.len()).zip(&face.hessian) {
                 out.hessian[in_lower_triangle(number(row), number(column))] += h / self.area;
             }
         }

@@ -188,11 +188,6 @@ pub(super) enum Stored {
 }
 
 impl Stored {
-    /// Whether a law is part of the energy.
-    pub(super) fn is_law(&self) -> bool {
-        !matches!(self, Self::Spring)
-    }
-
     /// Whether the stiffness of the law jumps.
     pub(super) fn has_kinks(&self) -> bool {
         matches!(self, Self::Law(law) | Self::BeyondSpring(law) if law.has_kinks())

@@ -17,7 +17,7 @@ use super::law::Spring;
 use super::material::Material;
 use super::measure::Measure;
 use super::own_term::{MEMBRANE, OwnTerm};
-use crate::math::Vec3;
+use crate::math::{Vec3, lower_triangle};
 use nalgebra::{SVector, Vector2};
 use std::sync::Arc;
 
@@ -82,10 +82,8 @@ impl Measure<3, 9> for Strain {
             if i == j { 2.0 * (self.weights[i] + self.weights[(i + 2) % 3]) } else { -2.0 * self.weights[side] }
         };
         lower.clear();
-        for row in 0..9 {
-            let entry = |column: usize| if row % 3 == column % 3 { between(row / 3, column / 3) } else { 0.0 };
-            lower.extend((0..=row).map(entry));
-        }
+        let entry = |(row, column)| if row % 3 == column % 3 { between(row / 3, column / 3) } else { 0.0 };
+        lower.extend(lower_triangle(9).map(entry));
         self.gradient(points)
     }
 }

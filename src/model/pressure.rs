@@ -14,7 +14,7 @@ use super::law::{Law, Spring, Stored};
 use super::measure::Measure;
 use super::own_term::OwnTerm;
 use super::terms::Part;
-use crate::math::Vec3;
+use crate::math::{Vec3, lower_triangle};
 use crate::sheet::sides::open_sides;
 use crate::sheet::tiling::Site;
 use nalgebra::{Matrix3, SVector};
@@ -52,9 +52,7 @@ impl Measure<3, 9> for VolumeFrom {
         // d2V = dc . (da x b) + .. : rows are the later corner, columns the earlier one
         let rows = [[nothing; 3], [of_c, nothing, nothing], [-of_b, of_a, nothing]];
         lower.clear();
-        for row in 0..9 {
-            lower.extend((0..=row).map(|column| rows[row / 3][column / 3][(row % 3, column % 3)]));
-        }
+        lower.extend(lower_triangle(9).map(|(row, column)| rows[row / 3][column / 3][(row % 3, column % 3)]));
         self.gradient(points)
     }
 }

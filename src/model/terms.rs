@@ -10,7 +10,6 @@ use std::collections::BTreeSet;
 /// The stiffness of a term that is exactly rigid: infinity.
 pub const RIGID: f64 = f64::INFINITY;
 
-
 /// Stiffness and rest lengths of the bars.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {

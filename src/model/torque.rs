@@ -12,7 +12,7 @@ use super::measure::Measure;
 use super::own_term::OwnTerm;
 use super::pressure::Push;
 use super::problem::Gauge;
-use crate::math::Vec3;
+use crate::math::{Vec3, lower_triangle};
 use crate::sheet::tiling::Site;
 use nalgebra::{Matrix3, SVector};
 use std::sync::Arc;
@@ -56,10 +56,8 @@ impl Measure<2, 6> for TurnAbout {
         let block: Matrix3<f64> =
             along * (e * e.transpose() - f * f.transpose()) + mixed * (e * f.transpose() + f * e.transpose());
         lower.clear();
-        for row in 0..6 {
-            let sign = |column: usize| if row / 3 == column / 3 { 1.0 } else { -1.0 };
-            lower.extend((0..=row).map(|column| sign(column) * block[(row % 3, column % 3)]));
-        }
+        let sign = |row: usize, column: usize| if row / 3 == column / 3 { 1.0 } else { -1.0 };
+        lower.extend(lower_triangle(6).map(|(row, column)| sign(row, column) * block[(row % 3, column % 3)]));
         self.gradient(points)
     }
 }

@@ -163,7 +163,7 @@ fn mp4(reel: &Reel, options: FilmOptions) -> io::Result<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::samples;
+    use crate::output::test_samples as samples;
 
     const SMALL: FilmOptions = FilmOptions { width: 120, frames_per_second: 10 };
 

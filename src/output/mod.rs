@@ -18,6 +18,8 @@ pub mod picture;
 pub(crate) mod sequence;
 pub(crate) mod strain_space;
 pub mod table;
+#[cfg(test)]
+mod test_samples;
 pub mod vtk;
 
 pub use artifact::Artifact;

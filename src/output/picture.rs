@@ -162,42 +162,9 @@ impl Picture {
 
 /// Pictures for the tests of writers.
 #[cfg(test)]
-pub(super) mod samples {
-    use super::*;
-
-    /// Returns two triangles folded by `angle` along an edge of unit length: one crease and four boundary edges.
-    pub(crate) fn hinge(angle: f64) -> Picture {
-        let points = vec![
-            Vec3::zeros(),
-            Vec3::new(0.0, 1.0, 0.0),
-            Vec3::new(-1.0, 0.5, 0.0),
-            Vec3::new(angle.cos(), 0.5, angle.sin()),
-        ];
-        let none = f64::NAN;
-        Picture {
-            displacement: points.iter().map(|p| Vec3::new(0.0, 0.0, p.z)).collect(),
-            places: (0..points.len()).map(|vertex| (vertex, [0, 0])).collect(),
-            points,
-            triangles: vec![[0, 1, 2], [1, 0, 3]],
-            self_intersecting: vec![0, 1],
-            lines: vec![[0, 1], [1, 2], [2, 0], [0, 3], [3, 1]],
-            line_kinds: [vec![EdgeKind::Crease], vec![EdgeKind::Boundary; 4]].concat(),
-            letters: [vec![Assignment::Valley], vec![Assignment::Boundary; 4]].concat(),
-            line_edges: vec![0, 1, 2, 3, 4],
-            fold_angle: vec![angle, none, none, none, none],
-            rest_angle: vec![0.0, none, none, none, none],
-            strain: vec![1e-3, 0.0, 0.0, -2e-5, 0.0],
-            energy: vec![0.5 * angle * angle, 0.0, 0.0, 0.0, 0.0],
-            tension: vec![1e-3, 0.0, 0.0, -2e-5, 0.0],
-            torque: vec![angle, none, none, none, none],
-            memory: BTreeMap::new(),
-        }
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::test_samples as samples;
 
     /// The check accepts a consistent picture, and names an array of a wrong length or a point that does not exist.
     #[test]

@@ -38,30 +38,9 @@ impl StrainSurface {
 }
 
 #[cfg(test)]
-pub(super) mod samples {
-    use super::*;
-
-    /// Returns `n` x `n` states on a saddle, with a curvature proportional to x.
-    pub(crate) fn cap(n: usize) -> StrainSurface {
-        let place = |k: usize| [k % n, k / n].map(|k| 2.0 * k as f64 / (n - 1) as f64 - 1.0);
-        let squares = (0..n * n).filter(|k| k % n + 1 < n && k / n + 1 < n);
-        let points: Vec<[f64; 2]> = (0..n * n).map(place).collect();
-        StrainSurface {
-            points: points.iter().map(|[x, y]| Vec3::new(*x, *y, x * x - y * y)).collect(),
-            triangles: squares.flat_map(|k| [[k, k + 1, k + n + 1], [k, k + n + 1, k + n]]).collect(),
-            segments: Vec::new(),
-            curvature: points.iter().map(|p| p[0]).collect(),
-            theta: points.clone(),
-            folds: vec![("fold_0_1_0_0".into(), vec![0.5; n * n])],
-            energy: Some(vec![1.0; n * n]),
-            self_intersecting: Some(vec![0; n * n]),
-        }
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::test_samples as samples;
 
     /// Claim: a consistent surface is accepted; an array that is too short, and an index of no state, are named in the
     /// error.

@@ -128,6 +128,21 @@ impl Table {
             .map(|(at, name)| (name.as_str(), Column::new(self.rows.iter().map(|row| row[at]))))
     }
 
+    /// Returns the table with further rows.
+    pub(crate) fn with_rows(mut self, rows: impl IntoIterator<Item = impl IntoIterator<Item = Value>>) -> Self {
+        rows.into_iter().for_each(|row| self.push(row));
+        self
+    }
+
+    /// Returns the table with further rows, each of which begins with its number, counted from 0.
+    pub(crate) fn with_numbered<V: Into<Value>>(
+        self,
+        rows: impl IntoIterator<Item = impl IntoIterator<Item = V>>,
+    ) -> Self {
+        let rows = rows.into_iter().enumerate();
+        self.with_rows(rows.map(|(number, row)| [number.into()].into_iter().chain(row.into_iter().map(V::into))))
+    }
+
     /// Appends a row.
     pub(crate) fn push(&mut self, row: impl IntoIterator<Item = Value>) {
         self.rows.push(row.into_iter().collect());

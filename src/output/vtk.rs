@@ -209,7 +209,7 @@ pub(crate) fn pvd(states: &[(f64, String)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::error::{ShapeError, VtuFault};
-    use super::super::picture::samples;
+    use super::super::test_samples as samples;
     use super::read::{parse_picture, parse_vtu};
     use super::*;
     use proptest::prelude::*;
@@ -315,8 +315,7 @@ mod tests {
         let path = |name: &str| folder.path().join(name);
         let points = vec![Vec3::zeros(), Vec3::x(), Vec3::y()];
         write_vtu(&path("a.vtu"), &samples::hinge(0.3)).unwrap();
-        files::write(&path("b.vtp"), vtp(&path("b.vtp"), &super::super::strain_space::samples::cap(5)).unwrap())
-            .unwrap();
+        files::write(&path("b.vtp"), vtp(&path("b.vtp"), &samples::cap(5)).unwrap()).unwrap();
         let face = Net { points, triangles: vec![[0, 1, 2]], curves: vec![vec![0, 1, 2, 0]], ..Net::default() };
         files::write(&path("c.vtp"), vtp_of_net(&path("c.vtp"), &face).unwrap()).unwrap();
         let line = Net { triangles: vec![], curves: vec![vec![0, 1]], ..face };
@@ -381,7 +380,7 @@ mod tests {
     fn a_surface_reads_back() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.vtp");
-        let mut surface = super::super::strain_space::samples::cap(5);
+        let mut surface = samples::cap(5);
         let read = |path: &Path| match Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data {
             data @ DataSet::PolyData { .. } => PolyDataPiece::try_from(data).unwrap(),
             other => panic!("{other:?}"),

@@ -42,64 +42,49 @@ pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
 
 /// Returns a sentence for each part of the file of `sheet` that a file of this ending does not keep.
 pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
-    let mut notes = Vec::new();
-    let (is_fold, name) = (ending == "fold", ending.to_uppercase());
-    let frames = sheet.record.further_frames;
-    if frames > 0 && (!is_fold || sheet.record.frames.is_none()) {
+    let (is_fold, name, record) = (ending == "fold", ending.to_uppercase(), &sheet.record);
+    let (partial, frames) = (partly_folded(sheet), record.further_frames);
+    let other_frames = || {
         let (frames, are) =
             if frames == 1 { ("1 other frame".into(), "is") } else { (format!("{frames} other frames"), "are") };
-        notes.push(format!("{frames} in `file_frames` {are} not kept, only frame {} is", sheet.record.frame));
-    }
-    if sheet.record.turned_over {
-        notes.push(TURNED_OVER.to_owned());
-    }
-    notes.extend(remarks(sheet));
-    if ending == "obj" && !sheet.listed_edges.is_empty() {
-        notes.push("OBJ has no list of edges: their order is not kept".to_owned());
-    }
-    if !sheet.record.left_out.is_empty() {
-        notes.push(format!("not kept: {}", quoted(sheet.record.left_out.iter())));
-    }
-    if !["fold", "obj"].contains(&ending) && !sheet.record.metadata.is_empty() {
-        notes.push(format!("not kept: {}", quoted(sheet.record.metadata.iter().map(|(key, _)| key))));
-    }
-    if ["vtu", "stl", "ply", "glb"].contains(&ending) && !sheet.targets.is_empty() {
-        notes.push(format!(
-            "{name} has no target angles: {} that are not drawn are not kept",
-            sheet.targets_not_drawn()
-        ));
-    }
-    let partial = partly_folded(sheet);
-    if ["cp", "dxf"].contains(&ending) && partial > 0 {
-        notes.push(format!("{name} has no target angles: {partial} that are not those of a flat fold are not kept"));
-    }
-    if ["stl", "ply", "glb"].contains(&ending) && (sheet.lattice.is_some() || !sheet.assignments.is_empty()) {
-        notes.push(format!("{name} has faces only: lattice vectors and letters of edges are not kept"));
-    }
-    if ending == "vtu" && sheet.lattice.is_some() {
+        format!("{frames} in `file_frames` {are} not kept, only frame {} is", record.frame)
+    };
+    let unread = || {
         let again = build::build(&drawing(mesh(Picture::drawn(sheet)), String::new()));
-        let unread = again.err().map_or(String::new(), |defect| {
+        again.err().map_or(String::new(), |defect| {
             format!("; it cannot be read as such, since with its own edges alone {}", defect.problem)
-        });
-        notes.push(format!("VTU has no lattice vectors: the cell is written as a finite sheet{unread}"));
-    }
-    if !is_fold && sheet.screws.is_some() {
-        notes.push("the screw motions that repeat the cell are not kept: FOLD alone has a place for them".to_owned());
-    }
-    let bars_alone = sheet.bars_alone().count();
-    if !is_fold && bars_alone > 0 {
-        notes.push(format!("{bars_alone} edges without faces are not kept: FOLD alone has a place for them"));
-    }
-    if !is_fold && !sheet.glue.is_empty() {
-        notes.push(
-            "what joins the faces of edges of more than two is not kept: FOLD alone has a place for it".to_owned(),
-        );
-    }
-    let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
-    if !is_fold && stiffnesses > 0 {
-        notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));
-    }
-    notes
+        })
+    };
+    let (bars_alone, stiffnesses) =
+        (sheet.bars_alone().count(), sheet.stiffness.hinges.len() + sheet.stiffness.bars.len());
+    let fold_alone = |has: bool, what: String, them: &str| {
+        (has && !is_fold).then(|| format!("{what} not kept: FOLD alone has a place for {them}"))
+    };
+    let of_source = [
+        (frames > 0 && (!is_fold || record.frames.is_none())).then(other_frames),
+        record.turned_over.then(|| TURNED_OVER.to_owned()),
+    ];
+    let of_ending = [
+        (ending == "obj" && !sheet.listed_edges.is_empty())
+            .then(|| "OBJ has no list of edges: their order is not kept".to_owned()),
+        (!record.left_out.is_empty()).then(|| format!("not kept: {}", quoted(record.left_out.iter()))),
+        (!["fold", "obj"].contains(&ending) && !record.metadata.is_empty())
+            .then(|| format!("not kept: {}", quoted(record.metadata.iter().map(|(key, _)| key)))),
+        (["vtu", "stl", "ply", "glb"].contains(&ending) && !sheet.targets.is_empty()).then(|| {
+            format!("{name} has no target angles: {} that are not drawn are not kept", sheet.targets_not_drawn())
+        }),
+        (["cp", "dxf"].contains(&ending) && partial > 0)
+            .then(|| format!("{name} has no target angles: {partial} that are not those of a flat fold are not kept")),
+        (["stl", "ply", "glb"].contains(&ending) && (sheet.lattice.is_some() || !sheet.assignments.is_empty()))
+            .then(|| format!("{name} has faces only: lattice vectors and letters of edges are not kept")),
+        (ending == "vtu" && sheet.lattice.is_some())
+            .then(|| format!("VTU has no lattice vectors: the cell is written as a finite sheet{}", unread())),
+        fold_alone(sheet.screws.is_some(), "the screw motions that repeat the cell are".to_owned(), "them"),
+        fold_alone(bars_alone > 0, format!("{bars_alone} edges without faces are"), "them"),
+        fold_alone(!sheet.glue.is_empty(), "what joins the faces of edges of more than two is".to_owned(), "it"),
+        fold_alone(stiffnesses > 0, format!("{stiffnesses} stiffnesses of edges are"), "them"),
+    ];
+    of_source.into_iter().flatten().chain(remarks(sheet)).chain(of_ending.into_iter().flatten()).collect()
 }
 
 /// Returns the mesh of the file of a picture, without the points that belong to no face.

@@ -38,10 +38,9 @@ pub(super) fn study_name(study: &Map<String, Value>) -> Option<&str> {
 
 /// Returns the files of a study that can be shown.
 pub(super) fn contents(folder: &Path, name: &str) -> Result<Vec<(String, Content<'static>)>, OutputError> {
-    let content = |file: String| match content(&folder.join(&file)) {
-        Ok(Some(content)) => Some(Ok((file, content))),
-        Ok(None) => None,
-        Err(error) => Some(Err(error)),
+    let content = |file: String| {
+        let content = content(&folder.join(&file));
+        content.map(|content| Some((file, content?))).transpose()
     };
     files_of(folder, name).into_iter().filter_map(content).collect()
 }

@@ -1,16 +1,14 @@
 //! Runs that write no file: the answers of the studies of a scene stay in memory.
 
 use super::runner::summary_of;
+use super::session::Session;
 use super::{RunError, Summary};
-use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::OutputError;
 use crate::scene::SceneFile;
 use crate::scene::spec::StudySpec;
-use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use crate::study::{self, Answer, Checkpoints, Observer, PreviousAnswers};
 
 /// The answers of the studies of a scene.
 #[derive(Debug)]
@@ -56,57 +54,23 @@ pub fn compute(
 ) -> Result<Computed, RunError> {
     super::single::has_studies(file)?;
     let work = || {
-        let mut run = InMemory {
-            file,
-            assembly,
-            view: ShownCells::new(assembly),
-            earlier,
-            observer,
-            interrupted: AtomicBool::new(false),
-        };
+        let mut session = Session::new(file, assembly, earlier, observer);
         let wanted: Vec<&StudySpec> =
-            file.scene.studies.iter().filter(|study| !run.earlier.states.contains_key(&study.name.0)).collect();
-        wanted.iter().try_for_each(|study| study::check(&run.context(study)))?;
+            file.scene.studies.iter().filter(|study| !session.earlier.states.contains_key(&study.name.0)).collect();
+        wanted.iter().try_for_each(|study| study::check(&session.context(study, &NotKept)))?;
         let mut answers = Vec::new();
         for study in wanted {
-            if !run.interrupted.load(Ordering::Relaxed) {
-                answers.push(run.answer(study)?);
+            if !session.interrupted() {
+                let answer = session.answer(study, &NotKept)?;
+                session.keep(&answer);
+                answers.push(answer);
             }
         }
         let mut summary = summary_of(file, assembly, String::new());
         summary.studies = answers.iter().map(|answer| answer.summary.clone()).collect();
-        Ok(Computed { summary, answers, interrupted: run.interrupted.into_inner() })
+        Ok(Computed { summary, answers, interrupted: session.interrupted() })
     };
     Threads::new(threads).install(work)
-}
-
-struct InMemory<'a> {
-    file: &'a SceneFile,
-    assembly: &'a Assembly,
-    view: ShownCells,
-    earlier: PreviousAnswers,
-    observer: Observer<'a>,
-    interrupted: AtomicBool,
-}
-
-impl InMemory<'_> {
-    fn answer(&mut self, study: &StudySpec) -> Result<Answer, RunError> {
-        let clock = Instant::now();
-        let mut answer = study::compute(&self.context(study))?;
-        answer.summary.seconds = clock.elapsed().as_secs_f64();
-        if self.interrupted.load(Ordering::Relaxed) && !answer.summary.converged {
-            answer.summary.reason = Some(super::ledger::INTERRUPTED.to_owned());
-        }
-        let name = &answer.summary.name;
-        self.earlier.paths.insert(name.clone(), answer.paths.clone());
-        self.earlier.states.extend(answer.state.clone().map(|state| (name.clone(), state)));
-        Ok(answer)
-    }
-
-    fn context<'b>(&'b self, study: &'b StudySpec) -> Context<'b> {
-        let Self { file, assembly, view, earlier, observer, interrupted } = self;
-        Context { file, assembly, view, study, earlier, checkpoints: &NotKept, observer: *observer, interrupted }
-    }
 }
 
 /// Checkpoints of a run that cannot be resumed.

@@ -132,24 +132,17 @@ impl fmt::Display for ElementCounts {
 
 /// Returns a table of the vertices of a cell: number and coordinates.
 pub fn vertices(sheet: &Sheet) -> Table {
-    let mut table = Table::new("vertex,x,y,z");
-    for (number, position) in sheet.vertices.iter().enumerate() {
-        table.push([number.into(), position.x.into(), position.y.into(), position.z.into()]);
-    }
-    table
+    Table::new("vertex,x,y,z").with_numbered(sheet.vertices.iter().map(|position| position.iter().copied()))
 }
 
 /// Returns a table of the edges of a cell: number, name `[i, j, n1, n2]`, kind, assignment as a letter of FOLD, length,
 /// and drawn fold angle in radians, which is empty for edges of one face.
 pub fn edges(sheet: &Sheet) -> Table {
-    let mut table = Table::new("edge,i,j,n1,n2,kind,assignment,length,angle");
-    for (number, edge) in sheet.edges.iter().enumerate() {
+    let rows = sheet.edges.iter().map(|edge| {
         let key = edge.key;
-        let place =
-            [number, key.i, key.j].map(Value::from).into_iter().chain(key.shift.map(i64::from).map(Value::from));
+        let place = [key.i, key.j].map(Value::from).into_iter().chain(key.shift.map(i64::from).map(Value::from));
         let words = [edge.kind.word(), sheet.assignment(edge).letter()].map(Value::Word);
-        let numbers = [Value::Number(sheet.length(key)), sheet.drawn_angle(edge).into()];
-        table.push(place.chain(words).chain(numbers));
-    }
-    table
+        place.chain(words).chain([sheet.length(key).into(), sheet.drawn_angle(edge).into()])
+    });
+    Table::new("edge,i,j,n1,n2,kind,assignment,length,angle").with_numbered(rows)
 }

@@ -18,7 +18,7 @@ const WRITTEN: &str = ".fold, .obj, .vtu, .stl, .ply, .glb, .svg, .cp or .dxf";
 /// Endings of states that are written.
 const STATES: &str = ".vtu, .stl, .ply, .obj, .fold or .glb";
 /// Endings of flat crease patterns that can be cleaned.
-const CLEANED: &str = ".fold, .svg, .cp, .opx, .ori or .dxf";
+pub(super) const CLEANED: &str = ".fold, .svg, .cp, .opx, .ori or .dxf";
 
 /// The kinds of files that hold a mesh.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -47,30 +47,25 @@ impl MeshKind {
     }
 }
 
-/// Reads a mesh; `expected` are the endings that messages name.
-pub(super) fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
-    match (MeshKind::of(path), frame) {
-        (Some(MeshKind::Fold), _) => Ok(fold::read_frame(path, frame, None)?),
-        (Some(_), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
-        (Some(MeshKind::Obj), None) => Ok(obj::read(path)?),
-        (Some(MeshKind::Stl), None) => Ok(stl::read(path)?),
-        (Some(MeshKind::Lines(format)), None) => Ok(pattern::read(path, format, &Cleanup::default())?),
-        (Some(MeshKind::Vtu), None) => {
+/// Reads a mesh, or a flat crease pattern that is cleaned up; `expected` are the endings that messages name.
+pub(super) fn read_mesh(
+    path: &Path,
+    frame: Option<usize>,
+    cleanup: Option<&Cleanup>,
+    expected: &'static str,
+) -> Result<Sheet, RunError> {
+    match (MeshKind::of(path), frame, cleanup) {
+        (Some(MeshKind::Fold), ..) => Ok(fold::read_frame(path, frame, cleanup)?),
+        (Some(_), Some(frame), _) => Err(RunError::NoFrames { path: path.into(), frame }),
+        (Some(MeshKind::Lines(format)), ..) => Ok(pattern::read(path, format, cleanup.unwrap_or(&Cleanup::default()))?),
+        (Some(MeshKind::Obj), _, None) => Ok(obj::read(path)?),
+        (Some(MeshKind::Stl), _, None) => Ok(stl::read(path)?),
+        (Some(MeshKind::Vtu), _, None) => {
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let drawn = convert::drawing(vtk::read_vtu(path)?, title);
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
-        (None, _) => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
-    }
-}
-
-/// Reads a flat crease pattern and cleans it up.
-pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup) -> Result<Sheet, RunError> {
-    match (MeshKind::of(path), frame) {
-        (Some(MeshKind::Fold), _) => Ok(fold::read_frame(path, frame, Some(cleanup))?),
-        (Some(_), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
-        (Some(MeshKind::Lines(format)), None) => Ok(pattern::read(path, format, cleanup)?),
-        _ => Err(RunError::Ending { path: path.into(), ending: ending(path), expected: CLEANED }),
+        _ => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
     }
 }
 

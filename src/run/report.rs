@@ -1,6 +1,7 @@
 //! The options of a run and its report.
 
 use crate::run::Summary;
+use crate::scene::SceneFile;
 use std::path::PathBuf;
 
 /// The options of a run that the command line sets.
@@ -12,6 +13,13 @@ pub struct RunOptions {
     pub threads: Option<usize>,
     /// Whether to keep the studies that an interrupted run finished.
     pub resume: bool,
+}
+
+impl RunOptions {
+    /// Returns the folder for the files of a scene.
+    pub(super) fn folder(&self, file: &SceneFile) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| PathBuf::from(file.path().file_stem().unwrap_or_default()))
+    }
 }
 
 /// The report of a run.

@@ -9,6 +9,7 @@ use super::belongings::Belongings;
 use crate::math::Vec3;
 use crate::model::Configuration;
 use crate::output::figure::surface::PathPoint;
+use crate::output::json::from_file;
 use crate::output::table::columns_of;
 use crate::output::{OutputError, files};
 use crate::scene::SceneFile;
@@ -32,9 +33,7 @@ pub(crate) struct PreviousRun {
 impl PreviousRun {
     /// Reads the earlier run into this folder; the result is empty if there is none or its digest is another one.
     pub(crate) fn read(out: &Path, digest: &str) -> Self {
-        let text = std::fs::read_to_string(out.join("summary.json")).unwrap_or_default();
-        let found: Option<Self> = serde_json::from_str(&text).ok();
-        found.filter(|earlier| earlier.digest == digest).unwrap_or_default()
+        from_file(&out.join("summary.json")).filter(|earlier: &Self| earlier.digest == digest).unwrap_or_default()
     }
 
     /// Returns the summary of a study in the earlier run, and its final state if later studies start from it; `None` if
@@ -52,7 +51,7 @@ impl PreviousRun {
         if !found.converged || found.result.is_none() || found.files != files.record(name).ok() {
             return None;
         }
-        let state = if is_start(file, name) { Some(read_state(&out.join(state_file(name)))?) } else { None };
+        let state = if is_start(file, name) { Some(from_file(&out.join(state_file(name)))?) } else { None };
         Some((found, state))
     }
 }
@@ -83,11 +82,6 @@ pub(crate) fn state_file(name: &str) -> String {
     format!("{name}.state.json")
 }
 
-/// Reads a state; `None` if its file is not there or truncated.
-fn read_state(path: &Path) -> Option<Configuration> {
-    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
-}
-
 /// Writes the state in which a study ended.
 pub(crate) fn write_state(path: &Path, state: &Configuration) -> Result<(), OutputError> {
     // a list of finite numbers, so that serialization cannot fail
@@ -115,12 +109,12 @@ mod tests {
         };
         let path = folder.path().join(state_file("a"));
         write_state(&path, &state).unwrap();
-        let back = read_state(&path).unwrap();
+        let back: Configuration = from_file(&path).unwrap();
         let bits = |state: &Configuration| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&back), bits(&state));
         assert_eq!(back, state);
         assert_eq!(["a", "b"].map(|name| is_start(&file, name)), [true, false], "nothing starts from the second");
         std::fs::write(&path, "{\"coordinates\":[0.1").unwrap();
-        assert_eq!(read_state(&path), None);
+        assert_eq!(from_file::<Configuration>(&path), None);
     }
 }

@@ -1,12 +1,12 @@
 //! The loop of a run: studies are checked, computed, timed and written, and their states are kept for later studies.
 
 use super::belongings::Belongings;
-use super::ledger::{INTERRUPTED, Ledger};
+use super::ledger::Ledger;
 use super::log::Log;
 use super::resume::{self, PreviousRun};
+use super::session::Session;
 use super::{RunError, RunOptions, RunReport, claim, inputs};
-use crate::analysis::shown_cells::ShownCells;
-use crate::model::{Assembly, Configuration};
+use crate::model::Assembly;
 use crate::output::claim::Claim;
 use crate::output::{OutputError, files};
 use crate::run::{SheetSummary, Summary};
@@ -14,24 +14,19 @@ use crate::scene::notes::notes;
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
-use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};
+use crate::study::{self, Answer, Checkpoints, Observer, PreviousAnswers};
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
 
 /// A run in progress.
 pub(crate) struct Runner<'a> {
-    file: &'a SceneFile,
-    assembly: &'a Assembly,
-    view: ShownCells,
+    session: Session<'a>,
     /// The folder of the files.
     out: PathBuf,
     /// Digest of the input, with which logs begin.
     digest: String,
     resumed: bool,
-    earlier: PreviousAnswers,
     kept: Vec<String>,
     /// Positions of the studies in the scene.
     order: HashMap<&'a str, usize>,
@@ -42,8 +37,6 @@ pub(crate) struct Runner<'a> {
     log: Mutex<Option<Log>>,
     /// The claim on the folder, from [`Self::begin`] on.
     claim: Option<Claim>,
-    observer: Observer<'a>,
-    interrupted: AtomicBool,
     ledger: Ledger,
     /// The answers of the studies that were computed, where they are wanted.
     pub(super) answers: Option<Vec<Answer>>,
@@ -58,16 +51,11 @@ impl<'a> Runner<'a> {
         observer: Observer<'a>,
         ledger: &Ledger,
     ) -> Result<Self, RunError> {
-        let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
-        let out = options.out.clone().unwrap_or_else(stem);
-        let view = ShownCells::new(assembly);
+        let out = options.folder(file);
         let runner = Self {
-            file,
-            assembly,
-            view,
+            session: Session::new(file, assembly, PreviousAnswers::default(), observer),
             digest: String::new(),
             resumed: false,
-            earlier: PreviousAnswers::default(),
             kept: Vec::new(),
             order: file.scene.studies.iter().enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect(),
             belongings: Belongings::new(file, &out),
@@ -75,13 +63,11 @@ impl<'a> Runner<'a> {
             log: Mutex::default(),
             claim: None,
             out,
-            observer,
-            interrupted: AtomicBool::new(false),
             ledger: ledger.clone(),
             answers: None,
         };
         for study in &file.scene.studies {
-            study::check(&runner.context(study))?;
+            study::check(&runner.session.context(study, &runner))?;
         }
         inputs::check(file, &runner.out)?;
         Ok(runner)
@@ -93,23 +79,26 @@ impl<'a> Runner<'a> {
     /// The summary is written at once, with the studies that are kept, so that a later run cannot take files of this
     /// run for those of an earlier scene.
     pub(crate) fn begin(&mut self, resume: bool, claim: Option<Claim>) -> Result<(), RunError> {
-        let digest = digest(self.file)?;
-        let claimed = || claim::of_run(&self.out, false, self.observer);
+        let digest = digest(self.session.file)?;
+        let claimed = || claim::of_run(&self.out, false, self.session.observer);
         self.claim = Some(claim.map_or_else(claimed, Ok)?);
         let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
         self.resumed = !previous.digest.is_empty();
         self.digest.clone_from(&digest);
-        self.take_over(summary_of(self.file, self.assembly, digest), &previous)
+        self.take_over(summary_of(self.session.file, self.session.assembly, digest), &previous)
     }
 
     /// Takes over the studies that an earlier run finished, and removes its unfinished files.
     fn take_over(&mut self, mut summary: Summary, previous: &PreviousRun) -> Result<(), RunError> {
         files::remove_drafts(&self.out);
-        for study in &self.file.scene.studies {
+        for study in &self.session.file.scene.studies {
             files::remove_drafts(&self.out.join(&study.name.0));
-            if let Some((found, state)) = previous.study(self.file, (&self.out, &self.belongings), study) {
-                self.earlier.states.extend(state.map(|state| (found.name.clone(), state)));
-                self.earlier.paths.extend(resume::paths(&self.out, study)?.map(|paths| (found.name.clone(), paths)));
+            if let Some((found, state)) = previous.study(self.session.file, (&self.out, &self.belongings), study) {
+                self.session.earlier.states.extend(state.map(|state| (found.name.clone(), state)));
+                self.session
+                    .earlier
+                    .paths
+                    .extend(resume::paths(&self.out, study)?.map(|paths| (found.name.clone(), paths)));
                 self.kept.push(found.name.clone());
                 summary.studies.push(found);
             }
@@ -135,24 +124,16 @@ impl<'a> Runner<'a> {
     }
 
     fn compute(&mut self, study: &StudySpec) -> Result<Answer, RunError> {
-        let clock = Instant::now();
-        let context = self.context(study);
-        let mut answer = study::compute(&context)?;
-        context.end_steps();
-        answer.summary.seconds = clock.elapsed().as_secs_f64();
+        let answer = self.session.answer(study, self)?;
+        self.session.context(study, self).end_steps();
         for (name, artifact) in &answer.files {
             artifact.write(&self.path(name))?;
         }
-        self.earlier.paths.insert(study.name.0.clone(), answer.paths.clone());
-        if let Some(state) = &answer.state {
-            self.keep_state(study, state.clone())?;
+        if let Some(state) = answer.state.as_ref().filter(|_| resume::is_start(self.session.file, &study.name.0)) {
+            resume::write_state(&self.path(resume::state_file(&study.name.0)), state)?;
         }
+        self.session.keep(&answer);
         Ok(answer)
-    }
-
-    fn context<'b>(&'b self, study: &'b StudySpec) -> Context<'b> {
-        let Self { file, assembly, view, earlier, observer, interrupted, .. } = self;
-        Context { file, assembly, view, study, earlier, checkpoints: self, observer: *observer, interrupted }
     }
 
     /// Records the result of a study. A run that was stopped removes no files of earlier runs, since its own are
@@ -161,8 +142,6 @@ impl<'a> Runner<'a> {
         let found = &mut answer.summary;
         if !self.interrupted() {
             self.belongings.remove_others(&found.name, &self.take_written())?;
-        } else if !found.converged {
-            found.reason = Some(INTERRUPTED.to_owned()); // each method describes an interruption differently
         }
         found.files = Some(self.belongings.record(&found.name)?);
         self.ledger.finished(found.clone(), self.order[study.name.0.as_str()])?;
@@ -176,18 +155,9 @@ impl<'a> Runner<'a> {
         std::mem::take(&mut *self.written.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Keeps the final state of a study for the studies that start from it.
-    fn keep_state(&mut self, study: &StudySpec, state: Configuration) -> Result<(), RunError> {
-        if resume::is_start(self.file, &study.name.0) {
-            resume::write_state(&self.path(resume::state_file(&study.name.0)), &state)?;
-        }
-        self.earlier.states.insert(study.name.0.clone(), state);
-        Ok(())
-    }
-
     /// Whether the observer asked to stop.
     pub(crate) fn interrupted(&self) -> bool {
-        self.interrupted.load(Ordering::Relaxed)
+        self.session.interrupted()
     }
 
     /// Returns the path of a file in the folder of the run, and records that the current study writes it.

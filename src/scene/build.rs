@@ -48,7 +48,7 @@ fn built(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
     let reader = Reader::new(file, &bare);
     let assembly = loads::loaded(file, &bare.with_terms(reader.terms()?).with_best_axis())?;
     super::rolled::polygons_bend(file, &assembly)?;
-    drives::check_all(file, &assembly)?;
+    file.scene.drives.iter().try_for_each(|spec| drives::resolve(file, &assembly, spec).map(|_| ()))?;
     Ok(assembly)
 }
 

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use super::forms::StartSpec;
 use super::outputs::outputs;
+use super::rest::RestSpec;
 use super::spec::{
     CreasesSpec, DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec,
 };
@@ -133,7 +134,7 @@ fn locks(file: &SceneFile) -> Checked {
 fn fractions(file: &SceneFile) -> Checked {
     for CreasesSpec { rest, fraction, .. } in file.scene.energy.hinges().into_iter().flatten() {
         let Some(fraction) = fraction else { continue };
-        if !rest.as_ref().is_some_and(|rest| rest.has_fraction()) {
+        if !matches!(rest.as_deref(), Some(RestSpec::Target | RestSpec::Assigned | RestSpec::Letters(_))) {
             let help = "it belongs to rest = \"target\", \"assigned\" or { M = .., V = .. }; leave it out otherwise";
             return Err(file.error_at(fraction.span(), "`fraction` is given without angles of a folded sheet", help));
         }

@@ -53,11 +53,6 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Checks all drives of a scene with its sheet.
-pub(super) fn check_all(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
-    file.scene.drives.iter().try_for_each(|spec| resolve(file, assembly, spec).map(|_| ()))
-}
-
 /// Returns vertices, those of parts among them, with directions along which drives move them, and so support loads.
 pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, SceneError> {
     let mut directions = Vec::new();

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
-use super::rows::numbered_lines;
+use super::rows::{Fault, numbered_lines, read_table};
 use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec, HingeYieldSpec, LawForm};
 use super::turns::fault_of_turns;
 use super::{Located, SceneError, SceneFile};
@@ -16,7 +15,6 @@ use crate::model::{
     OfStrain, Ogden, Power, Stiffening, Stiffness, TermLaw,
 };
 use crate::sheet::Assignment;
-use crate::sheet::text::read_text;
 
 /// The laws that a scene gives a term.
 pub(super) struct GivenLaw {
@@ -196,7 +194,8 @@ fn measured(
     match (&spec.file, &spec.points) {
         (Some(name), None) => {
             let path = file.resolve(name);
-            let (lines, points): (Vec<usize>, Vec<[f64; 2]>) = rows(&path, columns)?.into_iter().unzip();
+            let (lines, points): (Vec<usize>, Vec<[f64; 2]>) =
+                read_table(&path, |text| rows(text, columns))?.into_iter().unzip();
             let line = |fault: &CurveError| fault.point().map_or(1, |at| lines[at]);
             Measured::new(&points).map_err(|fault| SceneError::Table {
                 line: line(&fault),
@@ -211,27 +210,25 @@ fn measured(
 }
 
 /// Returns the rows of a table with these two columns, each with its line.
-fn rows(path: &Path, columns: [&'static str; 2]) -> Result<Vec<CurveRow>, SceneError> {
-    let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    let fault = |line, fault| SceneError::Table { path: path.into(), line, fault };
-    let mut lines = numbered_lines(&text);
-    let (at, header) = lines.next().ok_or_else(|| fault(1, TableFault::Empty))?;
+fn rows(text: &str, columns: [&'static str; 2]) -> Result<Vec<CurveRow>, Fault> {
+    let mut lines = numbered_lines(text);
+    let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
     if header.split(',').map(str::trim).ne(columns) {
         let found = header.trim().into();
-        return Err(fault(at, TableFault::CurveHeader { found, columns }));
+        return Err((at, TableFault::CurveHeader { found, columns }));
     }
     let read = |(line, text): (usize, &str)| {
         let fields: Vec<&str> = text.split(',').map(str::trim).collect();
         let [first, second] = fields[..] else {
-            return Err(fault(line, TableFault::Fields { found: fields.len(), expected: 2 }));
+            return Err((line, TableFault::Fields { found: fields.len(), expected: 2 }));
         };
         let number = |field: &str, column| {
             let number = field.parse().ok().filter(|number: &f64| number.is_finite());
-            number.ok_or_else(|| fault(line, TableFault::Number { field: field.into(), column }))
+            number.ok_or_else(|| (line, TableFault::Number { field: field.into(), column }))
         };
         let first = number(first, columns[0])?;
         let beyond = fault_of_turns(first).filter(|_| columns[0] == "angle");
-        beyond.map_or(Ok(()), |[message, help]| Err(fault(line, TableFault::Turns { message, help })))?;
+        beyond.map_or(Ok(()), |[message, help]| Err((line, TableFault::Turns { message, help })))?;
         Ok((line, [first, number(second, columns[1])?]))
     };
     lines.map(read).collect()

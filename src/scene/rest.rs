@@ -37,11 +37,6 @@ pub enum RestSpec {
 }
 
 impl RestSpec {
-    /// Whether these are angles of the folded sheet, of which a fraction can be taken.
-    pub(super) fn has_fraction(&self) -> bool {
-        matches!(self, Self::Target | Self::Assigned | Self::Letters(_))
-    }
-
     /// Returns the angles that are written in the scene.
     pub(super) fn angles(&self) -> Vec<Angle> {
         match self {

@@ -72,8 +72,13 @@ pub(crate) struct TableRow {
 
 /// Reads a table with this last column.
 pub(crate) fn read(path: &Path, value: Column) -> Result<Vec<TableRow>, SceneError> {
+    read_table(path, |text| parse(text, value))
+}
+
+/// Reads a table by a function that knows its columns.
+pub(super) fn read_table<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Fault>) -> Result<T, SceneError> {
     let text = crate::sheet::text::read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    parse(&text, value).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
+    parse(&text).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
 }
 
 /// Returns the lines of a table that are not empty, with their numbers, counted from 1.
@@ -82,7 +87,8 @@ pub(super) fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> 
     text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, line)| !line.trim().is_empty())
 }
 
-type Fault = (usize, TableFault);
+/// What is wrong with a table, and the line.
+pub(super) type Fault = (usize, TableFault);
 
 fn parse(text: &str, value: Column) -> Result<Vec<TableRow>, Fault> {
     let mut lines = numbered_lines(text);

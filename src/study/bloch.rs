@@ -131,7 +131,7 @@ struct FoundModes {
 
 /// Computes the modes of the state that the scene names.
 pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Answer, NoAnswer> {
-    let found = find(context, spec, ground(context, spec)?)?;
+    let found = find(context, spec, ground(context, spec)?).map_err(NoAnswer::because)?;
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     let survey = found.survey.as_ref().ok();
     answer.add(format!("{name}.csv"), table(survey.map_or(&[], |survey| &survey.decays)));
@@ -158,8 +158,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Answer,
 }
 
 /// Computes the survey and the bands, unless the observer asks to stop.
-fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<FoundModes, NoAnswer> {
-    let interrupted = || NoAnswer::because("interrupted");
+fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<FoundModes, BlochError> {
     let options = SurveyOptions {
         wavenumbers: wavenumbers(spec),
         averaged: AVERAGED,
@@ -170,18 +169,16 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Found
     let survey = match bloch::survey(&ground.rigidity, &options, &mut go_on) {
         // counts and bands need no determinant
         Err(error) if error.is_of_determinant() => Err(error),
-        found => Ok(found.map_err(NoAnswer::because)?.ok_or_else(interrupted)?),
+        found => Ok(found?),
     };
     let wanted = spec.zero_modes_at.iter().flat_map(|list| list.iter());
-    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0).map_err(NoAnswer::because));
-    let counts = counts.collect::<Result<_, _>>()?;
+    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
     let strip = |strip: &Located<StripSpec>| {
         let rigid = facets_are_rigid(context.file, context.assembly);
-        let found = strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers);
-        found.map_err(NoAnswer::because)?.ok_or_else(interrupted)
+        strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers)
     };
     let strip = spec.strip.as_ref().map(strip).transpose()?;
-    let bands = bands::compute(context, spec).map_err(NoAnswer::because)?.ok_or_else(interrupted)?;
+    let bands = bands::compute(context, spec)?;
     Ok(FoundModes { ground, survey, grid: options.grid, bands, strip, counts })
 }
 
@@ -194,15 +191,12 @@ fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
 
 /// Returns a row for every root at every wavenumber.
 fn table(decays: &[Decay]) -> Table {
-    let mut table = Table::new("q1,root,kappa2,q2,condition,on_circle,multiplicity");
-    for decay in decays {
-        for (k, root) in decay.roots.iter().enumerate() {
-            let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
-            let last = [i64::from(root.on_circle()).into(), root.multiplicity.into()];
-            table.push([decay.q.into(), k.into()].into_iter().chain(numbers).chain(last));
-        }
-    }
-    table
+    let all = decays.iter().flat_map(|decay| decay.roots.iter().enumerate().map(|(k, root)| (decay.q, k, root)));
+    Table::new("q1,root,kappa2,q2,condition,on_circle,multiplicity").with_rows(all.map(|(q, k, root)| {
+        let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
+        let last = [i64::from(root.on_circle()).into(), root.multiplicity.into()];
+        [q.into(), k.into()].into_iter().chain(numbers).chain(last)
+    }))
 }
 
 /// Adds the map of the determinant, the lines of zero modes and the displacements of modes, if the study asks for them.
@@ -322,7 +316,7 @@ fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochS
         on_circle: Some(polarization.on_circle),
         positive_fraction: real.as_ref().map(|(zone, _)| zone.positive_fraction(grid)),
         zero_lines: traced.map(|lines| lines.lines.len()),
-        no_zero_lines: survey.no_lines().map(ToString::to_string),
+        no_zero_lines: real.as_ref().and_then(|(_, lines)| Some(lines.as_ref().err()?.to_string())),
         lines: traced.iter().flat_map(|traced| traced.lines.iter().map(summarized)).collect(),
         regions: traced.map_or(vec![], |traced| traced.regions.clone()),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),

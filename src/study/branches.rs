@@ -78,14 +78,13 @@ fn table(assembly: &Assembly, branches: &Branches) -> Table {
         let cell = if several { format!("_{}_{}", edge.cell[0], edge.cell[1]) } else { String::new() };
         format!("rate_{}_{}_{}_{}{cell}", key.i, key.j, key.shift[0], key.shift[1])
     });
-    let mut table = Table::new("branch,sign,multiplicity,curvature_sign,error").with(rate);
-    for (ray, curvature) in branches.rays.rays.iter().zip(&branches.curvature_signs) {
+    let rows = branches.rays.rays.iter().zip(&branches.curvature_signs).map(|(ray, curvature)| {
         let counts = [ray.branch.into(), i64::from(ray.sign).into(), ray.multiplicity.into()];
         let others = [curvature.map(i64::from).into(), ray.error.into()];
         let rates = ray.direction.iter().map(|rate| Value::Number(*rate));
-        table.push(counts.into_iter().chain(others).chain(rates));
-    }
-    table
+        counts.into_iter().chain(others).chain(rates)
+    });
+    Table::new("branch,sign,multiplicity,curvature_sign,error").with(rate).with_rows(rows)
 }
 
 fn summary(branches: &Branches) -> BranchesSummary {

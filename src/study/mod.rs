@@ -45,38 +45,42 @@ pub use error::StudyError;
 pub use summary::{Files, StudyResult, StudySummary};
 pub use surface::left_out;
 
+/// Calls a function of the module that has the kind of a study.
+macro_rules! of_kind {
+    ($function:ident($context:ident)) => {
+        match &*$context.study.kind {
+            StudyKind::Relax(spec) => relax::$function($context, spec),
+            StudyKind::Modes(spec) => modes::$function($context, spec),
+            StudyKind::Branches(_) => branches::$function($context),
+            StudyKind::Trace(spec) => trace::$function($context, spec),
+            StudyKind::Surface(spec) => surface::$function($context, spec),
+            StudyKind::Landscape(spec) => landscape::$function($context, spec),
+            StudyKind::Bloch(spec) => bloch::$function($context, spec),
+            StudyKind::Wells(spec) => wells::$function($context, spec),
+            StudyKind::Path(spec) | StudyKind::Fold(spec) => path::$function($context, spec),
+            StudyKind::Response(spec) => response::$function($context, spec),
+        }
+    };
+}
+
 /// Checks that the settings of a study fit its sheet.
 ///
 /// # Errors
 /// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
+    use StudyKind::{Branches, Fold, Landscape, Path, Relax, Surface, Trace, Wells};
+    let kind = &*context.study.kind;
     supported::of_a_tube(context)?;
-    let relaxes = matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Wells(_));
-    if !relaxes && !matches!(*context.study.kind, StudyKind::Path(_) | StudyKind::Fold(_)) {
+    if !matches!(kind, Relax(_) | Wells(_) | Path(_) | Fold(_)) {
         supported::no_parts(context)?;
     }
-    let folds_exactly = |kind: &StudyKind| {
-        use StudyKind::{Branches, Landscape, Surface, Trace};
-        matches!(kind, Branches(_) | Landscape(_) | Surface(_) | Trace(_))
-    };
-    if folds_exactly(&context.study.kind) {
+    if matches!(kind, Branches(_) | Landscape(_) | Surface(_) | Trace(_)) {
         supported::a_surface(context)?;
     }
-    if matches!(*context.study.kind, StudyKind::Wells(_) | StudyKind::Trace(_) | StudyKind::Surface(_)) {
+    if matches!(kind, Wells(_) | Trace(_) | Surface(_)) {
         supported::no_memory(context)?;
     }
-    match &*context.study.kind {
-        StudyKind::Relax(spec) => relax::check(context, spec),
-        StudyKind::Modes(spec) => modes::check(context, spec),
-        StudyKind::Branches(_) => branches::check(context),
-        StudyKind::Trace(spec) => trace::check(context, spec),
-        StudyKind::Surface(spec) => surface::check(context, spec),
-        StudyKind::Landscape(spec) => landscape::check(context, spec),
-        StudyKind::Bloch(spec) => bloch::check(context, spec),
-        StudyKind::Wells(spec) => wells::check(context, spec),
-        StudyKind::Path(spec) | StudyKind::Fold(spec) => path::check(context, spec),
-        StudyKind::Response(spec) => response::check(context, spec),
-    }
+    of_kind!(check(context))
 }
 
 /// Computes the answer of a study. A study that finds no answer is not an error: its summary gives the reason.
@@ -84,26 +88,11 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
 /// # Errors
 /// [`StudyError`] if the scene is wrong in a way that [`check`] does not detect, or if files cannot be read or kept.
 pub fn compute(context: &Context<'_>) -> Result<Answer, StudyError> {
-    let mut answer = match compute_kind(context) {
+    let mut answer = match of_kind!(compute(context)) {
         Ok(answer) => answer,
         Err(NoAnswer::Reason(reason)) => Answer::failed(context.study, reason),
         Err(NoAnswer::Error(error)) => return Err(error),
     };
     page::add(&mut answer, context);
     Ok(answer)
-}
-
-fn compute_kind(context: &Context<'_>) -> Result<Answer, NoAnswer> {
-    match &*context.study.kind {
-        StudyKind::Relax(spec) => relax::compute(context, spec),
-        StudyKind::Modes(spec) => modes::compute(context, spec),
-        StudyKind::Branches(_) => branches::compute(context),
-        StudyKind::Trace(spec) => trace::compute(context, spec),
-        StudyKind::Surface(spec) => surface::compute(context, spec),
-        StudyKind::Landscape(spec) => landscape::compute(context, spec),
-        StudyKind::Bloch(spec) => bloch::compute(context, spec),
-        StudyKind::Wells(spec) => wells::compute(context, spec),
-        StudyKind::Path(spec) | StudyKind::Fold(spec) => path::compute(context, spec),
-        StudyKind::Response(spec) => response::compute(context, spec),
-    }
 }

@@ -83,8 +83,7 @@ fn summary(modes: &Modes) -> ModesSummary {
 /// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size; of a sheet with mass also the
 /// vibrations, of which the picture is then.
 fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordinates: &[f64]) {
-    let mut table = Table::new("mode,eigenvalue");
-    modes.eigenvalues.iter().enumerate().for_each(|(k, value)| table.push([k.into(), (*value).into()]));
+    let table = Table::new("mode,eigenvalue").with_numbered(modes.eigenvalues.iter().map(|value| [*value]));
     answer.add(format!("{}.csv", context.name()), table);
     let softest = modes.rigid_motions.min(modes.vectors.len().saturating_sub(1));
     let shown = states::add_moving(answer, context, [""; 2], (coordinates, &modes.vectors), softest);
@@ -106,10 +105,8 @@ fn add_vibrations(
     coordinates: &[f64],
 ) {
     let frequencies = vibrations.frequencies();
-    let mut table = Table::new("mode,frequency,growth_rate");
-    for (k, (frequency, rate)) in frequencies.iter().zip(vibrations.growth_rates()).enumerate() {
-        table.push([k.into(), (*frequency).into(), rate.into()]);
-    }
+    let motions = frequencies.iter().zip(vibrations.growth_rates()).map(|(frequency, rate)| [*frequency, rate]);
+    let table = Table::new("mode,frequency,growth_rate").with_numbered(motions);
     answer.add(format!("{}-frequencies.csv", context.name()), table);
     let slowest = rigid_motions.min(vibrations.vectors.len().saturating_sub(1));
     let motions = (coordinates, &vibrations.vectors[..]);
@@ -145,8 +142,7 @@ fn add_buckling(
     let loaded = (!start::is_drawn(spec.start.as_ref())).then_some(state);
     let found = buckling(context.assembly, loaded, wanted.0 as usize, &mut || context.step(0, None))?;
     let name = context.name();
-    let mut table = Table::new("mode,factor");
-    found.factors.iter().enumerate().for_each(|(k, factor)| table.push([k.into(), (*factor).into()]));
+    let table = Table::new("mode,factor").with_numbered(found.factors.iter().map(|factor| [*factor]));
     answer.add(format!("{name}-buckling.csv"), table);
     let motions = (&state.coordinates[..], &found.vectors[..]);
     let shown = states::add_moving(answer, context, ["_buckling", "-buckling"], motions, 0);

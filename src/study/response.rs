@@ -68,42 +68,38 @@ pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answ
 /// Returns a row for each mode: strain, curvature tensor, lattice rotations and the rates of all fold angles.
 fn modes_table(context: &Context<'_>, modes: &[LinearMode]) -> Table {
     let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
-    let mut table = Table::new("mode,strain11,strain22,strain12,curvature11,curvature22,curvature12")
+    let table = Table::new("mode,strain11,strain22,strain12,curvature11,curvature22,curvature12")
         .with(["rotation1_x", "rotation1_y", "rotation1_z", "rotation2_x", "rotation2_y", "rotation2_z"])
         .with_edges("rate", edges);
-    for (number, mode) in modes.iter().enumerate() {
+    table.with_numbered(modes.iter().map(|mode| {
         let rotations = mode.lattice_rotations.iter().flat_map(|omega| omega.iter());
-        let numbers = mode.strain.iter().chain(&mode.curvature).chain(rotations).chain(&mode.rates);
-        table.push([number.into()].into_iter().chain(numbers.map(|x| Value::Number(*x))));
-    }
-    table
+        mode.strain.iter().chain(&mode.curvature).chain(rotations).chain(&mode.rates).copied()
+    }))
 }
 
 /// Returns a row for each self stress: its work on strains and curvatures, the tensions of the bars, and the torques of
 /// the hinges that keep their angles.
 fn stresses_table(context: &Context<'_>, stresses: &[SelfStress]) -> Table {
     let edges = || context.assembly.sheet().edges.iter().map(|edge| &edge.key);
-    let mut table = Table::new("stress,force11,force22,force12,moment11,moment22,moment12")
+    let table = Table::new("stress,force11,force22,force12,moment11,moment22,moment12")
         .with_edges("tension", edges())
         .with_edges("torque", edges());
-    for (number, stress) in stresses.iter().enumerate() {
-        let numbers = stress.force.iter().chain(&stress.moment).chain(&stress.tension).chain(&stress.torque);
-        table.push([number.into()].into_iter().chain(numbers.map(|x| Value::Number(*x))));
-    }
-    table
+    table.with_numbered(
+        stresses.iter().map(|stress| {
+            stress.force.iter().chain(&stress.moment).chain(&stress.tension).chain(&stress.torque).copied()
+        }),
+    )
 }
 
 /// Returns a row for each direction; where there is no ratio its field is empty, and the reason is in another.
 fn ratios_table(response: &Response, directions: u32) -> Table {
-    let mut table = Table::new("direction,in_plane,bending,no_in_plane,no_bending");
-    for k in 0..directions {
+    Table::new("direction,in_plane,bending,no_in_plane,no_bending").with_rows((0..directions).map(|k| {
         let angle = PI * f64::from(k) / f64::from(directions);
         let ratios = ratios_at(response, angle);
         let numbers = ratios.map(|ratio| ratio.ok().into());
         let reasons = ratios.map(|ratio| Value::Word(ratio.err().map_or("", |reason| reason.word())));
-        table.push([angle.into()].into_iter().chain(numbers).chain(reasons));
-    }
-    table
+        [angle.into()].into_iter().chain(numbers).chain(reasons)
+    }))
 }
 
 /// Returns the ratios in the plane and of bending along a direction; a sheet that is rolled up has no modes of this

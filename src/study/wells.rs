@@ -328,14 +328,11 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
 
 /// Returns a row for each pass and each stiffness at which it was followed; rigid bars have the stiffness `inf`.
 fn heights(passes: &[&Barrier]) -> Table {
-    let mut table = Table::new("from,to,joins_a,joins_b,bars,energy");
-    for barrier in passes {
-        for height in &barrier.heights {
-            let wells = barrier.between.into_iter().chain(barrier.joins).map(Value::from);
-            table.push(wells.chain([height.stiffness.into(), height.energy.into()]));
-        }
-    }
-    table
+    let all = passes.iter().flat_map(|barrier| barrier.heights.iter().map(move |height| (barrier, height)));
+    Table::new("from,to,joins_a,joins_b,bars,energy").with_rows(all.map(|(barrier, height)| {
+        let wells = barrier.between.into_iter().chain(barrier.joins).map(Value::from);
+        wells.chain([height.stiffness.into(), height.energy.into()])
+    }))
 }
 
 /// Returns the chart of energies along the descents from a pass to the wells that it joins, in the sheet's own bars,

@@ -4,7 +4,7 @@
 //! ([`Tangent::negative_eigenvalues`]) or for the response to forces and stretches ([`Tangent::solve`]) without an
 //! iteration.
 
-use super::corrections::PATIENT;
+use super::corrections::IMPATIENT;
 use super::kkt::{Increment, KktSystem};
 use super::linearization::{HessianKind, Linearization};
 use super::problem::Problem;
@@ -69,15 +69,13 @@ impl Tangent {
 
     /// The Newton step from this state with these tensions, as [`Tangent::solve`].
     pub fn newton_step(&mut self, tension: &[f64], tolerance: f64) -> Increment {
-        let missing = self.at.missing(tension, &self.compliance);
-        let force = self.at.force(tension);
-        self.solve(&force, &missing, tolerance)
+        self.newton_step_with(tension, (tolerance, IMPATIENT))
     }
 
-    /// The Newton step as [`Tangent::newton_step`], with corrections that go on while they make any progress at all.
-    pub(crate) fn patient_newton_step(&mut self, tension: &[f64], tolerance: f64) -> Increment {
+    /// The Newton step as [`Tangent::newton_step`], with corrections that go on with this patience.
+    pub(crate) fn newton_step_with(&mut self, tension: &[f64], (tolerance, patience): (f64, f64)) -> Increment {
         let missing = self.at.missing(tension, &self.compliance);
         let force = self.at.force(tension);
-        self.system.solve_with(&self.at, [&force, &missing], (tolerance, PATIENT))
+        self.system.solve_with(&self.at, [&force, &missing], (tolerance, patience))
     }
 }

@@ -173,28 +173,26 @@ impl DynamicalMatrix {
             .collect())
     }
 
-    /// Frequencies at all wavenumbers `2 pi (k1 / n1, k2 / n2)` of a grid, the first one running faster; `None` if
-    /// `go_on` returned false, which is asked before each of the `n1 n2` wavenumbers. Those at `-q` are those at `q`.
+    /// Frequencies at all wavenumbers `2 pi (k1 / n1, k2 / n2)` of a grid, the first one running faster; `go_on` is asked
+    /// before each of the `n1 n2` wavenumbers. Those at `-q` are those at `q`.
     ///
     /// # Errors
-    /// [`BlochError`] where the eigenvalues cannot be computed.
+    /// [`BlochError`] where the eigenvalues cannot be computed, and where `go_on` returns false.
     pub fn on_grid(
         &self,
         [n1, n2]: [usize; 2],
         mut go_on: impl FnMut(usize) -> bool,
-    ) -> Result<Option<Vec<Vec<f64>>>, BlochError> {
+    ) -> Result<Vec<Vec<f64>>, BlochError> {
         let mut found: Vec<Vec<f64>> = Vec::with_capacity(n1 * n2);
         for number in 0..n1 * n2 {
-            if !go_on(number) {
-                return Ok(None);
-            }
+            BlochError::unless(go_on(number))?;
             let [k1, k2] = [number % n1, number / n1];
             let opposite = (n2 - k2) % n2 * n1 + (n1 - k1) % n1;
             let known = found.get(opposite).cloned();
             let q = [TAU * k1 as f64 / n1 as f64, TAU * k2 as f64 / n2 as f64];
             found.push(known.map_or_else(|| self.frequencies(q), Ok)?);
         }
-        Ok(Some(found))
+        Ok(found)
     }
 }
 

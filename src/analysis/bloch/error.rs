@@ -52,9 +52,16 @@ pub enum BlochError {
     StripRank { q1: f64, gap: f64 },
     #[error("at q1 = {q1} the determinant is nearly zero on the unit circle: it has no winding number")]
     NoWinding { q1: f64 },
+    #[error("interrupted")]
+    Interrupted,
 }
 
 impl BlochError {
+    /// Refuses to go on where the observer asked to stop.
+    pub(crate) fn unless(go_on: bool) -> Result<(), Self> {
+        if go_on { Ok(()) } else { Err(Self::Interrupted) }
+    }
+
     /// Whether this says that there is no determinant to speak of, so that what needs one does not exist.
     pub(crate) fn is_of_determinant(&self) -> bool {
         matches!(self, Self::NotSquare { .. } | Self::Vanishes { .. } | Self::NoDeterminant { .. })

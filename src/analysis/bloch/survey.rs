@@ -52,44 +52,30 @@ impl Survey {
     pub fn lines(&self) -> Option<&ZeroLines> {
         self.real.as_ref().and_then(|(_, lines)| lines.as_ref().ok())
     }
-
-    /// Returns why the lines of zero modes could not be followed; `None` where they were, or the determinant is not
-    /// real.
-    pub fn no_lines(&self) -> Option<&BlochError> {
-        self.real.as_ref().and_then(|(_, lines)| lines.as_ref().err())
-    }
 }
 
-/// Surveys the spatially varying modes of bars; `None` where `go_on`, which is told the number of each finished step,
-/// asks to stop.
+/// Surveys the spatially varying modes of bars; `go_on` is told the number of each finished step.
 ///
 /// ```
 /// use foldwell::analysis::bloch::{Rigidity, SurveyOptions, survey};
 /// use foldwell::sheet::generate::{Pattern, Random, generate};
 ///
 /// let sheet = generate(&Pattern::Random(Random::default()))?;
-/// let found = survey(&Rigidity::of_sheet(&sheet, false)?, &SurveyOptions::default(), &mut |_| true)?;
-/// let survey = found.expect("nobody asked to stop");
+/// let survey = survey(&Rigidity::of_sheet(&sheet, false)?, &SurveyOptions::default(), &mut |_| true)?;
 /// assert!(survey.determinant.error < 1e-8 && survey.map[0].len() == 256 * 256);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`BlochError`] where there is no determinant, and where a decomposition fails.
-pub fn survey(rigidity: &Rigidity, options: &SurveyOptions, go_on: GoOn<'_>) -> Result<Option<Survey>, BlochError> {
+/// [`BlochError`] where there is no determinant, where a decomposition fails, and where `go_on` asks to stop.
+pub fn survey(rigidity: &Rigidity, options: &SurveyOptions, go_on: GoOn<'_>) -> Result<Survey, BlochError> {
     let determinant = Determinant::new(rigidity)?;
-    if !go_on(1) {
-        return Ok(None);
-    }
+    BlochError::unless(go_on(1))?;
     let decay = |q1: &f64| Decay::new(&determinant, 0, *q1).map(|decay| decay.refined(&determinant, rigidity));
     let decays = options.wavenumbers.iter().map(decay).collect::<Result<_, _>>()?;
-    if !go_on(2) {
-        return Ok(None);
-    }
+    BlochError::unless(go_on(2))?;
     let polarization = Polarization::new(&determinant, options.averaged)?;
-    if !go_on(3) {
-        return Ok(None);
-    }
+    BlochError::unless(go_on(3))?;
     let real = match Zone::new(&determinant) {
         Ok(zone) => {
             let lines = ZeroLines::new(&zone).map(|lines| lines.refined(&zone, rigidity));
@@ -101,7 +87,8 @@ pub fn survey(rigidity: &Rigidity, options: &SurveyOptions, go_on: GoOn<'_>) -> 
     let values = determinant.polynomial.map(options.grid);
     let map = [values.iter().map(|value| value.re).collect(), values.iter().map(|value| value.im).collect()];
     let modes = shapes(rigidity, &options.modes, &determinant)?;
-    Ok(go_on(STEPS).then_some(Survey { determinant, decays, polarization, real, map, modes }))
+    BlochError::unless(go_on(STEPS))?;
+    Ok(Survey { determinant, decays, polarization, real, map, modes })
 }
 
 /// The modes at these wavenumbers, each of the root nearest to its decay rate.

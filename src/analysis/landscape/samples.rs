@@ -47,6 +47,8 @@ const ROUNDINGS: f64 = 4.0;
 /// Energies above so many times what rounding makes are right to a fifth at least: the error of `k (off + e)^2 / 2`
 /// with `e` that of `k e^2 / 2` and `off` ten times as large.
 const ABOVE: f64 = 100.0;
+/// Torque on the mode over what rounding may make of it above which it tells the power of the energy.
+const CLEAR: f64 = 10.0;
 
 /// One sample.
 #[derive(Clone, Debug)]
@@ -107,7 +109,7 @@ pub struct Samples {
 struct Place {
     amplitude: f64,
     at: HeldState,
-    /// The energy, not a number where it may be rounding, and its rate by the amplitude: the torque on the mode.
+    /// The energy and its rate by the amplitude, the torque on the mode; not numbers where they may be rounding.
     energy: f64,
     rate: f64,
     /// Distance from where its course predicted it, over that from the place before.
@@ -119,7 +121,7 @@ impl Place {
     /// not gone over to another minimum. From the drawn state on it grows about as the fourth power, or the sixth.
     fn continues(&self, from: &Self) -> bool {
         let exponent = |place: &Self| place.amplitude * place.rate / place.energy;
-        if self.energy.is_nan() || from.energy.is_nan() {
+        if [self, from].iter().any(|place| place.energy.is_nan() || place.rate.is_nan()) {
             return true;
         }
         if from.amplitude == 0.0 {
@@ -215,13 +217,18 @@ impl Samples {
         Err(SampleError::Restless { torque })
     }
 
-    /// Rate of the energy by the amplitude: what the hinges exert on rest angles that move along the mode.
+    /// Rate of the energy by the amplitude: what the hinges exert on rest angles that move along the mode. Not a number
+    /// where rounding of their angles may make a good part of it.
     fn rate(&self, place: &HeldState) -> f64 {
         let (model, (soft, stiff)) = (&self.held.model, self.held.spread(&self.course.rates));
-        let springs = model.soft().map(|element| element.spring.stiffness).zip(model.off_rest(&place.x));
-        let of_soft = springs.zip(&soft).map(|((stiffness, off), along)| stiffness * off * along).sum::<f64>();
+        let work = |amounts: &mut dyn Iterator<Item = f64>| -> f64 {
+            model.soft().zip(amounts).zip(&soft).map(|((hinge, off), along)| hinge.spring.stiffness * off * along).sum()
+        };
         let of_stiff = place.tension.iter().zip(&stiff).map(|(tension, along)| tension * along).sum::<f64>();
-        -of_soft - of_stiff
+        let rate = -work(&mut model.off_rest(&place.x).into_iter()) - of_stiff;
+        let signs = soft.iter().map(|along| along.signum());
+        let noise = work(&mut model.values(&place.x).iter().zip(signs).map(|(value, sign)| sign * rounding_of(*value)));
+        if rate.abs() > CLEAR * noise { rate } else { f64::NAN }
     }
 
     /// Uniform rest angles less those drawn.
@@ -249,9 +256,13 @@ impl Samples {
 
 /// The energy of all soft elements if each were off its rest value by the rounding of its value.
 fn rounding(held: &HeldSheet, place: &HeldState) -> f64 {
-    let off = |value: &f64| ROUNDINGS * f64::EPSILON * value.abs().max(1.0);
     let soft = held.model.soft().zip(held.model.values(&place.x));
-    soft.map(|(element, value)| 0.5 * element.spring.stiffness * off(&value).powi(2)).sum()
+    soft.map(|(element, value)| 0.5 * element.spring.stiffness * rounding_of(value).powi(2)).sum()
+}
+
+/// The rounding error of an angle or a length.
+fn rounding_of(value: f64) -> f64 {
+    ROUNDINGS * f64::EPSILON * value.abs().max(1.0)
 }
 
 /// The largest torque on a direction of rest angles, over its size.

@@ -1,5 +1,7 @@
 //! The cell of a sheet in a spatially periodic state: its geometry, and the elements of a model in it.
 
+use std::collections::BTreeSet;
+
 use super::error::ResponseError;
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Element, Model, Site};
@@ -18,7 +20,7 @@ pub(super) struct PeriodicCell {
     /// The lattice vectors of the state.
     pub lattice: [Vec3; 2],
     /// The edges that keep their fold angles.
-    pub locked: Vec<usize>,
+    pub locked: BTreeSet<usize>,
     /// The model of the assembly, whose angles continue from those of the state.
     pub model: Model,
     /// Numbers of cells of the model.
@@ -70,10 +72,7 @@ impl PeriodicCell {
         let coordinates = copies.flat_map(<[f64; 3]>::from).collect();
         let domain = Domain::FixedTorus([0, 1].map(|k| cells[k] as f64 * lattice[k]));
         let sheet = Sheet { vertices, lattice: Some(lattice), ..assembly.sheet().clone() };
-        let locked = assembly.locked_edges().into_iter().map(|edge| assembly.tiling().edges[edge].edge);
-        let mut locked: Vec<usize> = locked.collect();
-        locked.sort_unstable();
-        locked.dedup();
+        let locked = assembly.locked_edges().into_iter().map(|edge| assembly.tiling().edges[edge].edge).collect();
         let cell = Self { sheet, lattice, locked, model, cells, domain, coordinates };
         cell.check_even(assembly)?;
         Ok(Some(cell))

@@ -50,6 +50,8 @@ pub use stresses::SelfStress;
 pub use symmetry_types::SymmetryTypes;
 pub use tensors::{NoRatio, TensorSpace};
 
+use std::collections::BTreeSet;
+
 use super::modes::modes_at;
 use super::restored;
 use crate::model::{Assembly, Configuration, Gauge, RIGID, Terms};
@@ -101,9 +103,7 @@ pub fn response_at(assembly: &Assembly, state: &Configuration) -> Result<Respons
 
 /// Returns rigid bars, and locks of all hinges that keep their angles.
 fn rigid_terms(assembly: &Assembly) -> Terms {
-    let mut locked = assembly.locked_edges();
-    locked.sort_unstable();
-    locked.dedup();
+    let locked: BTreeSet<usize> = assembly.locked_edges().into_iter().collect();
     let locks = locked.into_iter().map(|edge| (edge, assembly.drawn_angles()[edge])).collect();
     Terms { bars: Some(RIGID.into()), locks, ..Terms::default() }
 }

@@ -1,7 +1,7 @@
 //! Domains of a user's own: where the copies of a cell are.
 
 use super::shared::{MOST_SHARED, Pulled, SharedMatrix};
-use crate::math::Vec3;
+use crate::math::{Vec3, lower_triangle};
 use nalgebra::Matrix3;
 use std::fmt;
 use std::sync::Arc;
@@ -129,8 +129,7 @@ impl CellMap {
             let by_vertex = first.linear.transpose() * force;
             (0..3).for_each(|axis| to[(shared + k, at + axis)] += by_vertex[axis]);
         }
-        let pairs = (0..self.first.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
-        for (second, (row, column)) in self.second.iter().zip(pairs) {
+        for (second, (row, column)) in self.second.iter().zip(lower_triangle(self.first.len())) {
             to[(shared + row, shared + column)] += force.dot(&second.at(vertex));
         }
     }

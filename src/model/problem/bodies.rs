@@ -5,7 +5,7 @@
 //! `centroid + displacement + R(w) r`. The *generalised coordinates* of a model are the coordinates of all vertices,
 //! followed by six for each part; those of the vertices of a part follow from its pose.
 
-use crate::math::{Vec3, in_lower_triangle, point, rotation};
+use crate::math::{Vec3, in_lower_triangle, lower_triangle, point, rotation};
 use crate::model::element::Local;
 use crate::model::terms::Part;
 use crate::numerics::dense::small::nearest_rotation;
@@ -178,8 +178,7 @@ impl Bodies {
                     add_curvature(turned, &point(&local.gradient, k), starts[k] + 3, &mut pulled);
                 }
             }
-            local.hessian =
-                (0..size).flat_map(|row| (0..=row).map(move |column| (row, column))).map(|at| pulled[at]).collect();
+            local.hessian = lower_triangle(size).map(|at| pulled[at]).collect();
         }
         local.gradient = gradient;
     }
@@ -216,8 +215,7 @@ impl Bodies {
             add_curvature(&turned, &-force, 3, &mut hessian);
         }
         local.gradient = gradient;
-        local.hessian =
-            (0..POSE).flat_map(|row| (0..=row).map(move |column| (row, column))).map(|at| hessian[at]).collect();
+        local.hessian = lower_triangle(POSE).map(|at| hessian[at]).collect();
     }
 }
 

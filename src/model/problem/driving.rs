@@ -262,13 +262,13 @@ impl ParametrizedProblem for DrivenModel {
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
-                let by_rest = self.model.soft_by_rest(x);
+                let by_rest = self.model.of_soft(x, Element::by_rest);
                 by_rest.iter().enumerate().for_each(|(k, [_, force, _])| of_soft[k] = force * moved[k]);
                 gap.iter_mut().zip(&moved[by_rest.len()..]).for_each(|(gap, moved)| *gap = -moved);
             }
             Effect::Compliance(units) => units.iter().for_each(|(k, unit)| gap[*k] = -unit * tension[*k]),
             Effect::Stiffness(units) => {
-                let found = self.model.soft_responses(x);
+                let found = self.model.of_soft(x, Element::response);
                 units.iter().for_each(|(k, _)| of_soft[*k] = found[*k][1] / self.parameter);
             }
         }
@@ -283,7 +283,7 @@ impl ParametrizedProblem for DrivenModel {
                 self.model.loaded_along(*forces, pressures, &self.model.coordinates(x)) - origin
             }
             Effect::Rest { drawn, given } => {
-                let of_soft = self.model.soft_by_rest(x).into_iter().map(|[energy, ..]| energy);
+                let of_soft = self.model.of_soft(x, Element::by_rest).into_iter().map(|[energy, ..]| energy);
                 let rates = of_soft.chain(tension.iter().map(|force| -force));
                 rates.zip(given.iter().zip(drawn)).map(|(rate, (given, drawn))| rate * (given - drawn)).sum::<f64>()
             }
@@ -291,7 +291,7 @@ impl ParametrizedProblem for DrivenModel {
                 -units.iter().map(|(k, unit)| 0.5 * unit * tension[*k] * tension[*k]).sum::<f64>()
             }
             Effect::Stiffness(units) => {
-                let found = self.model.soft_responses(x);
+                let found = self.model.of_soft(x, Element::response);
                 units.iter().map(|(k, _)| found[*k][0] / self.parameter).sum()
             }
         }
@@ -309,7 +309,7 @@ impl ParametrizedProblem for DrivenModel {
             }
             Effect::Rest { drawn, given } => {
                 let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
-                let soft = self.model.soft_by_rest(x).into_iter().zip(&changes).zip(&moved);
+                let soft = self.model.of_soft(x, Element::by_rest).into_iter().zip(&changes).zip(&moved);
                 let of_soft =
                     soft.map(|(([_, force, energy], change), moved)| force * change + energy * moved * rates.parameter);
                 let all = of_soft.chain(rates.tension.iter().map(|force| -force));
@@ -319,7 +319,7 @@ impl ParametrizedProblem for DrivenModel {
                 -units.iter().map(|(k, unit)| unit * tension[*k] * rates.tension[*k]).sum::<f64>()
             }
             Effect::Stiffness(units) => {
-                let found = self.model.soft_responses(x);
+                let found = self.model.of_soft(x, Element::response);
                 units.iter().map(|(k, _)| found[*k][1] / self.parameter * changes[*k]).sum()
             }
         }

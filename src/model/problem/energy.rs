@@ -1,6 +1,7 @@
 //! The model as the problem that the solver minimises: energies, gaps and their derivatives, summed over the terms.
 
 use super::{Equations, Model, POSE};
+use crate::math::lower_triangle;
 use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, continued};
 use crate::numerics::parallel;
@@ -228,7 +229,7 @@ impl Model {
     /// coordinate.
     fn scale(local: &mut Local, units: &[f64]) {
         local.gradient.iter_mut().zip(units).for_each(|(g, unit)| *g *= unit);
-        let places = (0..units.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
+        let places = lower_triangle(units.len());
         local.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h *= units[row] * units[column]);
     }
 

@@ -7,21 +7,13 @@ use crate::model::element::Element;
 impl Model {
     /// Returns by how much each soft element is off its rest value.
     pub(crate) fn off_rest(&self, x: &[f64]) -> Vec<f64> {
-        let all = self.coordinates(x);
-        self.soft().map(|element| element.value(&all) - element.spring.rest).collect()
+        self.of_soft(x, |element, value| value - element.spring.rest)
     }
 
-    /// Returns energy, force and stiffness of each soft element.
-    pub(super) fn soft_responses(&self, x: &[f64]) -> Vec<[f64; 3]> {
+    /// Returns what a function says of each soft element and its value.
+    pub(super) fn of_soft<'m, T>(&'m self, x: &[f64], of: impl Fn(&Element<'m>, f64) -> T) -> Vec<T> {
         let all = self.coordinates(x);
-        self.soft().map(|element| element.response(element.value(&all))).collect()
-    }
-
-    /// Returns for each soft element the derivatives of energy and force by its rest value, and the second one of the
-    /// energy.
-    pub(super) fn soft_by_rest(&self, x: &[f64]) -> Vec<[f64; 3]> {
-        let all = self.coordinates(x);
-        self.soft().map(|element| element.by_rest(element.value(&all))).collect()
+        self.soft().map(|element| of(&element, element.value(&all))).collect()
     }
 
     /// Returns the elastic hinges.

@@ -82,7 +82,7 @@ mod tests {
     use super::super::sheet::svg;
     use super::*;
     use crate::output::error::ShapeError;
-    use crate::output::picture::samples;
+    use crate::output::test_samples as samples;
 
     fn drawn(added: &Annotations) -> Result<String, ShapeError> {
         svg(&samples::hinge(0.3), added, &Caption { title: "t".into(), state: "s".into() })

@@ -40,11 +40,10 @@ pub(crate) enum Mark {
 pub(crate) struct Canvas {
     height: f64,
     text: String,
-    /// Areas of text, and other areas that text must not cover.
+    /// Areas of text.
+    texts: Vec<Area>,
+    /// Other areas that text must not cover.
     taken: Vec<Area>,
-    /// Number of texts that overlap these areas or end beyond the figure.
-    #[cfg(test)]
-    crowded: usize,
 }
 
 /// Appends formatted text to a string, which does not fail.
@@ -63,13 +62,7 @@ impl Canvas {
              <defs><filter id=\"soft\"><feGaussianBlur stdDeviation=\"7\"/></filter></defs>\n\
              <rect width=\"{WIDTH}\" height=\"{height:.0}\" rx=\"14\" fill=\"{PAPER}\"/>\n"
         );
-        let mut canvas = Self {
-            height,
-            text,
-            taken: Vec::new(),
-            #[cfg(test)]
-            crowded: 0,
-        };
+        let mut canvas = Self { height, text, texts: Vec::new(), taken: Vec::new() };
         for (words, font, foot) in [(&caption.title, Font::TITLE, 42.0), (&caption.state, Font::STATE, 70.0)] {
             let room = (WIDTH - 2.0 * MARGIN) / font.width(words).max(1.0);
             canvas.text([MARGIN, foot], words, Font { size: font.size * room.min(1.0), ..font });
@@ -136,16 +129,8 @@ impl Canvas {
 
     /// Draws text with its anchor at `place`, on the base line.
     pub(crate) fn text(&mut self, place: PaperPoint, words: &str, font: Font) {
-        let area = font.area(place, words);
-        #[cfg(test)]
-        {
-            let others = self.taken.iter().filter(|other| area.common(other) > 0.0).count();
-            let [x, y] = area.high;
-            let beyond = area.low.iter().any(|low| *low < 0.0) || x > WIDTH || y > self.height;
-            self.crowded += usize::from(!words.is_empty() && (others > 0 || beyond));
-        }
         if !words.is_empty() {
-            self.taken.push(area);
+            self.texts.push(font.area(place, words));
         }
         let (font, place, content) = written(font, place, words);
         let [x, y] = place.map(|x| Short(x, 1));
@@ -189,7 +174,7 @@ impl Canvas {
         let found = places.into_iter().find(|(place, font)| {
             let area = font.area(*place, words);
             let within = (0..2).all(|k| area.low[k] >= room.low[k] && area.high[k] <= room.high[k]);
-            within && self.taken.iter().all(|other| area.common(other) == 0.0)
+            within && self.texts.iter().chain(&self.taken).all(|other| area.common(other) == 0.0)
         });
         found.map(|(place, font)| self.text(place, words, font)).is_some()
     }
@@ -201,9 +186,9 @@ impl Canvas {
 
     /// Draws a legend, symbols followed by text, in a row that starts at the given point, and in further rows if
     /// needed.
-    pub(crate) fn legend(&mut self, [left, top]: PaperPoint, entries: &[(Mark, &str)]) {
+    pub(crate) fn legend(&mut self, [left, top]: PaperPoint, entries: &[(Mark, impl AsRef<str>)]) {
         let ([mut x, mut y], font) = ([left, top], Font::SMALL);
-        for &(mark, words) in entries {
+        for (mark, words) in entries.iter().map(|(mark, words)| (*mark, words.as_ref())) {
             let sign = match mark {
                 Mark::Line(_) => 48.0,
                 Mark::Circle(radius, _) => 2.0 * radius + 8.0,
@@ -259,16 +244,20 @@ fn written(font: Font, [x, y]: PaperPoint, words: &str) -> (Font, PaperPoint, St
 }
 
 #[cfg(test)]
-impl Canvas {
-    /// Returns the number of texts that overlap others or end beyond the figure.
-    pub(crate) fn crowded(&self) -> usize {
-        self.crowded
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Canvas {
+        /// Returns the number of texts that overlap reserved areas or texts before them, or end beyond the figure.
+        pub(crate) fn crowded(&self) -> usize {
+            let is_crowded = |(k, area): &(usize, &Area)| {
+                let [x, y] = area.high;
+                let beyond = area.low.iter().any(|low| *low < 0.0) || x > WIDTH || y > self.height;
+                beyond || self.texts[..*k].iter().chain(&self.taken).any(|other| area.common(other) > 0.0)
+            };
+            self.texts.iter().enumerate().filter(is_crowded).count()
+        }
+    }
 
     fn canvas(title: &str) -> Canvas {
         Canvas::new(300.0, &Caption { title: title.into(), state: "state".into() })

@@ -48,7 +48,7 @@ fn placed(view: &Projection, picture: &Picture) -> Vec<Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::samples;
+    use crate::output::test_samples as samples;
 
     /// Claim: a sheet stays in the middle of the film and keeps its scale: a state that is another one moved away has
     /// the same frame. Tolerance: a tenth of the last digit of a drawing.

@@ -153,7 +153,6 @@ fn legend(canvas: &mut Canvas, plot: &ReactionPlot) {
             entries.push((Mark::Circle(RADIUS, mark(event)), event.replace('-', " ")));
         }
     }
-    let entries: Vec<(Mark, &str)> = entries.iter().map(|(mark, words)| (*mark, words.as_str())).collect();
     canvas.legend([MARGIN, LEGEND], &entries);
 }
 

@@ -299,7 +299,7 @@ fn letters(canvas: &mut Canvas, picture: &Picture, level: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::samples;
+    use crate::output::test_samples as samples;
 
     fn caption(title: &str) -> Caption {
         Caption { title: title.into(), state: "relaxed".into() }

@@ -249,7 +249,6 @@ impl<'a> Scene<'a> {
             let rounding = axis.rounding().map(|rounding| format!("{} ({rounding})", axis.named(name)));
             entries.extend(rounding.map(|words| (Mark::None, words)));
         }
-        let entries: Vec<(Mark, &str)> = entries.iter().map(|(mark, words)| (*mark, words.as_str())).collect();
         canvas.legend([MARGIN, level], &entries);
     }
 }
@@ -380,7 +379,7 @@ fn axes(canvas: &mut Canvas, panel: &DrawnBox<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::strain_space::samples;
+    use crate::output::test_samples as samples;
 
     fn caption(title: &str) -> Caption {
         Caption { title: title.into(), state: "all states".into() }

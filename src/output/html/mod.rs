@@ -101,7 +101,8 @@ fn palette() -> serde_json::Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::{Picture, samples};
+    use crate::output::picture::Picture;
+    use crate::output::test_samples as samples;
     use serde_json::{Map, Value};
 
     fn study<'a>(name: &str, files: Vec<(String, Content<'a>)>) -> StudyFiles<'a> {

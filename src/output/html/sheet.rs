@@ -190,7 +190,7 @@ impl Values {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::samples;
+    use crate::output::test_samples as samples;
 
     fn data(pictures: &[Picture]) -> (SheetData, Vec<String>) {
         let states: Vec<Numbered<'_>> =

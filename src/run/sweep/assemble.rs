@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-use super::place::{SUMMARY, TABLE, folder, point_folder, points};
+use super::place::{SUMMARY, TABLE, point_folder, points};
 use super::record::Record;
 use super::scalars;
 use super::summary::{PointStatus, SweepSummary, UnansweredPoint};
@@ -118,7 +118,7 @@ pub fn assemble(sweep: &Sweep, out: &Path) -> Result<SweepSummary, RunError> {
 /// # Errors
 /// As [`assemble`].
 pub fn assemble_at(file: &SceneFile, options: &RunOptions) -> Result<Option<SweepSummary>, RunError> {
-    let out = folder(file, options);
+    let out = options.folder(file);
     if !out.exists() {
         return Ok(None);
     }

@@ -28,7 +28,7 @@ use crate::study::PreviousAnswers;
 use assemble::Board;
 pub use assemble::{Row, assemble, assemble_at, table_of};
 pub use place::points;
-use place::{CHECKS, POINTS, folder, point_folder};
+use place::{CHECKS, POINTS, point_folder};
 use pool::Pool;
 use record::Record;
 pub use shard::{Shard, ShardError};
@@ -69,7 +69,7 @@ pub fn sweep(
     shard: Option<Shard>,
     observer: Observer,
 ) -> Result<SweepReport, RunError> {
-    let (sweep, out) = (points(file)?, folder(file, options));
+    let (sweep, out) = (points(file)?, options.folder(file));
     let own = shard.unwrap_or_default().points(sweep.len());
     check_base(&sweep, &out)?;
     // a folder that does not exist is made when every scene is known to be right
@@ -211,7 +211,7 @@ pub fn run_point(
     options: &RunOptions,
     observer: Observer,
 ) -> Result<Option<PointStatus>, RunError> {
-    let out = folder(sweep.file(), options);
+    let out = options.folder(sweep.file());
     let (scene, folder) = (sweep.scene(index)?, point_folder(&out, index));
     let _of_sweep = claim::of_sweep(&out, sweep)?;
     let claim = match claim::of_run(&folder, true, observer) {
@@ -238,7 +238,7 @@ pub fn run_point(
 
 /// Does the checks of [`sweep`] and those of [`super::check`] for every point; writes nothing.
 pub(super) fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
-    let (sweep, out) = (points(file)?, folder(file, options));
+    let (sweep, out) = (points(file)?, options.folder(file));
     check_base(&sweep, &out)?;
     (0..sweep.len()).try_for_each(|index| {
         let options = RunOptions { out: Some(point_folder(&out, index)), ..*options };

@@ -1,7 +1,6 @@
 //! The points of a sweep, and the names of its files and folders.
 
 use crate::run::error::RunError;
-use crate::run::report::RunOptions;
 use crate::scene::{SceneFile, Sweep};
 use std::path::{Path, PathBuf};
 
@@ -22,11 +21,6 @@ pub(super) const CHECKS: &str = "checks of points";
 pub fn points(file: &SceneFile) -> Result<Sweep, RunError> {
     let help = "add a table, as in [sweep], \"energy.bars.stiffness\" = [1e2, 1e4]";
     Ok(Sweep::of(file)?.ok_or_else(|| file.error_at(0..0, "the scene has no [sweep]", help))?)
-}
-
-/// Returns the folder of a sweep.
-pub(super) fn folder(file: &SceneFile, options: &RunOptions) -> PathBuf {
-    options.out.clone().unwrap_or_else(|| PathBuf::from(file.path().file_stem().unwrap_or_default()))
 }
 
 /// Returns the folder of a point in that of the sweep.

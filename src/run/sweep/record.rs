@@ -4,14 +4,13 @@
 //! Either counts only if it has the digest of the point's scene, and a summary only if it has every study: a point that
 //! a run was computing when it ended has no result.
 
-use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::summary::PointStatus;
-use crate::output::json::to_json;
+use crate::output::json::{from_file, to_json};
 use crate::output::{OutputError, files};
 use crate::run::belongings::Belongings;
 use crate::run::ledger::INTERRUPTED;
@@ -63,10 +62,10 @@ impl Record {
             return None;
         }
         let digest = digest_of(scene);
-        if let Some(found) = read::<Failure>(&folder.join(FAILURE)).filter(|found| found.digest == digest) {
+        if let Some(found) = from_file::<Failure>(&folder.join(FAILURE)).filter(|found| found.digest == digest) {
             return Some(Self::Failed(found.reason));
         }
-        let found = read::<Computed>(&folder.join(SUMMARY)).filter(|found| found.digest == digest)?;
+        let found = from_file::<Computed>(&folder.join(SUMMARY)).filter(|found| found.digest == digest)?;
         let names = scene.scene.studies.iter().map(|study| Some(study.name.0.as_str()));
         let complete = names.eq(found.studies.iter().map(|study| word(study, "name")));
         let interrupted = found.studies.iter().any(|study| word(study, "reason") == Some(INTERRUPTED));
@@ -134,10 +133,6 @@ fn digest_of(scene: &SceneFile) -> String {
         hash.add(scene.title().as_bytes());
         hash.to_string()
     })
-}
-
-fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Option<T> {
-    serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
 }
 
 fn word<'a>(study: &'a Map<String, Value>, key: &str) -> Option<&'a str> {

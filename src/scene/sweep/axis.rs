@@ -1,5 +1,6 @@
 //! An axis of a sweep: one key with its values, or the keys of a table of points with its rows.
 
+use super::super::rows::read_table;
 use super::super::setting::{Setting, float};
 use super::super::spec::{SweepAxis, SweepRange, SweepValues};
 use super::super::{SceneError, SceneFile};
@@ -54,7 +55,7 @@ impl Axis {
     }
 
     fn of_table(file: &SceneFile, spec: &SweepAxis, path: PathBuf) -> Result<Self, SceneError> {
-        let rows::Rows { header, rows, lines } = rows::read(&path).map_err(|error| file.placed(error))?;
+        let rows::Rows { header, rows, lines } = read_table(&path, rows::parse).map_err(|error| file.placed(error))?;
         header.iter().try_for_each(|key| check_key(file, spec, key))?;
         Ok(Self { keys: header, span: spec.key.span(), values: rows, table: Some((path, lines)) })
     }

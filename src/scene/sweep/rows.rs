@@ -3,10 +3,8 @@
 //! A field with commas stands in double quotes, in which `""` is a quote. Fields are values of TOML, texts without
 //! quotes.
 
-use std::path::Path;
-
-use super::super::error::{SceneError, TableFault};
-use super::super::rows::numbered_lines;
+use super::super::error::TableFault;
+use super::super::rows::{Fault, numbered_lines};
 
 /// The content of a table of points.
 #[derive(Debug, PartialEq, Eq)]
@@ -19,13 +17,8 @@ pub(super) struct Rows {
     pub(super) lines: Vec<usize>,
 }
 
-/// Reads a table of points.
-pub(super) fn read(path: &Path) -> Result<Rows, SceneError> {
-    let text = crate::sheet::text::read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    parse(&text).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
-}
-
-fn parse(text: &str) -> Result<Rows, (usize, TableFault)> {
+/// Returns the content of the text of a table of points.
+pub(super) fn parse(text: &str) -> Result<Rows, Fault> {
     let mut lines = numbered_lines(text);
     let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
     let mut found = Rows { header: fields(header), rows: vec![], lines: vec![] };

@@ -1,5 +1,7 @@
 //! The errors of the generators, and the checks of parameters against their ranges.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::sheet::error::Defect;
 
 /// The reason why a pattern has no sheet for its parameters.
@@ -88,8 +90,9 @@ pub(super) fn angle_between(name: &'static str, value: f64, low: f64, high: f64)
     if good { Ok(value) } else { Err(GenerateError::Angle { name, value, low, closed: false, high }) }
 }
 
-/// Checks `low <= value < high` of an angle in radians.
-pub(super) fn angle_from(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
+/// Checks that the angle `fold`, in radians, is from 0 to below a right angle.
+pub(super) fn fold_angle(value: f64) -> Result<f64, GenerateError> {
+    let (low, high) = (0.0, FRAC_PI_2);
     let good = low <= value && value < high;
-    if good { Ok(value) } else { Err(GenerateError::Angle { name, value, low, closed: true, high }) }
+    if good { Ok(value) } else { Err(GenerateError::Angle { name: "fold", value, low, closed: true, high }) }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use super::super::angle::radians;
-use super::error::{GenerateError, angle_between, angle_from, count, length};
+use super::error::{GenerateError, angle_between, count, fold_angle, length};
 use super::parts::{Parts, VertexGrid, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
@@ -63,7 +63,7 @@ impl Miura {
     pub(super) fn shape(&self) -> Result<MiuraShape, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
         let t = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
-        let g = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let g = fold_angle(self.fold)?;
         let rise = libm::sin(t) * libm::sin(g);
         let run = libm::cos(g) * libm::tan(t);
         let q = (1.0 + run * run).sqrt();

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::super::angle::radians;
-use super::error::{GenerateError, angle_between, angle_from, length};
+use super::error::{GenerateError, angle_between, fold_angle, length};
 use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
@@ -52,7 +52,7 @@ impl SquareTwist {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
         let t = FRAC_PI_2 - angle_between("twist", self.twist, 0.0, FRAC_PI_2)?;
-        let u = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let u = fold_angle(self.fold)?;
         let w = if u == 0.0 { 0.0 } else { partner(u, libm::tan(t)) };
         let (along, across) = (b * libm::cos(t), b * libm::sin(t));
         let e = Vec3::new(along * libm::cos(u), across, along * libm::sin(u));

@@ -1,9 +1,7 @@
 //! The waterbomb tessellation: rows of waterbomb bases, each row displaced by half a base.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::super::angle::radians;
-use super::error::{GenerateError, angle_from, length};
+use super::error::{GenerateError, fold_angle, length};
 use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
@@ -53,7 +51,7 @@ fn base(r: i32) -> impl Iterator<Item = Vec<Corner>> {
 impl Waterbomb {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
-        let fold = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let fold = fold_angle(self.fold)?;
         let (run, rise) = (b * libm::cos(fold), b * libm::sin(fold));
         let parts = Parts {
             title: "waterbomb",

@@ -1,9 +1,7 @@
 //! The Yoshimura pattern: diamonds with their long diagonals.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::super::angle::radians;
-use super::error::{GenerateError, angle_from, length};
+use super::error::{GenerateError, fold_angle, length};
 use super::parts::{Parts, parameters};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
@@ -31,7 +29,7 @@ parameters! {
 impl Yoshimura {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
-        let fold = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let fold = fold_angle(self.fold)?;
         let (run, rise) = (b * libm::cos(fold), b * libm::sin(fold));
         let low = |n1, n2| Corner { vertex: 0, shift: [n1, n2] };
         let high = |n1, n2| Corner { vertex: 1, shift: [n1, n2] };

@@ -30,11 +30,6 @@ impl Outline {
             self.line
         }
     }
-
-    /// Whether its line says no more than that the sheet ends there.
-    fn is_boundary(&self) -> bool {
-        self.line.auxiliary || self.line.letter == Assignment::Boundary
-    }
 }
 
 /// Adds the sides of outlines to the lines of a drawing; curves become polylines, and are counted.
@@ -42,11 +37,12 @@ pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
     let finite = outlines.iter().map(|outline| outline.path.control_box()).filter(Rect::is_finite);
     let bounds = finite.reduce(|all, one| all.union(one)).unwrap_or_default();
     let tolerance = FLATNESS * bounds.width().max(bounds.height());
-    let curved = outlines.iter().filter(|outline| outline.path.iter().any(|part| is_curved(&part))).count();
+    let is_curved = |part: PathEl| matches!(part, PathEl::QuadTo(..) | PathEl::CurveTo(..));
+    let curved = outlines.iter().filter(|outline| outline.path.iter().any(is_curved)).count();
     if curved > 0 {
         drawn.redrawing.curves = Some((curved, tolerance));
     }
-    let boundaries = outlines.iter().all(Outline::is_boundary);
+    let boundaries = outlines.iter().all(|Outline { line, .. }| line.auxiliary || line.letter == Assignment::Boundary);
     for outline in outlines {
         let line = outline.meant(boundaries);
         let [mut first, mut at] = [Point::ZERO; 2];
@@ -66,8 +62,4 @@ pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
             }
         });
     }
-}
-
-fn is_curved(part: &PathEl) -> bool {
-    matches!(part, PathEl::QuadTo(..) | PathEl::CurveTo(..))
 }

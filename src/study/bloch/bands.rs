@@ -115,13 +115,13 @@ fn matrix(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<DynamicalMat
     DynamicalMatrix::new(assembly.sheet(), stiffnesses).map(Some)
 }
 
-/// Computes the bands along the path of the scene and the density of states; `None` if the observer asked to stop.
-pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<FoundBands>, BlochError> {
+/// Computes the bands along the path of the scene and the density of states.
+pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<FoundBands, BlochError> {
     let mut found = FoundBands { path: vec![], density: None };
     if spec.path.is_none() && spec.density.is_none() {
-        return Ok(Some(found));
+        return Ok(found);
     }
-    let Some(matrix) = matrix(context, spec)? else { return Ok(Some(found)) };
+    let Some(matrix) = matrix(context, spec)? else { return Ok(found) };
     let heavy = masses(context.assembly).map(|masses| matrix.clone().with_masses(&masses));
     let corners: Vec<[f64; 2]> = spec.path.iter().flat_map(|path| path.iter()).map(|corner| corner.0).collect();
     for q in along_path(&corners, STEPS) {
@@ -131,11 +131,11 @@ pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<
     if let (Some(density), Some(heavy)) = (&spec.density, &heavy) {
         let (grid, bins) = (grid(density), density.bins.as_ref().map_or(BINS, |bins| bins.0 as usize));
         let total = grid[0] * grid[1];
-        let Some(all) = heavy.on_grid(grid, |step| context.step(step, Some(total)))? else { return Ok(None) };
+        let all = heavy.on_grid(grid, |step| context.step(step, Some(total)))?;
         stable(&all, grid)?;
         found.density = Some(Density::new(&all, grid, bins));
     }
-    Ok(Some(found))
+    Ok(found)
 }
 
 /// Checks that no wave grows: a density of states counts frequencies.
@@ -195,22 +195,19 @@ fn band_table(path: &[Bands]) -> Table {
     let count = |of: fn(&Bands) -> &Vec<f64>| path.iter().map(|at| of(at).len()).max().unwrap_or(0);
     let bands = (0..count(|at| &at.values)).map(|k| format!("band_{k}"));
     let frequencies = (0..count(|at| &at.frequencies)).map(|k| format!("frequency_{k}"));
-    let mut table = Table::new("length,q1,q2").with(bands).with(frequencies);
-    for (length, Bands { q, values, frequencies }) in lengths(path).into_iter().zip(path) {
-        let row = [length, q[0], q[1]].into_iter().chain(values.iter().chain(frequencies).copied());
-        table.push(row.map(Value::Number));
-    }
-    table
+    let rows = lengths(path).into_iter().zip(path).map(|(length, Bands { q, values, frequencies })| {
+        [length, q[0], q[1]].into_iter().chain(values.iter().chain(frequencies).copied()).map(Value::Number)
+    });
+    Table::new("length,q1,q2").with(bands).with(frequencies).with_rows(rows)
 }
 
 /// Returns a row for every bin: its lower and its upper edge, the density in it, and the number of states up to the
 /// upper edge.
 fn density_table(density: &Density) -> Table {
-    let mut table = Table::new("frequency_low,frequency_high,density,states_below");
     let mut states = 0.0;
-    for (ends, value) in density.edges.windows(2).zip(&density.values) {
+    let rows = density.edges.windows(2).zip(&density.values).map(|(ends, value)| {
         states += value * (ends[1] - ends[0]);
-        table.push([ends[0], ends[1], *value, states].map(Value::Number));
-    }
-    table
+        [ends[0], ends[1], *value, states].map(Value::Number)
+    });
+    Table::new("frequency_low,frequency_high,density,states_below").with_rows(rows)
 }

@@ -88,16 +88,15 @@ struct Halves {
     determinant: [Option<Determinant>; 2],
 }
 
-/// Computes the strip at all wavenumbers; `None` if the observer asked to stop, or the other cell cannot be read any
-/// more.
+/// Computes the strip at all wavenumbers; it ends as if interrupted where the other cell cannot be read any more.
 pub(super) fn compute(
     context: &Context<'_>,
     spec: &StripSpec,
     (rigidity, rigid): (&Rigidity, bool),
     wavenumbers: &[f64],
-) -> Result<Option<FoundStrip>, BlochError> {
+) -> Result<FoundStrip, BlochError> {
     let cells = spec.cells.0 as usize;
-    let Ok(above) = other(context, spec) else { return Ok(None) };
+    let above = other(context, spec).map_err(|_| BlochError::Interrupted)?;
     let upper = above.as_ref().map(|above| Rigidity::of_sheet(above, rigid)).transpose()?;
     let below = determinant_of(rigidity)?;
     let of_upper = upper.as_ref().map(determinant_of).transpose()?;
@@ -116,16 +115,14 @@ pub(super) fn compute(
     let upper = of_upper.flatten();
     let mut found = FoundStrip { rows: Vec::new(), upper, summary: StripSummary { cells, ..StripSummary::default() } };
     for (k, q1) in wavenumbers.iter().enumerate() {
-        if !context.step(k, Some(wavenumbers.len())) {
-            return Ok(None);
-        }
+        BlochError::unless(context.step(k, Some(wavenumbers.len())))?;
         halves.add(*q1, &mut found)?;
     }
     let summary = &mut found.summary;
     summary.error = worst(found.rows.iter().filter_map(|row| Some((row.measured? - row.predicted).abs())));
     summary.compared = found.rows.iter().filter(|row| row.measured.is_some()).count();
     summary.unmatched = found.rows.len() - summary.compared;
-    Ok(Some(found))
+    Ok(found)
 }
 
 /// The determinant of a cell; `None` where there is none to speak of.
@@ -236,25 +233,22 @@ fn matched<'a>(
 
 /// Returns a row for every root at every wavenumber and edge.
 pub(super) fn table(found: &FoundStrip) -> Table {
-    let mut table =
+    let table =
         Table::new("q1,zero_modes,self_stresses,gap,edge,kappa2_measured,kappa2_predicted,difference,condition");
-    for row in &found.rows {
+    table.with_rows(found.rows.iter().map(|row| {
         let [modes, stresses] = row.found.map(Value::from);
         let difference = row.measured.map(|measured| measured - row.predicted);
         let first = [row.q1.into(), modes, stresses, row.gap.into(), Value::Word(row.place)];
         let rates = [row.measured.into(), row.predicted.into(), difference.into(), row.condition.into()];
-        table.push(first.into_iter().chain(rates));
-    }
-    table
+        first.into_iter().chain(rates)
+    }))
 }
 
 /// Returns a row for every wavenumber at which zero modes and self stresses were counted.
 pub(super) fn count_table(counts: &[Counts]) -> Table {
-    let mut table = Table::new("q1,q2,zero_modes,self_stresses,self_stresses_opposite,gap");
-    for found in counts {
+    Table::new("q1,q2,zero_modes,self_stresses,self_stresses_opposite,gap").with_rows(counts.iter().map(|found| {
         let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
         let q = found.q.into_iter().map(Value::from);
-        table.push(q.chain(numbers.map(Value::from)).chain([found.gap.into()]));
-    }
-    table
+        q.chain(numbers.map(Value::from)).chain([found.gap.into()])
+    }))
 }

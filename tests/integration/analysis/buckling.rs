@@ -228,3 +228,23 @@ fn factors_that_depend_on_a_self_stress_are_refused() {
     let said = rigid.json().to_string();
     assert!(said.contains("depend on which self stress"), "{said}");
 }
+
+/// Claim: what presses a rigid part turns with it: a plate on a hinge of stiffness `c`, pressed towards the hinge at the
+/// distance `a`, falls over at the load `c / a`, with its end as a part and without. Source: the pendulum that stands on its
+/// head. Tolerance: 1e-12, of rounding, as all of the plate is rigid.
+#[test]
+fn loads_turn_with_parts() {
+    let points = [[-1.0, 0.0], [-1.0, 1.0], [0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [1.5, 0.5]]
+        .map(|[x, y]| [x, y, 0.0]);
+    let sheet = format!("{{\"vertices_coords\": {points:?}, \"faces_vertices\": [[0, 2, 3, 1], [2, 4, 6, 5, 3]]}}");
+    for with_part in [false, true] {
+        let sheet = fold::parse(&sheet, "plate").unwrap();
+        let built = Assembly::patch(sheet, [1, 1]).bars(RIGID).creases(0.3).load(6, [0, 0], [-0.1, 0.0, 0.0]);
+        let held = (0..4).fold(built, |built, vertex| built.pin(vertex, [0, 0], [true; 3]));
+        let part = [4, 5, 6].map(|vertex| (vertex, [0, 0]));
+        let assembly = if with_part { held.part(part, [true; 6]) } else { held }.build().unwrap();
+        let found = buckling(&assembly, None, 1, &mut || true).unwrap();
+        let load = 0.1 * found.factors[0];
+        assert!((load - 0.3 / 1.5).abs() <= 1e-12, "with part {with_part}: {load}");
+    }
+}

@@ -338,7 +338,7 @@ fn kagome_roots_are_double() {
             assert!(decay.pairing().error.unwrap() <= 1e-11 && decay.pairing().left_out == 0);
         }
         let options = SurveyOptions { averaged: 8, wavenumbers: vec![], ..SurveyOptions::default() };
-        let found = survey(&rigidity, &options, &mut |_| true).unwrap().unwrap();
+        let found = survey(&rigidity, &options, &mut |_| true).unwrap();
         let (zone, _) = found.real.unwrap();
         let positive = zone.positive_fraction([256, 256]);
         assert!(positive == 0.0 || positive == 1.0, "{:?}: {positive}", change.lattice);

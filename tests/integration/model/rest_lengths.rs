@@ -127,7 +127,7 @@ fn studies_that_need_one_stiffness_or_drawn_lengths() {
         (swollen, "screw", "kind = \"branches\"", "branches of rigid folding need bars at rest as drawn, and 12 have"),
         (swollen, "screw", "kind = \"surface\"", "surfaces of folded states need bars at rest as drawn, and 12 have"),
         (swollen, "patch", landscape, "a landscape is that of a sheet drawn at rest"),
-        (swollen, "patch", "kind = \"modes\"\neigenvalues = 3", "eigenvalues in the drawn state need bars at rest"),
+        (swollen, "patch", "kind = \"modes\"\neigenvalues = 3", "eigenvalues need bars at rest"),
         (uneven, "screw", "kind = \"surface\"", "surfaces of folded states need one stiffness for all creases"),
         (
             uneven,

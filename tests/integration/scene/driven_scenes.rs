@@ -300,6 +300,43 @@ fn supported_loads() {
     assert!(on_roof(&both).is_ok(), "two inclined planes carry a load between them");
 }
 
+/// Claim: loads have to balance on each connected piece that nothing holds; pins, springs and drives hold the piece that they
+/// act on and no other. Source: a free body under a force has no equilibrium.
+#[test]
+fn loads_balance_on_each_piece() {
+    let roofs = "{\"vertices_coords\": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.3], [5, 0, 0], [6, 0, 0], [5, 1, 0], [6, 1, 0.3]], \
+                 \"faces_vertices\": [[0, 1, 2], [1, 3, 2], [4, 5, 6], [5, 7, 6]]}";
+    let text =
+        |tables: &str| format!("[energy]\nbars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 0.1 }}\n{tables}");
+    let said = |tables: &str| {
+        let scene = Scene::on("mesh = \"roofs.fold\"", &text(tables)).with("roofs.fold", roofs);
+        scene.assembled().err().map(|error| error.to_string())
+    };
+    let load = |vertex: usize, force: f64| format!("[[load]]\nvertex = {vertex}\nforce = [0, 0, {force:?}]\n");
+    let pin = |vertex: usize| format!("[[pin]]\nvertex = {vertex}\n");
+    let drive = |vertex: usize| format!("[[drive]]\nname = \"d\"\nvertices = [{vertex}]\naxis = \"z\"\nto = 1\n");
+    let spring = "[[spring]]\nvertices = [3, 7]\nstiffness = 1.0\n";
+    let free = [
+        load(0, 0.1) + &load(4, -0.1),
+        pin(0) + &load(7, 0.1),
+        drive(0) + &load(7, 0.1),
+        pin(0) + "[mass]\nvertex = 1.0\n[[load]]\nweight = [0, 0, -1]\n",
+    ];
+    for tables in free {
+        let message = said(&tables).unwrap_or_else(|| panic!("{tables}"));
+        assert!(message.contains("push the piece of the sheet with vertex"), "{tables}: {message}");
+    }
+    let held = [
+        load(0, 0.1) + &load(3, -0.1),
+        pin(4) + &load(7, 0.1),
+        drive(4) + &load(7, 0.1),
+        pin(0) + &load(7, 0.1) + spring,
+    ];
+    for tables in held {
+        assert_eq!(said(&tables), None, "{tables}");
+    }
+}
+
 /// Claim: the names of a mesh are in its copies that `convert` writes.
 #[test]
 fn names_are_converted() {
@@ -368,7 +405,6 @@ fn creases_that_cannot_fold_are_not_driven() {
                  \"foldwell:lattice\": [[1, 0, 0], [0.8, 1.7, 0]]}";
     let text = "[energy]\nbars = { stiffness = 30.0 }\ncreases = { stiffness = 1.0 }\n[[lock]]\ncrease = [0, 1, 0, 0]\n\
                 [[drive]]\nname = \"d\"\nlock = [0, 1, 0, 0]\nto = 2.0\n[[study]]\nname = \"p\"\nkind = \"path\"\ndraw = []";
-    let said =
-        Scene::on("mesh = \"strip.fold\"\ndomain = \"torus\"", text).with("strip.fold", strip.to_owned()).program("");
+    let said = Scene::on("mesh = \"strip.fold\"\ndomain = \"torus\"", text).with("strip.fold", strip).program("");
     assert!(said.status == Some(2) && said.err.contains("no motion of the sheet changes the angle"), "{}", said.err);
 }

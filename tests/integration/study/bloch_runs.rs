@@ -227,3 +227,33 @@ fn states_that_cannot_be_asked() {
     let out = scene(bending, "").converged().out;
     assert!(out.has("a.csv") && !out.has("a.svg") && !out.has("a.pvd"));
 }
+
+/// Claim: cells with three faces at an edge, whose bars are more than the coordinates, have bands, though no determinant: at
+/// `q = 0` mass times the squares of the frequencies of one cell on a torus, and at `q1 = pi` those that two cells have besides. Asked
+/// for more they are refused. Tolerance: 1e-9 of the largest.
+#[test]
+fn bands_of_assemblies_need_no_determinant() {
+    let mesh = "{\"vertices_coords\": [[0, 0, 0], [1, 0.1, 0.05], [0.5, 0.4, 0.8], [0.2, 1.1, 0], [1.2, 1.2, 0.05], [2, 0.1, 0], \
+                [2.2, 1.2, 0], [0.7, 1.5, 0.8]], \"faces_vertices\": [[0, 1, 4], [0, 4, 3], [1, 5, 6], [1, 6, 4], [0, 2, 7], [0, 7, 3], \
+                [2, 1, 4], [2, 4, 7]], \"foldwell:lattice\": [[2, 0.1, 0], [0.2, 1.1, 0]]}";
+    let text = |cells: &str, study: &str| {
+        let sheet = format!("mesh = \"sandwich.fold\"\ndomain = \"torus\"\nlattice = \"fixed\"\ncells = {cells}");
+        let energy = "[mass]\nvertex = 0.5\n[energy]\nbars = { stiffness = 30.0 }\ncreases = { stiffness = 1.0 }";
+        Scene::on(&sheet, &format!("{energy}\n[[study]]\nname = \"a\"\ndraw = []\n{study}")).with("sandwich.fold", mesh)
+    };
+    let bands = text("[1, 1]", "kind = \"bloch\"\npath = [[0, 0], [3.141592653589793, 0]]").converged();
+    assert!(bands.bloch("a").no_determinant.as_ref().is_some_and(|why| why.contains("11 conditions")));
+    let table = bands.out.table("a_bands.csv");
+    let at = |row: usize| (0..9).map(move |band| (row, band));
+    let both = at(0).chain(at(table.len() - 1)).map(|(row, band)| table.at(row, &format!("band_{band}")));
+    let mut both: Vec<f64> = both.collect();
+    both.sort_by(f64::total_cmp);
+    let two = text("[2, 1]", "kind = \"modes\"\neigenvalues = 18").converged();
+    let squares: Vec<f64> =
+        two.modes("a").frequencies.iter().flatten().flatten().map(|frequency| frequency * frequency).collect();
+    assert_eq!(squares.len(), 18);
+    for (band, square) in both.iter().zip(&squares) {
+        assert!((band - 0.5 * square).abs() <= 1e-9 * squares[17], "{both:?} {squares:?}");
+    }
+    text("[1, 1]", "kind = \"bloch\"\npath = [[0, 0], [1, 0]]\nzero_modes_at = [[0, 0]]").refused("no determinant");
+}

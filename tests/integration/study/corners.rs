@@ -88,7 +88,7 @@ fn paths_keep_to_their_curve_over_corners() {
     let text = "[energy]\nbars = { stiffness = 1.0 }\n\
                 creases = { stiffness = 0.01, law = { kind = \"bilinear\", ratio = 0.2, at = 0.1 } }\n\
                 [[pin]]\nvertices = [7, 8, 9, 10, 11, 12]\n\
-                [[drive]]\nname = \"apex\"\nvertex = 0\naxis = \"z\"\nto = -1.2\n\
+                [[drive]]\nname = \"apex\"\nvertices = [0]\naxis = \"z\"\nto = -1.2\n\
                 [[study]]\nname = \"p\"\nkind = \"path\"\ndraw = []\nmax_step = ";
     for max_step in [0.015, 0.03, 0.05, 0.1, 0.15] {
         let ran = Scene::on("mesh = \"cases/dome-of-six.fold\"", &format!("{text}{max_step}")).ran();

@@ -6,6 +6,7 @@
 
 use super::dense::join;
 use super::symbolic::{Branch, Front, Tree};
+use crate::vector::dot;
 
 /// The data of one substitution.
 pub(super) struct Substitution<'a> {
@@ -219,23 +220,18 @@ fn solve_upper(panel: &[f64], width: usize, y: &mut [f64]) {
         (start..).zip(sums).for_each(|(k, sum)| head[k] = head[k] / column(k)[k] - sum);
     }
     for (k, entry) in head.iter_mut().enumerate().skip(whole) {
-        *entry = *entry / column(k)[k] - product(&column(k)[width..], below);
+        *entry = *entry / column(k)[k] - dot(&column(k)[width..], below);
     }
     for k in (whole..width).rev() {
-        head[k] -= product(&column(k)[k + 1..width], &head[k + 1..]);
+        head[k] -= dot(&column(k)[k + 1..width], &head[k + 1..]);
     }
     for start in (0..whole).step_by(COLUMNS).rev() {
         let end = start + COLUMNS;
         let sums = products(std::array::from_fn(|k| &column(start + k)[end..width]), &head[end..]);
         for k in (start..end).rev() {
-            head[k] -= sums[k - start] + product(&column(k)[k + 1..end], &head[k + 1..end]);
+            head[k] -= sums[k - start] + dot(&column(k)[k + 1..end], &head[k + 1..end]);
         }
     }
-}
-
-/// Returns the product of two vectors.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Returns the products of columns with a vector, in four interleaved sums each.
@@ -254,6 +250,6 @@ fn products(columns: [&[f64]; COLUMNS], y: &[f64]) -> [f64; COLUMNS] {
     }
     std::array::from_fn(|k| {
         let [p, q, r, s] = sums[k];
-        (p + q) + (r + s) + product(&columns[k][start..], rest)
+        (p + q) + (r + s) + dot(&columns[k][start..], rest)
     })
 }

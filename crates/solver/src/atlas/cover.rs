@@ -162,11 +162,9 @@ impl<'a, S: Surface> Cover<'a, S> {
                     placed += 1;
                     let beyond = if chart.limit > 0.0 { self.beyond[number] + 1 } else { 0 };
                     let added = self.insert(chart, beyond);
-                    if let Some(Neighbour { at, radius }) = self.neighbour(number, added) {
-                        self.polygon.clip(at, radius, added);
-                    } else {
-                        self.polygon.clip(at, self.charts[number].radius, added);
-                    }
+                    let at_rim = Neighbour { at, radius: self.charts[number].radius };
+                    let Neighbour { at, radius } = self.neighbour(number, added).unwrap_or(at_rim);
+                    self.polygon.clip(at, radius, added);
                 }
                 None => {
                     if self.charts[number].radius * RADIUS_AFTER_REFUSAL < LEAST_RADIUS_RATIO * self.options.radius {

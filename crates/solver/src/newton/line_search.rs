@@ -1,6 +1,7 @@
 //! One accepted step: a direction, the largest fraction of it that lowers the merit, and a larger shift where none
 //! does.
 
+use super::super::corrections::PATIENT;
 use super::iteration::{Newton, inaccurate};
 use super::outcome::{Failure, Step};
 use super::retraction::Trial;
@@ -154,7 +155,7 @@ impl<P: Problem> Newton<'_, P> {
         if !self.inexact || !self.near_certified_minimum() {
             return None;
         }
-        let step = self.tangent.patient_newton_step(&self.tension, FINEST_RESIDUAL);
+        let step = self.tangent.newton_step_with(&self.tension, (FINEST_RESIDUAL, PATIENT));
         let (x, tension) = (moved(&self.x, 1.0, &step.dx), moved(&self.tension, 1.0, &step.dt));
         let gaps = self.problem.gaps(&x);
         let open = self.largest_scaled_gap(&missing(&gaps, &tension, self.problem.compliance()));

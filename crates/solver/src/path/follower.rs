@@ -92,6 +92,9 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     ) -> Found<Option<(PathState, f64)>> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
+        // beyond a kink that lies behind both states a cubic through them means nothing
+        let is_smooth = |before: &&PathState| self.cosine(&before.tangent, &last.tangent) >= LEAST_TANGENT_COSINE;
+        let before = before.filter(is_smooth);
         while length > SHORTEST_STEP * self.settings.max_step {
             let guess = predicted(before, last, length);
             let at_kink = self.kinks && length < KINK_STEP * self.settings.max_step;

@@ -2,12 +2,12 @@
 
 use super::bordered::Plane;
 use super::events::{Marks, Watch};
-use super::exits::Exit;
+use super::exits::{Exit, SAME_STATE};
 use super::follower::{Follower, SHRINK};
 use super::outcome::{Branch, BranchEnd, Found, MarkedState, PathError, PathMark, PathSettings};
 use super::problem::{Ends, ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
-use super::work::{SHORTEST_CHECKED, Step};
+use super::work::Step;
 use crate::tension;
 use std::collections::BTreeMap;
 
@@ -164,7 +164,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let watched = [&way.watched[..], &values];
         let (marks, is_one_curve) = self.follower.marks([last, &to], middle.as_ref(), watched, self.watch)?;
         let length = to.arc_length - last.arc_length;
-        if !is_one_curve && length > SHORTEST_CHECKED * self.follower.settings.max_step {
+        if !is_one_curve && length > SAME_STATE {
             self.follower.problem.set_reference(&reference);
             let known = before.into_iter().chain([last]).cloned().collect();
             return self.step(number, &Way { known, watched: way.watched.clone(), length: SHRINK * length });

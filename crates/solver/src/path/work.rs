@@ -11,7 +11,7 @@ const MOST_HALVINGS: usize = 7;
 /// Difference of the potential's change and the work, relative to the largest product of conjugate and parameter's way, above
 /// which a step has left its path; and part of the longest step below which none is asked.
 const UNBALANCED: f64 = 1e-8;
-pub(super) const SHORTEST_CHECKED: f64 = 1e-3;
+const SHORTEST_CHECKED: f64 = 1e-3;
 /// Rounding error of a sum of energies, and of work that is integrated, relative to their size.
 const ROUNDING: f64 = 1e-12;
 

@@ -117,7 +117,7 @@ fn follow_minima(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, mut st
 fn minimum(run: &mut Run<'_>, drive: &dyn Fn(Model) -> DrivenModel, parameter: f64, start: Start) -> Option<Ending> {
     drive_to(run, drive, parameter);
     let settled = run.minimize(start);
-    let left = saddle::left_at_once(run, settled);
+    let left = saddle::left(run, settled, &saddle::WAYS[..1]);
     let is_wanted = match &left {
         Ok(found) => found.negative_eigenvalues == Some(0),
         Err(error) => is_interruption(error),

@@ -14,7 +14,7 @@ use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 const LEAVING_STEP: f64 = 0.1;
 /// The ways out of a saddle, tried one after the other until one leads lower: lengths of the step, and whether rigid and
 /// very stiff bars stretch after it. A long step may pass over the well beside a saddle.
-const WAYS: [(f64, bool); 3] = [(LEAVING_STEP, false), (0.1 * LEAVING_STEP, false), (LEAVING_STEP, true)];
+pub(super) const WAYS: [(f64, bool); 3] = [(LEAVING_STEP, false), (0.1 * LEAVING_STEP, false), (LEAVING_STEP, true)];
 /// Largest number of saddles that are left one after the other.
 const MOST_SADDLES: usize = 20;
 /// Stiffness of bars over that of the softest hinge above which they are very stiff: of 40 random plates in compression
@@ -36,12 +36,8 @@ pub(super) fn leave(run: &mut Run<'_>, ending: Ending) -> Ending {
     left(run, ending, &WAYS)
 }
 
-/// The same along a path, which goes on where a step as it is leads no lower.
-pub(super) fn left_at_once(run: &mut Run<'_>, ending: Ending) -> Ending {
-    left(run, ending, &WAYS[..1])
-}
-
-fn left(run: &mut Run<'_>, ending: Ending, ways: &[(f64, bool)]) -> Ending {
+/// The same by some of the ways; along a path, which goes on where a step as it is leads no lower, by the first.
+pub(super) fn left(run: &mut Run<'_>, ending: Ending, ways: &[(f64, bool)]) -> Ending {
     let mut found = ending?;
     for _ in 0..MOST_SADDLES {
         let energy = found.energy;

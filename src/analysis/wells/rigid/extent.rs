@@ -33,11 +33,6 @@ impl Extent {
         self.excess(angles) <= 0.0
     }
 
-    /// Whether an angle of a state is at a bound.
-    pub(super) fn is_met(&self, angles: &[f64]) -> bool {
-        self.excess(angles).abs() <= SAME_STATE_ANGLE_RAD
-    }
-
     /// The images of a state that belong to the landscape.
     pub(super) fn images(&self, angles: &[f64]) -> Vec<Vec<f64>> {
         let mut images = vec![Vec::new()];

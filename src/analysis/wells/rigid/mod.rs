@@ -168,7 +168,7 @@ impl Sampled<'_> {
                 Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
                 // a curve ends there because a crease is shut
                 None if net.border[at] => {
-                    let touches = dimension == 1 && self.extent.is_met(&net.angles[at]);
+                    let touches = dimension == 1 && self.extent.excess(&net.angles[at]).abs() <= SAME_STATE_ANGLE_RAD;
                     landscape.contacts.extend(touches.then_some(energies[at]));
                 }
                 // where branches cross nothing is stationary: the state is the lowest of the samples only

@@ -2,7 +2,7 @@
 
 use super::effect::Effect;
 use super::{DrivenModel, Model, POSE};
-use crate::model::element::Local;
+use crate::model::element::{Element, Local};
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::self_stress::self_stress;
 use crate::solver::{Linearization, Tangent};
@@ -26,7 +26,7 @@ impl DrivenModel {
         let rates = tangent.solve(&force, &gap, EXACT);
         let mut changes = vec![0.0; tangent.at.soft_stiffness.len()];
         tangent.at.soft_rows().product(&rates.dx, &mut changes);
-        let stiffness = self.model.soft_responses(x).into_iter().map(|[_, _, second]| second);
+        let stiffness = self.model.of_soft(x, Element::response).into_iter().map(|[_, _, second]| second);
         let mut forces: Vec<f64> = changes.iter().zip(stiffness).map(|(change, second)| second * change).collect();
         if let Effect::Loads { pressures, .. } = &self.effect {
             pressures.iter().for_each(|(face, unit)| forces[*face] -= unit);
