@@ -12,8 +12,8 @@
 //! held with increasing strength.
 //!
 //! A pass is accepted if its Hessian has exactly one negative eigenvalue, if its energy is above that of both wells,
-//! and if the descents to its two sides end in different wells. If these are other wells than the given two, they are
-//! reported.
+//! and if the descents to its two sides end in different wells. If these are other wells than the given two, the rest of
+//! the way is sought likewise, and the highest pass on it is the barrier.
 
 use super::limit::{Height, STIFFER, flat_energy};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, are_close, which};
@@ -46,6 +46,8 @@ const STRONGEST: i32 = 4;
 const STRONGER: f64 = 100.0;
 /// How often a row of states is refined around its highest one.
 const REFINEMENTS: usize = 5;
+/// How often the rest of a way is sought from a pass that joins other wells, in turn.
+const LEGS: usize = 3;
 /// Shortest factor between two stiffnesses.
 const SHORTEST: f64 = 1.05;
 
@@ -75,6 +77,10 @@ pub enum BarrierError {
     UnknownWell { pass: f64, minimum: f64 },
     #[error("the pass that was found, of energy {pass}, leads into well {well} on both sides")]
     OneSided { pass: f64, well: usize },
+    #[error(
+        "the pass that was found, of energy {pass}, joins wells {joins:?}, and there is no way between {leg:?}: {why}"
+    )]
+    PartOfTheWay { pass: f64, joins: [usize; 2], leg: [usize; 2], why: Box<Self> },
     #[error("the wells have the same fold angles, and paths are sought between different ones")]
     SameShape,
     #[error("no path was tried")]
@@ -86,7 +92,7 @@ pub enum BarrierError {
 pub struct Barrier {
     /// The wells between which it was sought.
     pub between: [usize; 2],
-    /// The wells into which the sheet descends from the pass; those sought, or others on the way.
+    /// The wells into which the sheet descends from the pass; those sought, or others on the way of which it is the highest.
     pub joins: [usize; 2],
     /// The pass, with one negative eigenvalue; where it is singular in rigid bars, the last one that is not.
     pub pass: Pass,
@@ -104,10 +110,10 @@ pub struct Barrier {
     pub path: Vec<(f64, f64)>,
 }
 
-/// The barrier between two of the wells. `go_on` returns false to stop.
+/// The barrier between two of the wells: the highest pass on the way that is found. `go_on` returns false to stop.
 ///
 /// # Errors
-/// [`BarrierError`] where no pass is found, or the one that is found does not lie between these wells.
+/// [`BarrierError`] where no pass is found, or those that are found make no way between these wells.
 pub fn barrier(
     assembly: &Assembly,
     wells: &[Well],
@@ -117,42 +123,23 @@ pub fn barrier(
     if let Some(term) = assembly.terms().first_not_linear() {
         return Err(BarrierError::NotLinear { term: term.to_owned() });
     }
-    let creases = assembly.crease_stiffness();
-    let own = assembly.bar_stiffness();
-    let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
-    let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
-    let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::NotTried, None);
-    let [one, other] = between.map(|well| &wells[well].settled.rho);
-    if are_close(one, other, SAME_WELL_ANGLE_RAD) {
-        return Err(BarrierError::SameShape);
+    way(&mut Search { assembly, wells, between, go_on }, LEGS)
+}
+
+/// The highest pass on a way: the one that is found between its ends, or where this joins other wells, one on the rest of
+/// the way, which is sought with so many less passes.
+fn way(search: &mut Search<'_>, legs: usize) -> Result<Barrier, BarrierError> {
+    let between = search.between;
+    let mut highest = search.lowest_pass()?;
+    let (pass, joins @ [a, b]) = (highest.pass.energy, highest.joins);
+    let [near, far] = if a == between[1] || b == between[0] { [b, a] } else { joins };
+    for leg in [[between[0], near], [far, between[1]]].into_iter().filter(|[a, b]| a != b) {
+        search.between = leg;
+        let found = if legs > 0 { way(search, legs - 1) } else { Err(BarrierError::NotTried) };
+        let found = found.map_err(|why| BarrierError::PartOfTheWay { pass, joins, leg, why: why.into() })?;
+        highest = if found.pass.energy > highest.pass.energy { found } else { highest };
     }
-    let mut search = Search { assembly, wells, between, go_on };
-    for stiffness in tried {
-        for bend in 0..=BENDS {
-            match search.sought((stiffness, bend, STRENGTH)) {
-                Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
-                // over other wells: the way through softer bars may have been the shorter one only there
-                Ok(found) => match by_the_way.take() {
-                    Some(before) if same_pass(&before, &found, wells) => {
-                        return Ok(before);
-                    }
-                    before => by_the_way = Some(lower(found, before)),
-                },
-                Err(error) => failed = error,
-            }
-            if !(search.go_on)() {
-                return Err(failed);
-            }
-            if by_the_way.is_some() || !matches!(failed, BarrierError::Index { .. }) {
-                break; // a bend is of no use
-            }
-        }
-    }
-    match by_the_way {
-        Some(found) => Ok(found),
-        None if own.is_finite() => search.held_strongly().ok_or(failed),
-        None => Err(failed),
-    }
+    Ok(Barrier { between, ..highest })
 }
 
 /// The search for a barrier between two of the wells.
@@ -164,6 +151,46 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The lowest pass that is found on paths between the wells, whichever wells it joins.
+    fn lowest_pass(&mut self) -> Result<Barrier, BarrierError> {
+        let Self { assembly, wells, between, .. } = *self;
+        let creases = assembly.crease_stiffness();
+        let own = assembly.bar_stiffness();
+        let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
+        let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
+        let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::NotTried, None);
+        let [one, other] = between.map(|well| &wells[well].settled.rho);
+        if are_close(one, other, SAME_WELL_ANGLE_RAD) {
+            return Err(BarrierError::SameShape);
+        }
+        for stiffness in tried {
+            for bend in 0..=BENDS {
+                match self.sought((stiffness, bend, STRENGTH)) {
+                    Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
+                    // over other wells: the way through softer bars may have been the shorter one only there
+                    Ok(found) => match by_the_way.take() {
+                        Some(before) if same_pass(&before, &found, wells) => {
+                            return Ok(before);
+                        }
+                        before => by_the_way = Some(lower(found, before)),
+                    },
+                    Err(error) => failed = error,
+                }
+                if !(self.go_on)() {
+                    return Err(failed);
+                }
+                if by_the_way.is_some() || !matches!(failed, BarrierError::Index { .. }) {
+                    break; // a bend is of no use
+                }
+            }
+        }
+        match by_the_way {
+            Some(found) => Ok(found),
+            None if own.is_finite() => self.held_strongly().ok_or(failed),
+            None => Err(failed),
+        }
+    }
+
     /// The barrier on a path in the sheet's own bars whose states are held ever more strongly: from a pass that is steep
     /// against the creases, as where wells and barrier are made by bars alone, states that are held weakly slide down.
     fn held_strongly(&mut self) -> Option<Barrier> {

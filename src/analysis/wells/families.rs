@@ -1,7 +1,7 @@
 //! Motions that cost nothing: a truss that has one in a well has a whole family of states at this energy, and any number
 //! of them may be found.
 
-use super::placement::angles_determine_shape;
+use super::placement::{angles_determine_shape, free_rigid_motions};
 use super::settle::Settled;
 use crate::analysis::modes::{ModesError, modes_at};
 use crate::model::{Assembly, Stiffness};
@@ -21,7 +21,8 @@ pub(crate) fn is_in_family(assembly: &Assembly, well: &Settled) -> Result<bool, 
     }
     let terms = assembly.terms();
     let of = |eigenvalues| modes_at(assembly, &well.place, eigenvalues, &mut || true);
-    let rigid = of(0)?.rigid_motions;
+    // springs join pieces
+    let rigid = of(0)?.rigid_motions.min(free_rigid_motions(assembly));
     let first = of(rigid + 1)?.eigenvalues.get(rigid).copied();
     let springs = terms.creases.as_ref().map(|creases| &creases.stiffness).or(terms.bar_stiffness());
     let least = COSTS_NOTHING * springs.map_or(0.0, Stiffness::median) / assembly.mean_edge();

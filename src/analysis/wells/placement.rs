@@ -11,7 +11,7 @@
 
 use crate::math::{Vec3, rotation};
 use crate::model::gauge::{self, Motion};
-use crate::model::{Assembly, Domain, Gauge, Model};
+use crate::model::{Assembly, Domain, Gauge, Model, Terms};
 use crate::numerics::dense::small::shortest_solution;
 use nalgebra::{DMatrix, DVector};
 
@@ -93,10 +93,14 @@ fn only_against_motions(model: &Model, kept: usize) -> bool {
     all - free == kept
 }
 
-/// Whether the fold angles determine the shape: not of patches without creases, as trusses, or with bars that have no
-/// face, at which vertices hang.
+/// Whether the fold angles determine the shape: not of patches without creases, as trusses, with bars that have no face,
+/// at which vertices hang, or with springs that join pieces.
 pub(super) fn angles_determine_shape(assembly: &Assembly) -> bool {
-    *assembly.domain() != Domain::Patch || (assembly.terms().creases.is_some() && !assembly.tiling().has_bars_alone())
+    let terms = assembly.terms();
+    let pieces = |terms: Terms| assembly.with_terms(terms).model(Gauge::Free).rigid_motion_counts()[0];
+    let joined = || pieces(terms.clone()) < pieces(Terms { own: Vec::new(), ..terms.clone() });
+    let of_patch = || terms.creases.is_some() && !assembly.tiling().has_bars_alone() && !joined();
+    *assembly.domain() != Domain::Patch || of_patch()
 }
 
 /// Number of coordinates that pins and parts of a patch, and guides, keep.

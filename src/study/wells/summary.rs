@@ -56,9 +56,9 @@ pub struct WellSummary {
 pub struct BarrierSummary {
     /// Between which wells.
     pub between: [usize; 2],
-    /// Whether a pass was found: one negative eigenvalue, two different wells on its sides.
+    /// Whether a pass was found: one negative eigenvalue, two different wells on its sides, these wells or two on the way.
     pub confirmed: bool,
-    /// The wells into which the sheet descends from the pass.
+    /// The wells into which the sheet descends from the pass: these, or two on the way of which it is the highest pass.
     pub joins: Option<[usize; 2]>,
     /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, that of the flat state
     /// if the pass is that, and otherwise what the energies at finite stiffness tend to.
@@ -137,7 +137,9 @@ impl WellsSummary {
             };
             let energy =
                 barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}{known}"));
-            format!("; pass {:?} {energy}", barrier.between)
+            let way = barrier.joins.filter(|joins| joins.iter().any(|well| !barrier.between.contains(well)));
+            let way = way.map_or(String::new(), |joins| format!(", which joins {joins:?}"));
+            format!("; pass {:?} {energy}{way}", barrier.between)
         });
         let count = counted(self.wells.len(), "well");
         format!("{count} ({energies}){}{}", barriers.collect::<String>(), failures(self))

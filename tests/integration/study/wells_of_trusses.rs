@@ -107,6 +107,34 @@ fn a_chain_has_no_isolated_wells() {
     assert!(reason.contains("have motions that cost nothing"), "{reason}");
 }
 
+/// Claim: a piece that hangs on another one by two springs moves at no cost, which is said; one that six springs hold has
+/// isolated wells. Source: two springs at rest take two of the six motions of a piece, six in general position all of them.
+#[test]
+fn springs_that_leave_motions_have_no_isolated_wells() {
+    let sheet = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.3]];
+    let other = sheet.map(|[x, y, z]| [x + 0.2, y - 0.1, z + 1.0]);
+    let vertices = [sheet, other].concat();
+    let mesh = json!({
+        "file_spec": 1.2, "vertices_coords": vertices,
+        "faces_vertices": [[0, 1, 2], [1, 3, 2], [4, 5, 6], [5, 7, 6]],
+    });
+    let run = |springs: &[[usize; 2]]| {
+        let spring = |ends: &[usize; 2]| format!("[[spring]]\nvertices = {ends:?}\nstiffness = 2.0\n");
+        let lines = format!(
+            "[energy]\nbars = {{ stiffness = 50.0 }}\ncreases = {{ stiffness = 1.0 }}\n[[pin]]\nvertices = [0, 1, 2]\n\
+             {}[[study]]\nname = \"wells\"\nkind = \"wells\"\nstarts = 6\ndraw = []",
+            springs.iter().map(spring).collect::<String>()
+        );
+        Scene::on("mesh = \"pieces.fold\"", &lines).with("pieces.fold", mesh.to_string()).ran()
+    };
+    let ran = run(&[[3, 4], [0, 5]]);
+    let (study, count) = (ran.study("wells"), ran.wells("wells").wells.len());
+    let said = format!("{count} of {count} wells have motions that cost nothing");
+    assert!(!study.converged && study.reason.as_ref().is_some_and(|reason| reason.contains(&said)), "{study:?}");
+    let held = run(&[[0, 4], [1, 4], [2, 4], [1, 5], [2, 5], [2, 6]]);
+    assert!(held.study("wells").converged, "{:?}", held.study("wells"));
+}
+
 /// Claim: barriers, which are sought in fold angles, are refused without creases.
 #[test]
 fn barriers_of_trusses_are_refused() {
