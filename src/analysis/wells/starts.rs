@@ -8,22 +8,27 @@
 //! angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the seed and its
 //! own number alone. Trusses, which have no creases, start from coordinates that are moved farther.
 //!
-//! One more start is no random one: the drawn patch turned inside out, which a stiff dome snaps to and crumpled sheets miss.
-//! It counts where it leads to a well.
+//! Beside each random start there is one from the drawn patch with parts of it turned inside out, which stiff domes snap to
+//! and crumpled sheets miss: first the whole of it, then one to three random balls of its inner vertices, small ones as
+//! often as large ones; these not around another state with a smaller spread than half a turn, and only wells in which the
+//! sheet does not pass through itself, of which there are many others. It counts where it leads to a well.
 //!
 //! Random angles are those around another state if one is given. The first start then is that state itself, so that it
 //! is among the wells if it is one, and a screw keeps the axis that it has there.
 
 use super::placement::holds_shape;
 use super::settle::{MinimumTracker, Settled};
+use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::state::State;
 use crate::math::{Vec3, point};
 use crate::model::{Assembly, Configuration, Domain, Gauge};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
+use crate::sheet::TiledEdge;
 use crate::solver::{Failure, Options, Problem};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use std::collections::{BTreeSet, HashSet};
 use std::f64::consts::PI;
 
 /// Stiffness of bars over that of creases while the sheet is crumpled.
@@ -37,7 +42,11 @@ const MOVED: f64 = 0.05;
 const MOVED_JOINTS: f64 = 2.0;
 /// When a crumpled state is good enough to be released.
 const CRUMPLED: Options = Options { tolerance: 1e-4, iterations: 60 };
-/// Least length of the sum of the normals of all faces, over their area, with which a sheet has a mean normal.
+/// Most balls of vertices that are turned inside out in a start.
+const BALLS: usize = 3;
+/// Least displacement, over the mean edge, of what is not where it was drawn.
+const DISPLACED: f64 = 1e-9;
+/// Least length of the sum of the normals of faces, over their area, with which a part of a sheet has a mean normal.
 const LEAST_MEAN_NORMAL: f64 = 1e-3;
 /// How often a start that ends in no well is crumpled anew.
 const TRIES: usize = 4;
@@ -79,50 +88,80 @@ pub fn relax_around(
 ) -> Vec<Outcome> {
     let centre = state.map(|state| Centre::new(assembly, state));
     let settler = MinimumTracker::new(assembly, 1.0);
-    let mut outcomes = parallel::map_with_state(
+    let in_parts = centre.is_none() || starts.spread >= PI;
+    let crosses = |well: &Settled| SelfIntersection::new(assembly).marks(assembly.drawn(), &well.relaxed.state).any;
+    let outcomes = parallel::map_with_state(
         starts.count,
         || true,
         |going, number| {
             if !*going {
-                return Outcome::Interrupted;
+                return (Outcome::Interrupted, None);
             }
             let found = one((assembly, &settler), centre.as_ref(), starts, number);
+            let from = mirrored(assembly, &settler, (starts.seed, number)).filter(|_| number == 0 || in_parts);
+            let mirrored = from.map(|from| released(&settler, &from.without_tension(), starts.options));
             *going = go_on();
-            found
+            (found, mirrored.filter(|found| matches!(found, Outcome::Well(well) if number == 0 || !crosses(well))))
         },
     );
-    let is_complete = !outcomes.iter().any(|outcome| matches!(outcome, Outcome::Interrupted));
-    if let Some(place) = inside_out(assembly).filter(|_| is_complete) {
-        let angles: Vec<f64> = assembly.drawn_angles().iter().map(|angle| -angle).collect();
-        let found = released(&settler, &settler.at(place, &angles).without_tension(), starts.options);
-        outcomes.extend(Some(found).filter(|found| matches!(found, Outcome::Well(_))));
-    }
+    let (mut outcomes, mirrored): (Vec<Outcome>, Vec<Option<Outcome>>) = outcomes.into_iter().unzip();
+    outcomes.extend(mirrored.into_iter().flatten());
     outcomes
 }
 
-/// The coordinates of a drawn patch turned inside out: mirrored at the plane across its mean normal through its pins, or
-/// through its centre, but for what is pinned. `None` for other domains, and for sheets without a mean normal.
-fn inside_out(assembly: &Assembly) -> Option<Vec<f64>> {
-    if *assembly.domain() != Domain::Patch {
+/// The drawn patch with parts turned inside out, by number: first the whole of it, then random balls of its inner vertices.
+/// `None` for other domains, and for parts that are flat, but for the whole, or have no mean normal.
+fn mirrored(assembly: &Assembly, settler: &MinimumTracker, (seed, number): (u64, usize)) -> Option<Configuration> {
+    let (tiling, drawn) = (assembly.tiling(), &assembly.drawn().coordinates);
+    let mut numbers = ChaCha8Rng::seed_from_u64(seed);
+    numbers.set_stream(u64::MAX - number as u64);
+    let mut below_one = || 0.5 * (1.0 + symmetric(&mut numbers));
+    let at_rim = tiling.edges.iter().filter(|edge| number > 0 && edge.wings.contains(&None)).flat_map(|edge| edge.ends);
+    let at_rim: HashSet<usize> = at_rim.map(|end| end.vertex).collect();
+    let mut part: Vec<usize> = (0..drawn.len() / 3).filter(|vertex| !at_rim.contains(vertex)).collect();
+    if *assembly.domain() != Domain::Patch || part.is_empty() {
         return None;
     }
-    let (drawn, pins) = (&assembly.drawn().coordinates, &assembly.terms().pins);
-    let point = |vertex: usize| point(drawn, vertex);
-    let across = assembly.tiling().triangles.iter().map(|triangle| {
-        let [a, b, c] = triangle.corners.map(|site| point(site.vertex));
+    let (count, mut place) = (part.len() as f64, drawn.clone());
+    for _ in 0..=number % BALLS {
+        let centre = point(drawn, part[(below_one() * count) as usize]);
+        let far = |vertex: usize| (point(drawn, vertex) - centre).norm();
+        part.sort_by(|a, b| far(*a).total_cmp(&far(*b)));
+        let size = if number == 0 { count } else { count.powf(below_one()).round() };
+        inside_out(assembly, &mut place, &part[..size as usize])?;
+    }
+    let displaced = |vertex| (point(&place, vertex) - point(drawn, vertex)).norm() > DISPLACED * assembly.mean_edge();
+    let turned = |edge: &TiledEdge| edge.ends.iter().any(|end| displaced(end.vertex));
+    // next to 0, to the other side for what is folded by half a turn
+    let angle = |(edge, angle): (&TiledEdge, &f64)| if turned(edge) { -DISPLACED * angle } else { *angle };
+    let next: Vec<f64> = tiling.edges.iter().zip(assembly.drawn_angles()).map(angle).collect();
+    part.into_iter().any(|vertex| number == 0 || displaced(vertex)).then(|| settler.at(place.clone(), &next))
+}
+
+/// Mirrors a part of the vertices at the plane across the mean normal of its faces through their other vertices and pins, or
+/// through its own centre, but for what is pinned. `None` where there is no mean normal.
+fn inside_out(assembly: &Assembly, place: &mut [f64], part: &[usize]) -> Option<()> {
+    let (from, pins) = (place.to_vec(), &assembly.terms().pins);
+    let point = |vertex: usize| point(&from, vertex);
+    let part: BTreeSet<usize> = part.iter().copied().collect();
+    let faces = assembly.tiling().triangles.iter().map(|triangle| triangle.corners.map(|site| site.vertex));
+    let faces: Vec<[usize; 3]> = faces.filter(|face| face.iter().any(|vertex| part.contains(vertex))).collect();
+    let across = faces.iter().map(|face| {
+        let [a, b, c] = face.map(point);
         (b - a).cross(&(c - a))
     });
     let (sum, size) = across.fold((Vec3::zeros(), 0.0), |(sum, size), normal| (sum + normal, size + normal.norm()));
     let normal = (sum.norm() > LEAST_MEAN_NORMAL * size).then(|| sum.normalize())?;
-    let held: Vec<usize> = pins.iter().map(|(vertex, _)| *vertex).collect();
-    let on_plane = if held.is_empty() { (0..drawn.len() / 3).collect() } else { held };
+    let is_held = |vertex: &usize| !part.contains(vertex) || pins.iter().any(|(pin, _)| pin == vertex);
+    let held: BTreeSet<usize> = faces.into_iter().flatten().filter(is_held).collect();
+    let on_plane = if held.is_empty() { &part } else { &held };
     let centre = on_plane.iter().map(|&vertex| point(vertex)).sum::<Vec3>() / on_plane.len() as f64;
-    let mirrored = (0..drawn.len() / 3).map(point).map(|p| p - 2.0 * normal.dot(&(p - centre)) * normal);
-    let mut mirrored: Vec<f64> = mirrored.flat_map(<[f64; 3]>::from).collect();
-    for (vertex, axes) in pins {
-        (0..3).filter(|&axis| axes[axis]).for_each(|axis| mirrored[3 * vertex + axis] = drawn[3 * vertex + axis]);
+    for &vertex in &part {
+        let mirrored = point(vertex) - 2.0 * normal.dot(&(point(vertex) - centre)) * normal;
+        let pinned = |axis: usize| pins.iter().any(|(pin, axes)| *pin == vertex && axes[axis]);
+        (0..3).filter(|&axis| !pinned(axis)).for_each(|axis| place[3 * vertex + axis] = mirrored[axis]);
     }
-    Some(mirrored)
+    Some(())
 }
 
 /// Why starts failed, and how many for each reason, the most frequent first.

@@ -92,6 +92,24 @@ fn a_barrier_is_the_highest_pass_on_the_way() {
     assert!(barriers.iter().all(|barrier| barrier.confirmed) && barriers[2].joins == Some([0, 2]), "{barriers:?}");
 }
 
+/// Claim: two pyramids, side by side or apart, have four wells, as either of them snaps through by itself, whatever the seed.
+/// Source: one pyramid alone has the energies 0 and 0.0878817, of pieces apart they add up; Newton's method in other
+/// software finds 0.0878817167 twice and 0.175731 side by side. Tolerance: their digits.
+#[test]
+fn parts_of_a_sheet_snap_by_themselves() {
+    for (share, both) in [(true, 0.175731), (false, 2.0 * 0.0878817)] {
+        for seed in 0..3 {
+            let mesh = two_pyramids([[0.5, 0.5, 0.35]; 2], share);
+            let lines = "bars = { stiffness = 200.0 }\ncreases = { stiffness = 0.02 }";
+            let ran = on_pyramids(mesh, lines, &format!("seed = {seed}")).converged();
+            let found: Vec<f64> = ran.wells("a").wells.iter().map(|well| well.energy).collect();
+            let expected = [0.0, 0.0878817, 0.0878817, both];
+            let agree = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 6e-7);
+            assert!(found.len() == 4 && agree, "{share} {seed}: {found:?}");
+        }
+    }
+}
+
 /// Claim: a pass that is so steep that a descent from it steps across is found too: creases of 1e-8 of the bars of the
 /// drum. Its energy differs from that with creases of 1e-6, 8.219153e-5, by the energy of its creases, which lies
 /// between those of the two wells: 0 and 5.369354 times their stiffness, see the wells of the drum.
