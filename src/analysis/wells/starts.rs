@@ -9,8 +9,8 @@
 //! own number alone. Trusses, which have no creases, start from coordinates that are moved farther.
 //!
 //! Beside each random start there is one from the drawn patch with parts of it turned inside out, which stiff domes snap to
-//! and crumpled sheets miss: first the whole of it, then one to three random balls of its inner vertices, small ones as
-//! often as large ones; these not around another state with a smaller spread than half a turn, and only wells in which the
+//! and crumpled sheets miss: first the whole of it, then one to three random balls of its free inner vertices, small
+//! ones as often as large ones; these not around another state with a smaller spread than half a turn, and only wells in which the
 //! sheet does not pass through itself, of which there are many others. It counts where it leads to a well.
 //!
 //! Random angles are those around another state if one is given. The first start then is that state itself, so that it
@@ -116,9 +116,10 @@ fn mirrored(assembly: &Assembly, settler: &MinimumTracker, (seed, number): (u64,
     let mut numbers = ChaCha8Rng::seed_from_u64(seed);
     numbers.set_stream(u64::MAX - number as u64);
     let mut below_one = || 0.5 * (1.0 + symmetric(&mut numbers));
-    let at_rim = tiling.edges.iter().filter(|edge| number > 0 && edge.wings.contains(&None)).flat_map(|edge| edge.ends);
-    let at_rim: HashSet<usize> = at_rim.map(|end| end.vertex).collect();
-    let mut part: Vec<usize> = (0..drawn.len() / 3).filter(|vertex| !at_rim.contains(vertex)).collect();
+    let at_rim = tiling.edges.iter().filter(|edge| edge.wings.contains(&None)).flat_map(|edge| edge.ends);
+    let pinned = assembly.terms().pins.iter().map(|(vertex, _)| *vertex);
+    let stays: HashSet<usize> = at_rim.map(|end| end.vertex).chain(pinned).filter(|_| number > 0).collect();
+    let mut part: Vec<usize> = (0..drawn.len() / 3).filter(|vertex| !stays.contains(vertex)).collect();
     if *assembly.domain() != Domain::Patch || part.is_empty() {
         return None;
     }
