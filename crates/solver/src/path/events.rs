@@ -199,8 +199,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
-    /// states that are taken for one are one, of higher multiplicity. Returns whether the
-    /// states on both sides of all other changes are next to each other.
+    /// states that are taken for one are one, of higher multiplicity. Returns whether the states on both sides of other
+    /// changes, and of all where stiffness may jump, are next to each other.
     fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level, found: &mut Marks) -> Found<bool> {
         let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(true) };
         if self.problem.has_kinks() {

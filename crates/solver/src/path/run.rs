@@ -164,6 +164,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let watched = [&way.watched[..], &values];
         let (marks, is_one_curve) = self.follower.marks([last, &to], middle.as_ref(), watched, self.watch)?;
         let length = to.arc_length - last.arc_length;
+        // another curve next to this one, which a shorter step does not meet
         if !is_one_curve && length > SAME_STATE {
             self.follower.problem.set_reference(&reference);
             let known = before.into_iter().chain([last]).cloned().collect();
