@@ -23,9 +23,9 @@ const BEYOND: f64 = 1.2;
 /// in a step that are found to see it.
 const NEARER: f64 = 0.5;
 const MOST_ADDED: usize = 8;
-/// Distance in arc length of two neighbours on a curve, and how many times farther states in their places are apart that
-/// are on two curves.
-const NEIGHBOURS: f64 = 1e-7;
+/// Distance in arc length of two neighbours at a corner, where states are not soft, and how many times farther states in
+/// the places of neighbours are apart that are on two curves.
+const NEAR: f64 = 1e-7;
 const FARTHEST_NEIGHBOUR: f64 = 10.0;
 /// Rate of the parameter at its located extremum, over that at the end of the step, above which the extremum is a corner.
 const CORNER: f64 = 1e-3;
@@ -199,8 +199,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
-    /// states that are taken for one are one, of higher multiplicity. Returns whether the states on both sides of other
-    /// changes, and of all where stiffness may jump, are next to each other.
+    /// states that are taken for one are one, of higher multiplicity. Returns whether the states on both sides of all
+    /// changes are next to each other.
     fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level, found: &mut Marks) -> Found<bool> {
         let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(true) };
         if self.problem.has_kinks() {
@@ -218,9 +218,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let beyond = if at + beside < end { self.between(from, to, at + beside)? } else { None };
             let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
             let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
-            if self.kinks || matches!(crossing, Crossing::Nowhere) {
-                is_one_curve &= self.is_continuous([from, to], at)?;
-            }
+            is_one_curve &= self.is_continuous([from, to], at)?;
             let point = match crossing {
                 Crossing::At(at, state) => Some((at, *state)),
                 Crossing::Nowhere => None,
@@ -238,11 +236,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Whether the states on both sides of a part of the way between two others are next to each other.
     fn is_continuous(&mut self, [from, to]: Ends<'_>, part: f64) -> Found<bool> {
-        let apart = NEIGHBOURS / (to.arc_length - from.arc_length);
-        let before = self.between(from, to, part - 0.5 * apart)?;
-        let after = self.between(from, to, part + 0.5 * apart)?;
+        let apart = if self.kinks { NEAR } else { SAME_STATE };
+        let off = 0.5 * apart / (to.arc_length - from.arc_length);
+        let [before, after] = [self.between(from, to, part - off)?, self.between(from, to, part + off)?];
         let gap = before.zip(after).map(|(before, after)| self.size(&Cubic::new(&before, &after).chord()));
-        Ok(gap.is_some_and(|gap| gap <= FARTHEST_NEIGHBOUR * NEIGHBOURS))
+        Ok(gap.is_some_and(|gap| gap <= FARTHEST_NEIGHBOUR * apart))
     }
 
     /// Locates a branch point near this part of the way where the stiffness of the softest motion across the path
