@@ -23,10 +23,6 @@ const BEYOND: f64 = 1.2;
 /// in a step that are found to see it.
 const NEARER: f64 = 0.5;
 const MOST_ADDED: usize = 8;
-/// Distance in arc length of two neighbours at a corner, where states are not soft, and how many times farther states in
-/// the places of neighbours are apart that are on two curves.
-const NEAR: f64 = 1e-7;
-const FARTHEST_NEIGHBOUR: f64 = 10.0;
 /// Rate of the parameter at its located extremum, over that at the end of the step, above which the extremum is a corner.
 const CORNER: f64 = 1e-3;
 /// Largest number of changes of the level that are sought in a step.
@@ -199,8 +195,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
-    /// states that are taken for one are one, of higher multiplicity. Returns whether the states on both sides of all
-    /// changes are next to each other.
+    /// states that are taken for one are one, of higher multiplicity. Returns whether states are found
+    /// where the level changes.
     fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level, found: &mut Marks) -> Found<bool> {
         let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(true) };
         if self.problem.has_kinks() {
@@ -208,7 +204,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         }
         let length = to.arc_length - from.arc_length;
         let [mut part, end] = ends.map(|state| (state.arc_length - from.arc_length) / length);
-        let (beside, mut is_one_curve) = (SAME_STATE / length, true);
+        let beside = SAME_STATE / length;
         for _ in 0..MOST_BRANCH_POINTS {
             if before == last {
                 break;
@@ -218,7 +214,6 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let beyond = if at + beside < end { self.between(from, to, at + beside)? } else { None };
             let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
             let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
-            is_one_curve &= self.is_continuous([from, to], at)?;
             let point = match crossing {
                 Crossing::At(at, state) => Some((at, *state)),
                 Crossing::Nowhere => None,
@@ -231,16 +226,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             }
             (part, before) = (at + beside, after);
         }
-        Ok(is_one_curve)
-    }
-
-    /// Whether the states on both sides of a part of the way between two others are next to each other.
-    fn is_continuous(&mut self, [from, to]: Ends<'_>, part: f64) -> Found<bool> {
-        let apart = if self.kinks { NEAR } else { SAME_STATE };
-        let off = 0.5 * apart / (to.arc_length - from.arc_length);
-        let [before, after] = [self.between(from, to, part - off)?, self.between(from, to, part + off)?];
-        let gap = before.zip(after).map(|(before, after)| self.size(&Cubic::new(&before, &after).chord()));
-        Ok(gap.is_some_and(|gap| gap <= FARTHEST_NEIGHBOUR * apart))
+        Ok(true)
     }
 
     /// Locates a branch point near this part of the way where the stiffness of the softest motion across the path

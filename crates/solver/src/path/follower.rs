@@ -30,7 +30,7 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
     pub bordered: Bordered,
     pub settings: PathSettings,
     /// Whether stiffness may jump on the way.
-    pub(super) kinks: bool,
+    kinks: bool,
     /// The parameter at which the path began.
     pub origin: f64,
     /// Largest rate of the conjugate quantity, and largest product of it and the parameter's way, on the path.
