@@ -5,9 +5,9 @@ use super::assembly_error::AssemblyError;
 use super::problem::Gauge;
 use crate::math::Vec3;
 
-/// Part of the largest load up to which the sum of loads is rounding error.
+/// Largest component of the sum of the loads on a piece, relative to the largest of any load, that counts as balanced.
 const BALANCED: f64 = 1e-12;
-/// Length of what a unit vector has across others below which it depends on them.
+/// Part of a direction that is not among others, relative to its length, below which it counts as one of them.
 const SAME_DIRECTION: f64 = 1e-9;
 
 impl Assembly {
@@ -16,44 +16,44 @@ impl Assembly {
     /// unit vectors.
     ///
     /// # Errors
-    /// [`AssemblyError::Unbalanced`] with the axis along which most of the loads on a piece is neither balanced nor
-    /// supported, and their sum along it.
+    /// [`AssemblyError::Unbalanced`] for the first piece on which loads are neither balanced nor supported, with the axis
+    /// along which most of them is left.
     pub fn check_balance(&self, driven: &[(usize, Vec3)]) -> Result<(), AssemblyError> {
         let terms = self.terms();
         if terms.loads.is_empty() {
             return Ok(());
         }
-        let pieces = self.model(Gauge::Held).pieces_of_vertices();
-        let mut piece_of = vec![0; self.tiling().positions.len()];
-        pieces
-            .iter()
-            .enumerate()
-            .for_each(|(number, piece)| piece.iter().for_each(|&vertex| piece_of[vertex] = number));
         let along = |vertex: usize, held: [bool; 3]| {
             (0..3).filter(move |axis| held[*axis]).map(move |axis| (vertex, Vec3::ith(axis, 1.0)))
         };
         let parts =
             terms.parts.iter().filter_map(|part| Some((*part.vertices.first()?, [0, 1, 2].map(|k| !part.free[k]))));
         let held = terms.pins.iter().copied().chain(parts).flat_map(|(vertex, held)| along(vertex, held));
-        let supports = held.chain(terms.guides.iter().copied()).chain(driven.iter().copied());
-        let mut left = vec![Vec3::zeros(); pieces.len()];
-        terms.loads.iter().for_each(|(vertex, force)| left[piece_of[*vertex]] += force);
-        let mut supported: Vec<Vec<Vec3>> = vec![vec![]; pieces.len()];
-        for (vertex, direction) in supports {
-            let (left, supported) = (&mut left[piece_of[vertex]], &mut supported[piece_of[vertex]]);
-            let own = supported.iter().fold(direction, |own, other| own - other * other.dot(&own));
-            let Some(own) = own.try_normalize(SAME_DIRECTION) else { continue };
-            *left -= own * own.dot(left);
-            supported.push(own);
+        let supports: Vec<_> = held.chain(terms.guides.iter().copied()).chain(driven.iter().copied()).collect();
+        let largest = terms.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
+        let pieces = self.model(Gauge::Held).vertices_of_pieces();
+        for piece in &pieces {
+            let here = |vertex: &usize| piece.binary_search(vertex).is_ok();
+            let load: Vec3 = terms.loads.iter().filter(|(vertex, _)| here(vertex)).map(|(_, force)| force).sum();
+            let directions = supports.iter().filter(|(vertex, _)| here(vertex)).map(|(_, direction)| *direction);
+            let left = across(load, directions);
+            let (axis, piece) = (left.iamax(), piece.first().copied().filter(|_| pieces.len() > 1));
+            if left[axis].abs() > BALANCED * largest {
+                return Err(AssemblyError::Unbalanced { piece, axis, force: left[axis] });
+            }
         }
-        let most = (0..pieces.len()).max_by(|a, b| left[*a].amax().total_cmp(&left[*b].amax())).unwrap_or_default();
-        let (axis, largest) =
-            (left[most].iamax(), terms.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max));
-        let force = left[most][axis];
-        if force.abs() <= BALANCED * largest {
-            return Ok(());
-        }
-        let piece = pieces[most].first().copied().filter(|_| pieces.len() > 1);
-        Err(AssemblyError::Unbalanced { piece, axis, force })
+        Ok(())
     }
+}
+
+/// The part of a force that is across all of these directions, which may depend on each other.
+fn across(mut force: Vec3, directions: impl Iterator<Item = Vec3>) -> Vec3 {
+    let mut known: Vec<Vec3> = Vec::new();
+    for direction in directions {
+        let own = known.iter().fold(direction, |own, other| own - other * other.dot(&own));
+        let Some(own) = own.try_normalize(SAME_DIRECTION) else { continue };
+        force -= own * own.dot(&force);
+        known.push(own);
+    }
+    force
 }

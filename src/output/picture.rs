@@ -160,7 +160,6 @@ impl Picture {
     }
 }
 
-/// Pictures for the tests of writers.
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,4 +1,4 @@
-//! What tests of output draw and write: a folded hinge, and a saddle of states.
+//! Samples for the tests of output: the picture of a folded hinge, and a saddle of states.
 
 use super::picture::Picture;
 use super::strain_space::StrainSurface;

@@ -1,7 +1,7 @@
 //! Runs that write no file: the answers of the studies of a scene stay in memory.
 
 use super::runner::summary_of;
-use super::session::Session;
+use super::studies::Studies;
 use super::{RunError, Summary};
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
@@ -54,21 +54,21 @@ pub fn compute(
 ) -> Result<Computed, RunError> {
     super::single::has_studies(file)?;
     let work = || {
-        let mut session = Session::new(file, assembly, earlier, observer);
+        let mut studies = Studies::new(file, assembly, earlier, observer);
         let wanted: Vec<&StudySpec> =
-            file.scene.studies.iter().filter(|study| !session.earlier.states.contains_key(&study.name.0)).collect();
-        wanted.iter().try_for_each(|study| study::check(&session.context(study, &NotKept)))?;
+            file.scene.studies.iter().filter(|study| !studies.earlier.states.contains_key(&study.name.0)).collect();
+        wanted.iter().try_for_each(|study| study::check(&studies.context(study, &NotKept)))?;
         let mut answers = Vec::new();
         for study in wanted {
-            if !session.interrupted() {
-                let answer = session.answer(study, &NotKept)?;
-                session.keep(&answer);
+            if !studies.interrupted() {
+                let answer = studies.answer(study, &NotKept)?;
+                studies.keep(&answer);
                 answers.push(answer);
             }
         }
         let mut summary = summary_of(file, assembly, String::new());
         summary.studies = answers.iter().map(|answer| answer.summary.clone()).collect();
-        Ok(Computed { summary, answers, interrupted: session.interrupted() })
+        Ok(Computed { summary, answers, interrupted: studies.interrupted() })
     };
     Threads::new(threads).install(work)
 }

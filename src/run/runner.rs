@@ -4,7 +4,7 @@ use super::belongings::Belongings;
 use super::ledger::Ledger;
 use super::log::Log;
 use super::resume::{self, PreviousRun};
-use super::session::Session;
+use super::studies::Studies;
 use super::{RunError, RunOptions, RunReport, claim, inputs};
 use crate::model::Assembly;
 use crate::output::claim::Claim;
@@ -21,7 +21,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// A run in progress.
 pub(crate) struct Runner<'a> {
-    session: Session<'a>,
+    studies: Studies<'a>,
     /// The folder of the files.
     out: PathBuf,
     /// Digest of the input, with which logs begin.
@@ -53,7 +53,7 @@ impl<'a> Runner<'a> {
     ) -> Result<Self, RunError> {
         let out = options.folder(file);
         let runner = Self {
-            session: Session::new(file, assembly, PreviousAnswers::default(), observer),
+            studies: Studies::new(file, assembly, PreviousAnswers::default(), observer),
             digest: String::new(),
             resumed: false,
             kept: Vec::new(),
@@ -67,7 +67,7 @@ impl<'a> Runner<'a> {
             answers: None,
         };
         for study in &file.scene.studies {
-            study::check(&runner.session.context(study, &runner))?;
+            study::check(&runner.studies.context(study, &runner))?;
         }
         inputs::check(file, &runner.out)?;
         Ok(runner)
@@ -79,23 +79,23 @@ impl<'a> Runner<'a> {
     /// The summary is written at once, with the studies that are kept, so that a later run cannot take files of this
     /// run for those of an earlier scene.
     pub(crate) fn begin(&mut self, resume: bool, claim: Option<Claim>) -> Result<(), RunError> {
-        let digest = digest(self.session.file)?;
-        let claimed = || claim::of_run(&self.out, false, self.session.observer);
+        let digest = digest(self.studies.file)?;
+        let claimed = || claim::of_run(&self.out, false, self.studies.observer);
         self.claim = Some(claim.map_or_else(claimed, Ok)?);
         let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
         self.resumed = !previous.digest.is_empty();
         self.digest.clone_from(&digest);
-        self.take_over(summary_of(self.session.file, self.session.assembly, digest), &previous)
+        self.take_over(summary_of(self.studies.file, self.studies.assembly, digest), &previous)
     }
 
     /// Takes over the studies that an earlier run finished, and removes its unfinished files.
     fn take_over(&mut self, mut summary: Summary, previous: &PreviousRun) -> Result<(), RunError> {
         files::remove_drafts(&self.out);
-        for study in &self.session.file.scene.studies {
+        for study in &self.studies.file.scene.studies {
             files::remove_drafts(&self.out.join(&study.name.0));
-            if let Some((found, state)) = previous.study(self.session.file, (&self.out, &self.belongings), study) {
-                self.session.earlier.states.extend(state.map(|state| (found.name.clone(), state)));
-                self.session
+            if let Some((found, state)) = previous.study(self.studies.file, (&self.out, &self.belongings), study) {
+                self.studies.earlier.states.extend(state.map(|state| (found.name.clone(), state)));
+                self.studies
                     .earlier
                     .paths
                     .extend(resume::paths(&self.out, study)?.map(|paths| (found.name.clone(), paths)));
@@ -124,15 +124,15 @@ impl<'a> Runner<'a> {
     }
 
     fn compute(&mut self, study: &StudySpec) -> Result<Answer, RunError> {
-        let answer = self.session.answer(study, self)?;
-        self.session.context(study, self).end_steps();
+        let answer = self.studies.answer(study, self)?;
+        self.studies.context(study, self).end_steps();
         for (name, artifact) in &answer.files {
             artifact.write(&self.path(name))?;
         }
-        if let Some(state) = answer.state.as_ref().filter(|_| resume::is_start(self.session.file, &study.name.0)) {
+        if let Some(state) = answer.state.as_ref().filter(|_| resume::is_start(self.studies.file, &study.name.0)) {
             resume::write_state(&self.path(resume::state_file(&study.name.0)), state)?;
         }
-        self.session.keep(&answer);
+        self.studies.keep(&answer);
         Ok(answer)
     }
 
@@ -157,7 +157,7 @@ impl<'a> Runner<'a> {
 
     /// Whether the observer asked to stop.
     pub(crate) fn interrupted(&self) -> bool {
-        self.session.interrupted()
+        self.studies.interrupted()
     }
 
     /// Returns the path of a file in the folder of the run, and records that the current study writes it.

@@ -87,7 +87,7 @@ pub(super) fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> 
     text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, line)| !line.trim().is_empty())
 }
 
-/// What is wrong with a table, and the line.
+/// The number of a line of a table, and its fault.
 pub(super) type Fault = (usize, TableFault);
 
 fn parse(text: &str, value: Column) -> Result<Vec<TableRow>, Fault> {

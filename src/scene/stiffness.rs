@@ -29,39 +29,45 @@ pub enum StiffnessSpec {
 
 /// `{ M = 1.0, V = 2.0, .. }`: a stiffness for each letter of `edges_assignment`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(rename_all = "UPPERCASE", deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 #[schemars(rename = "StiffnessByLetter")]
 struct Letters {
     /// Mountains.
-    m: Option<Located<Stiffness>>,
+    #[serde(rename = "M")]
+    mountain: Option<Located<Stiffness>>,
     /// Valleys.
-    v: Option<Located<Stiffness>>,
+    #[serde(rename = "V")]
+    valley: Option<Located<Stiffness>>,
     /// Creases that are flat; diagonals of polygons where `J` is not given.
-    f: Option<Located<Stiffness>>,
+    #[serde(rename = "F")]
+    flat: Option<Located<Stiffness>>,
     /// Creases of which nothing is said.
-    u: Option<Located<Stiffness>>,
+    #[serde(rename = "U")]
+    unassigned: Option<Located<Stiffness>>,
     /// Bars on the rim.
-    b: Option<Located<Stiffness>>,
+    #[serde(rename = "B")]
+    boundary: Option<Located<Stiffness>>,
     /// Bars along cuts; where it is not given, `B` counts.
-    c: Option<Located<Stiffness>>,
+    #[serde(rename = "C")]
+    cut: Option<Located<Stiffness>>,
     /// Diagonals of polygons.
-    j: Option<Located<Stiffness>>,
+    #[serde(rename = "J")]
+    join: Option<Located<Stiffness>>,
     /// A table with a row per element; not together with letters.
     #[schemars(skip)]
-    #[serde(rename = "file")]
     file: Option<Located<PathBuf>>,
 }
 
 impl Letters {
     fn into_spec(self) -> Result<StiffnessSpec, &'static str> {
         let given = [
-            (Assignment::Mountain, self.m),
-            (Assignment::Valley, self.v),
-            (Assignment::Flat, self.f),
-            (Assignment::Unassigned, self.u),
-            (Assignment::Boundary, self.b),
-            (Assignment::Cut, self.c),
-            (Assignment::Join, self.j),
+            (Assignment::Mountain, self.mountain),
+            (Assignment::Valley, self.valley),
+            (Assignment::Flat, self.flat),
+            (Assignment::Unassigned, self.unassigned),
+            (Assignment::Boundary, self.boundary),
+            (Assignment::Cut, self.cut),
+            (Assignment::Join, self.join),
         ];
         let letters: BTreeMap<Assignment, f64> =
             given.into_iter().filter_map(|(letter, stiffness)| Some((letter, stiffness?.0))).collect();

@@ -191,8 +191,8 @@ impl Along {
         if self.rounded().is_some() {
             return Vec::new();
         }
-        let telling = self.samples().iter().filter(|sample| sample.tells());
-        telling.map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
+        let fitted = self.samples().iter().filter(|sample| sample.is_fitted());
+        fitted.map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
     }
 
     fn residual(&self) -> Option<f64> {

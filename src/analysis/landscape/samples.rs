@@ -75,8 +75,8 @@ impl Sample {
         !(self.relaxed.state.total() >= ABOVE * self.rounding)
     }
 
-    /// Whether the energy tells the power with which that of the mode grows.
-    pub fn tells(&self) -> bool {
+    /// Whether fits of energies by powers of the amplitude take it in.
+    pub fn is_fitted(&self) -> bool {
         !self.below_rounding() && !self.other_minimum
     }
 }
@@ -221,13 +221,12 @@ impl Samples {
     /// where rounding of their angles may make a good part of it.
     fn rate(&self, place: &HeldState) -> f64 {
         let (model, (soft, stiff)) = (&self.held.model, self.held.spread(&self.course.rates));
-        let work = |amounts: &mut dyn Iterator<Item = f64>| -> f64 {
-            model.soft().zip(amounts).zip(&soft).map(|((hinge, off), along)| hinge.spring.stiffness * off * along).sum()
-        };
+        let by_hinge: Vec<f64> = model.soft().zip(&soft).map(|(hinge, along)| hinge.spring.stiffness * along).collect();
+        let of_soft = by_hinge.iter().zip(model.off_rest(&place.x)).map(|(torque, off)| torque * off).sum::<f64>();
         let of_stiff = place.tension.iter().zip(&stiff).map(|(tension, along)| tension * along).sum::<f64>();
-        let rate = -work(&mut model.off_rest(&place.x).into_iter()) - of_stiff;
-        let signs = soft.iter().map(|along| along.signum());
-        let noise = work(&mut model.values(&place.x).iter().zip(signs).map(|(value, sign)| sign * rounding_of(*value)));
+        let rate = -of_soft - of_stiff;
+        let errors = model.values(&place.x).into_iter().map(rounding_of);
+        let noise = by_hinge.iter().zip(errors).map(|(torque, error)| torque.abs() * error).sum::<f64>();
         if rate.abs() > CLEAR * noise { rate } else { f64::NAN }
     }
 

@@ -1,11 +1,10 @@
 //! The cell of a sheet in a spatially periodic state: its geometry, and the elements of a model in it.
 
-use std::collections::BTreeSet;
-
 use super::error::ResponseError;
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Element, Model, Site};
 use crate::sheet::{Corner, Sheet};
+use std::collections::BTreeSet;
 
 /// Rotation of a cell in radians below which the state counts as spatially periodic: the axis of a screw is known to
 /// rounding over this angle.

@@ -50,12 +50,11 @@ pub use stresses::SelfStress;
 pub use symmetry_types::SymmetryTypes;
 pub use tensors::{NoRatio, TensorSpace};
 
-use std::collections::BTreeSet;
-
 use super::modes::modes_at;
 use super::restored;
 use crate::model::{Assembly, Configuration, Gauge, RIGID, Terms};
 use cell::PeriodicCell;
+use std::collections::BTreeSet;
 
 /// Computes the linear response of the drawn state; see [`response_at`].
 ///

@@ -126,8 +126,8 @@ pub fn barrier(
     way(&mut Search { assembly, wells, between, go_on }, LEGS)
 }
 
-/// The highest pass on a way: the one that is found between its ends, or where this joins other wells, one on the rest of
-/// the way, which is sought with so many less passes.
+/// The highest pass on the way between the two wells of a search: the one that is found, or where this joins other wells,
+/// a higher one on the rest of the way from these. That is sought so many times in turn at most.
 fn way(search: &mut Search<'_>, legs: usize) -> Result<Barrier, BarrierError> {
     let between = search.between;
     let mut highest = search.lowest_pass()?;

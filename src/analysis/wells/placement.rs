@@ -98,7 +98,7 @@ fn only_against_motions(model: &Model, kept: usize) -> bool {
 pub(super) fn angles_determine_shape(assembly: &Assembly) -> bool {
     let terms = assembly.terms();
     let pieces = |terms: Terms| assembly.with_terms(terms).model(Gauge::Free).rigid_motion_counts()[0];
-    let joined = || pieces(terms.clone()) < pieces(Terms { own: Vec::new(), ..terms.clone() });
+    let joined = || !terms.own.is_empty() && pieces(terms.clone()) < pieces(Terms { own: Vec::new(), ..terms.clone() });
     let of_patch = || terms.creases.is_some() && !assembly.tiling().has_bars_alone() && !joined();
     *assembly.domain() != Domain::Patch || of_patch()
 }

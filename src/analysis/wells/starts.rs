@@ -8,10 +8,11 @@
 //! angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the seed and its
 //! own number alone. Trusses, which have no creases, start from coordinates that are moved farther.
 //!
-//! Beside each random start there is one from the drawn patch with parts of it turned inside out, which stiff domes snap to
-//! and crumpled sheets miss: first the whole of it, then one to three random balls of its free inner vertices, small
-//! ones as often as large ones; these not around another state with a smaller spread than half a turn, and only wells in which the
-//! sheet does not pass through itself, of which there are many others. It counts where it leads to a well.
+//! Each random start of a patch has a second one beside it: the drawn sheet with parts turned inside out. Stiff domes snap
+//! to such states, and crumpled sheets miss them. The first one is the whole sheet, the others one to three random balls of
+//! vertices that are neither pinned nor at the rim, small balls as often as large ones. Starts from balls are left out around
+//! another state with a spread below half a turn. A second start counts where it leads to a well, and one from balls where
+//! the sheet does not pass through itself there: it has many other wells.
 //!
 //! Random angles are those around another state if one is given. The first start then is that state itself, so that it
 //! is among the wells if it is one, and a screw keeps the axis that it has there.

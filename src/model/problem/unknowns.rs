@@ -118,7 +118,7 @@ impl Model {
     }
 
     /// Returns the vertices of each connected piece of the sheet, ascending.
-    pub(crate) fn pieces_of_vertices(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn vertices_of_pieces(&self) -> Vec<Vec<usize>> {
         let points = self.points() - self.equations.domain.shared();
         let of = |piece: Vec<usize>| piece.into_iter().filter(|k| *k < points && k % 3 == 0).map(|k| k / 3).collect();
         self.pieces().into_iter().map(of).collect()

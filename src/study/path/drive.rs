@@ -25,17 +25,21 @@ pub(super) fn folds(context: &Context<'_>) -> bool {
     matches!(*context.study.kind, StudyKind::Fold(_))
 }
 
+/// Whether elements of the sheet yield.
+fn yields(context: &Context<'_>) -> bool {
+    context.assembly.terms().laws.first_with_memory().is_some()
+}
+
 /// Whether the sheet snaps where the driven value turns back.
 pub(super) fn snaps(context: &Context<'_>, spec: &PathSpec) -> bool {
-    let yields = context.assembly.terms().laws.first_with_memory().is_some();
-    spec.snap.as_ref().map_or_else(|| folds(context) && !spec.switch && !yields, |snap| **snap)
+    spec.snap.as_ref().map_or_else(|| folds(context) && !spec.switch && !yields(context), |snap| **snap)
 }
 
 /// Checks that a sheet that snaps, which is on one branch, is to follow no others, and that nothing yields in it: a snap is
 /// one step to the minimum beyond, and what yields on the way there decides which.
 pub(super) fn may_snap(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
     let Some(snap) = spec.snap.as_ref().filter(|snap| ***snap) else { return Ok(()) };
-    let (message, help) = if context.assembly.terms().laws.first_with_memory().is_some() {
+    let (message, help) = if yields(context) {
         let message = "where a sheet snaps to depends on its motion where elements yield, and paths know no motion";
         (message, "leave out `snap`, and drive a displacement: it passes the states between")
     } else if spec.switch {
@@ -110,7 +114,7 @@ pub(super) fn then(context: &Context<'_>, spec: &PathSpec) -> Vec<f64> {
 /// Checks that branches are asked for only where they are sought.
 pub(super) fn follows(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
     let to_and_fro = !then(context, spec).is_empty();
-    if !spec.switch || !(to_and_fro || context.assembly.terms().laws.first_with_memory().is_some()) {
+    if !spec.switch || !(to_and_fro || yields(context)) {
         return Ok(());
     }
     let (message, place) = if to_and_fro {

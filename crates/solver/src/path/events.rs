@@ -195,8 +195,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
-    /// states that are taken for one are one, of higher multiplicity. Returns whether states are found
-    /// where the level changes.
+    /// states that are taken for one are one, of higher multiplicity. Returns whether states are
+    /// found where the level changes.
     fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level, found: &mut Marks) -> Found<bool> {
         let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(true) };
         if self.problem.has_kinks() {

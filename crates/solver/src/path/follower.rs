@@ -92,7 +92,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     ) -> Found<Option<(PathState, f64)>> {
         let mut length = length.min(self.settings.max_step);
         let unit_of_length = self.bordered.length();
-        // beyond a kink that lies behind both states a cubic through them means nothing
+        // a cubic through states on both sides of a kink says nothing of what lies beyond
         let is_smooth = |before: &&PathState| self.cosine(&before.tangent, &last.tangent) >= LEAST_TANGENT_COSINE;
         let before = before.filter(is_smooth);
         while length > SHORTEST_STEP * self.settings.max_step {

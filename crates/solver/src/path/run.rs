@@ -146,7 +146,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let before =
             way.known.len().checked_sub(2).map(|k| &way.known[k]).filter(|before| before.choice == last.choice);
         let reference = self.follower.problem.reference(&last.x);
-        let Some(Step { state: next, middle, work, longer }) = self.follower.balanced_step(before, last, way.length)?
+        let Some(Step { state: next, middle, work, longer }) =
+            self.follower.balanced_step(before, last, way.length, &reference)?
         else {
             return Ok(ended(vec![], BranchEnd::Failed));
         };

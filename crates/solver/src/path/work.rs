@@ -48,14 +48,14 @@ impl Worked {
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
     /// One step as [`Follower::step`] takes it. Along a path the potential changes by the work; where it does not, the
-    /// step led to another curve of equilibria next to the path, and a shorter one is taken.
+    /// step led to another curve of equilibria next to the path, and a shorter one is taken, from the reference of `last`.
     pub(super) fn balanced_step(
         &mut self,
         before: Option<&PathState>,
         last: &PathState,
         mut length: f64,
+        reference: &[f64],
     ) -> Found<Option<Step>> {
-        let reference = self.problem.reference(&last.x);
         loop {
             let Some((state, longer)) = self.step(before, last, length)? else { return Ok(None) };
             let (largest, way) = (self.largest, state.arc_length - last.arc_length);
@@ -71,7 +71,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 return Ok(Some(Step { state, middle, work, longer }));
             }
             length = SHRINK * length.min(way);
-            self.problem.set_reference(&reference);
+            self.problem.set_reference(reference);
         }
     }
 

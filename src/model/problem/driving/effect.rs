@@ -48,7 +48,7 @@ impl Effect {
         let mut at = Linearization::new(model.layout());
         model.linearize(&model.start(), &vec![0.0; model.compliance.len()], HessianKind::Full, &mut at);
         let moves = |k: usize| {
-            // a vertex may be one of its corners more than once, by its images
+            // one vertex may be several corners of the hinge, by its images
             let mut rates = BTreeMap::new();
             let members = model.layout().stiff.members(k).iter().zip(&at.jacobian[model.layout().stiff.range(k)]);
             members.for_each(|(unknown, rate)| *rates.entry(unknown).or_insert(0.0) += rate);

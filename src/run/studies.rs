@@ -1,4 +1,4 @@
-//! What computes the studies of a run, one after the other, and hands what they find to later ones.
+//! The studies of a run: they are computed one after the other, and later ones are given what earlier ones found.
 
 use super::RunError;
 use super::ledger::INTERRUPTED;
@@ -10,8 +10,8 @@ use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// A scene, its model, and what its studies have found so far.
-pub(super) struct Session<'a> {
+/// The studies of a scene on its assembly, with what those that were computed found.
+pub(super) struct Studies<'a> {
     pub file: &'a SceneFile,
     pub assembly: &'a Assembly,
     view: ShownCells,
@@ -20,7 +20,7 @@ pub(super) struct Session<'a> {
     interrupted: AtomicBool,
 }
 
-impl<'a> Session<'a> {
+impl<'a> Studies<'a> {
     pub fn new(file: &'a SceneFile, assembly: &'a Assembly, earlier: PreviousAnswers, observer: Observer<'a>) -> Self {
         Self { file, assembly, view: ShownCells::new(assembly), earlier, observer, interrupted: AtomicBool::new(false) }
     }
