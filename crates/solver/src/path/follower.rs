@@ -9,6 +9,9 @@ use foldwell_numerics::vector::dot;
 /// Length of the first step relative to the longest one, and the shortest one relative to it.
 const FIRST_STEP: f64 = 0.1;
 const SHORTEST_STEP: f64 = 1e-9;
+/// Rate of the parameter along a tangent, over the largest possible one, up to which the tangent does not tell where the
+/// parameter grows: the load of a net of cables without force grows with the third power of the way.
+const STANDING: f64 = 1e-9;
 /// Error of a prediction relative to the step that is aimed at.
 const WANTED_ERROR: f64 = 0.02;
 /// Cosine of the largest angle between the tangents at both ends of a step.
@@ -57,7 +60,19 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         let guess = Rates { x, tension, parameter: self.problem.parameter() };
         let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
         self.problem.accept(&mut state.x);
+        let stands = state.tangent.parameter.abs() <= STANDING * self.bordered.unit() * self.bordered.length();
+        if stands && !self.leads(&state, sign)? {
+            state = state.scaled(-1.0);
+        }
         Ok(state)
+    }
+
+    /// Whether the first step from a state leads towards larger (`1.0`) or smaller parameters.
+    fn leads(&mut self, state: &PathState, sign: f64) -> Found<bool> {
+        let reference = self.problem.reference(&state.x);
+        let next = self.step(None, state, self.first_step())?;
+        self.problem.set_reference(&reference);
+        Ok(next.is_some_and(|(next, _)| (next.parameter - state.parameter) * sign > 0.0))
     }
 
     /// Goes to how a state is written, with the reference that belongs to it.
@@ -76,10 +91,8 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         self.bordered = Bordered::new(self.problem)?;
         let tangent = Rates { x: rates, ..last.tangent.clone() };
         let per_length = 1.0 / self.size(&tangent);
-        let conjugate = [last.conjugate[0], last.conjugate[1] * per_length];
-        let work_along = last.work_along * per_length;
         let choice = self.problem.choice();
-        Ok(Some(PathState { x, tangent: tangent.scaled(per_length), conjugate, work_along, choice, ..last.clone() }))
+        Ok(Some(PathState { x, tangent, choice, ..last.clone() }.scaled(per_length)))
     }
 
     /// One step from the last of two states (or the only one) of about this length. Returns the state and the length

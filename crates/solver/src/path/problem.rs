@@ -103,6 +103,14 @@ impl PathState {
     pub(super) fn place(&self) -> Rates {
         Rates { x: self.x.clone(), tension: self.tension.clone(), parameter: self.parameter }
     }
+
+    /// The state with a tangent this many times as long, and the rates along it; backwards for `-1.0`.
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        self.tangent = self.tangent.scaled(factor);
+        self.conjugate[1] *= factor;
+        self.work_along *= factor;
+        self
+    }
 }
 
 impl Rates {
