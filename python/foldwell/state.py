@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -130,6 +131,7 @@ class State:
 
         `.vtu` has everything, for ParaView, PyVista, meshio and `start`; `.glb` (binary glTF) faces and coloured edges, for viewers and
         slides; `.stl` and `.ply` triangles, for printers; `.obj` and `.fold` the sheet as this state draws it, with its polygons and letters.
+        Warns of what the file does not keep.
 
         Args:
             path: The file.
@@ -148,7 +150,8 @@ class State:
             >>> Path("drawn.vtu").exists()
             True
         """
-        self._inner.save(Path(path), thickness)
+        for note in self._inner.save(Path(path), thickness):
+            warnings.warn(note, stacklevel=2)
 
     def to_pyvista(self) -> Any:
         """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files, coloured by the fold angle.

@@ -98,7 +98,8 @@ impl State {
         drawn.map_err(|fault| bug(py, fault.to_string()))
     }
 
-    fn save(&self, py: Python<'_>, path: PathBuf, thickness: Option<f64>) -> PyResult<()> {
+    /// Writes the state; returns what the file does not keep.
+    fn save(&self, py: Python<'_>, path: PathBuf, thickness: Option<f64>) -> PyResult<Vec<String>> {
         run::write_state(&self.picture, &path, thickness).map_err(|error| raise(py, &error))
     }
 }

@@ -26,6 +26,9 @@ pub enum RunError {
     Mesh(#[from] SheetError),
     #[error("{}: {defect}", path.display())]
     NoSheet { path: PathBuf, defect: Defect },
+    #[error("{}: this sheet has no solid of that thickness: {defect}", path.display())]
+    #[diagnostic(help("layers of a sheet that is folded flat have no room for a thickness: take a state before"))]
+    NoSolid { path: PathBuf, defect: Defect },
     #[error(transparent)]
     #[diagnostic(help("{}", .0.help()))]
     Pattern(#[from] GenerateError),

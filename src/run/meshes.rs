@@ -20,6 +20,9 @@ const STATES: &str = ".vtu, .stl, .ply, .obj, .fold or .glb";
 /// Endings of flat crease patterns that can be cleaned.
 pub(super) const CLEANED: &str = ".fold, .svg, .cp, .opx, .ori or .dxf";
 
+/// Part of a thickness below which it is said that walls are thinner.
+const THINNER: f64 = 0.995;
+
 /// The kinds of files that hold a mesh.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum MeshKind {
@@ -80,8 +83,15 @@ pub fn write_sheet(sheet: &Sheet, to: &Path, thickness: Option<f64>) -> Result<V
     if !(thickness > 0.0 && thickness.is_finite()) {
         return Err(RunError::Thickness { path: to.into(), thickness });
     }
-    let solid = thickened(sheet, thickness).map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;
-    write_thin(&solid, to)
+    let solid = thickened(sheet, thickness).map_err(|defect| RunError::NoSolid { path: to.into(), defect })?;
+    let mut notes = write_thin(&solid.surface, to)?;
+    if solid.thinnest < THINNER {
+        notes.push(format!(
+            "the thickness is not kept everywhere: walls are as thin as {:.2} of it beside sharp corners",
+            solid.thinnest
+        ));
+    }
+    Ok(notes)
 }
 
 fn write_thin(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
@@ -111,21 +121,23 @@ fn write_thin(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
 }
 
 /// Writes a state into a file of the format of its ending: `.vtu`, `.stl`, `.ply`, `.obj`, `.fold` or `.glb`.
-/// Where a thickness is given, writes the solid of the sheet instead ([`thickened`]).
+/// Where a thickness is given, writes the solid of the sheet instead ([`thickened`]). Returns a sentence for each part of
+/// the sheet that the file does not keep.
 ///
 /// # Errors
 /// [`RunError`] if the ending is another one, if the file cannot be written, if the state is no sheet for STL, PLY, OBJ
 /// and FOLD: a face has no area, for instance; and if the thickness is not above 0.
-pub fn write_state(picture: &Picture, to: &Path, thickness: Option<f64>) -> Result<(), RunError> {
+pub fn write_state(picture: &Picture, to: &Path, thickness: Option<f64>) -> Result<Vec<String>, RunError> {
     match (ending(to).as_str(), thickness) {
-        ("vtu", None) => Ok(vtk::write_vtu(to, picture)?),
-        ("glb", None) => Ok(files::write(to, glb::bytes(picture))?),
+        ("vtu", None) => vtk::write_vtu(to, picture)?,
+        ("glb", None) => files::write(to, glb::bytes(picture))?,
         ("vtu" | "glb" | "stl" | "ply" | "obj" | "fold", _) => {
             let title = to.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let sheet = build::build(&convert::drawing(convert::mesh(picture.clone()), title));
             let sheet = sheet.map_err(|defect| RunError::NoSheet { path: to.into(), defect })?;
-            write_sheet(&sheet, to, thickness).map(|_| ())
+            return write_sheet(&sheet, to, thickness);
         }
-        (ending, _) => Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: STATES }),
+        (ending, _) => return Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: STATES }),
     }
+    Ok(vec![])
 }

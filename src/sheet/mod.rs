@@ -56,6 +56,6 @@ pub use pieces::pieces;
 pub use record::{FileRecord, Gap, Redrawing};
 pub use screws::ScrewLattice;
 pub use seam::{Seam, SeamKept};
-pub use thicken::thickened;
+pub use thicken::{Solid, thickened};
 pub use tiling::{Site, TiledEdge, TiledTriangle, Tiling, tile};
 pub use weld::welded;

@@ -1,5 +1,6 @@
 //! Reading whole files, with a limit on their size and without waiting for devices or pipes.
 
+use encoding_rs::{Encoding, SHIFT_JIS, UTF_8};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -37,19 +38,14 @@ pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     })
 }
 
-/// Returns the text of a drawing: UTF-8, or UTF-16 that begins with its mark. In older encodings what is drawn is ASCII,
-/// and letters of titles and comments that are not are replacement characters.
+/// Returns the text of a drawing: UTF-8, UTF-16 that begins with its mark, or Shift-JIS, in which a letter may end with the
+/// byte of a backslash. In other encodings what is drawn is ASCII, and letters of titles and comments that are not are
+/// replacement characters.
 pub(crate) fn read_drawing(path: &Path) -> io::Result<String> {
     let bytes = read_bytes(path)?;
-    let utf16 = |unit: fn([u8; 2]) -> u16| {
-        let units = bytes[2..].as_chunks::<2>().0.iter().map(|pair| unit(*pair));
-        char::decode_utf16(units).map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
-    };
-    Ok(match bytes[..] {
-        [0xff, 0xfe, ..] => utf16(u16::from_le_bytes),
-        [0xfe, 0xff, ..] => utf16(u16::from_be_bytes),
-        _ => String::from_utf8_lossy(&bytes).into_owned(),
-    })
+    let marked_or_utf8 = Encoding::for_bom(&bytes).is_some() || std::str::from_utf8(&bytes).is_ok();
+    let japanese = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(&bytes).filter(|_| !marked_or_utf8);
+    Ok(japanese.unwrap_or_else(|| UTF_8.decode(&bytes).0).into_owned())
 }
 
 /// Returns the line and column, from 1, of a place in a text, which is given in bytes.

@@ -11,14 +11,24 @@ use super::sides::open_sides;
 use crate::math::Vec3;
 use crate::numerics::dense::small::solve_3;
 
-/// Largest distance of a vertex of the solid from that of the sheet, in half thicknesses: faces that meet at a fold of
-/// up to 120 degrees keep the thickness.
-const FARTHEST: f64 = 2.0;
+/// Largest distance of a vertex of the solid from that of the sheet, in half thicknesses, beyond which corners are blunt:
+/// that of a fold of 151 degrees, where pens that draw a line with corners end them too (`stroke-miterlimit` of SVG).
+const FARTHEST: f64 = 4.0;
 /// Part of the weights of the faces at a vertex that holds its offset where their normals leave it free.
 const HELD: f64 = 1e-9;
 
-/// Returns the closed surface of the solid whose faces are those of the cell of a sheet, moved by half of `thickness`
-/// to both sides, with walls along the boundary. At a fold beyond 120 degrees faces are thinner near the crease.
+/// The solid that a sheet with a thickness is.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Its closed surface.
+    pub surface: Sheet,
+    /// Its least thickness, as a part of that asked for. It is below 1 at vertices whose moved faces have no common point,
+    /// as most with Gaussian curvature and more than three planes, and where that point is far: at folds beyond 151 degrees.
+    pub thinnest: f64,
+}
+
+/// Returns the solid whose faces are those of the cell of a sheet, moved by half of `thickness` to both sides, with walls
+/// along the boundary.
 ///
 /// ```
 /// use foldwell::sheet::{Pattern, generate, thickened};
@@ -26,13 +36,14 @@ const HELD: f64 = 1e-9;
 /// let cell = generate(&Pattern::named("miura")?)?;
 /// let solid = thickened(&cell, 0.05)?;
 /// // both sides of the 8 triangles, and walls of two triangles at the 8 sides of the cell
-/// assert_eq!(solid.triangles.len(), 2 * cell.triangles.len() + 2 * 8);
+/// assert_eq!(solid.surface.triangles.len(), 2 * cell.triangles.len() + 2 * 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`Defect`] if the sheet is not one surface with two sides, or if the surface of the solid is none: a face of it has no area, as with a thickness that is zero or no number.
-pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Sheet, Defect> {
+/// [`Defect`] if the sheet is not one surface with two sides, or if the surface of the solid is none: layers that lie on each
+/// other leave no room for it, or a face of it has no area, as with a thickness that is zero or no number.
+pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Solid, Defect> {
     if !sheet.is_surface() {
         return Err(Defect::new(MeshPart::Mesh, Problem::NoSurface));
     }
@@ -49,8 +60,19 @@ pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Sheet, Defect> {
         faces.push(vec![a + count, b + count, b]);
         faces.push(vec![a + count, b, a]);
     }
+    let height = |corners: &[usize; 3]| {
+        let normal = normal(corners.map(|point| coords[point]));
+        corners.map(|point| offsets[point].dot(&normal)).into_iter().fold(1.0, f64::min)
+    };
+    let thinnest = triangles.iter().map(height).fold(1.0, f64::min);
     let coords = [moved(thickness / 2.0), moved(-thickness / 2.0)].concat();
-    build(&Drawing { title: sheet.title.clone(), coords, faces, ..Drawing::default() })
+    let surface = build(&Drawing { title: sheet.title.clone(), coords, faces, ..Drawing::default() })?;
+    Ok(Solid { surface, thinnest })
+}
+
+/// Returns the unit normal of a triangle.
+fn normal([a, b, c]: [Vec3; 3]) -> Vec3 {
+    (b - a).cross(&(c - a)).normalize()
 }
 
 /// Returns the points of the cell's triangles, and which of them are the corners of each.
@@ -72,8 +94,7 @@ fn points(sheet: &Sheet) -> (Vec<Vec3>, Vec<[usize; 3]>) {
 fn offsets(coords: &[Vec3], triangles: &[[usize; 3]]) -> Vec<Vec3> {
     let mut planes = vec![(Matrix3::zeros(), Vec3::zeros(), 0.0); coords.len()];
     for corners in triangles {
-        let [a, b, c] = corners.map(|point| coords[point]);
-        let normal = (b - a).cross(&(c - a)).normalize();
+        let normal = normal(corners.map(|point| coords[point]));
         for (k, point) in corners.iter().enumerate() {
             let [before, here, after] = [2, 0, 1].map(|step| coords[corners[(k + step) % 3]]);
             let angle = (before - here).angle(&(after - here));
@@ -111,7 +132,8 @@ mod tests {
         for [pattern, fold] in [["miura", "0.4"], ["miura-patch", "0.4"], ["miura-patch", "0.0"]] {
             let table = format!("pattern = \"{pattern}\"\nfold = {fold}").parse().unwrap();
             let sheet = generate(&Pattern::of(&table).unwrap()).unwrap();
-            let solid = thickened(&sheet, thickness).unwrap();
+            let Solid { surface: solid, thinnest } = thickened(&sheet, thickness).unwrap();
+            assert!((thinnest - 1.0).abs() < 1e-8, "{pattern}: {thinnest}");
             assert!(solid.edges.iter().all(|edge| edge.wings.iter().all(Option::is_some)), "{pattern} is open");
             let mut area = 0.0;
             for (k, triangle) in sheet.triangles.iter().enumerate() {

@@ -10,6 +10,7 @@
 
 use super::rigidity::TERM;
 use super::root::Root;
+use super::singular::Search;
 use super::{Laurent, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, eigenvalues};
 use crate::numerics::dense::small::inverse;
@@ -62,7 +63,7 @@ pub(crate) fn on_matrix(rigidity: &Rigidity, mut z: [Complex<f64>; 2], a: usize,
             return None;
         }
         if step.mean().norm() <= step.rounding() {
-            return Some(Steps::at(rigidity, z, a, count)?.roots(z[a]));
+            return Steps::at(rigidity, z, a, count)?.roots(rigidity, z, a);
         }
     }
     None
@@ -124,8 +125,7 @@ struct Steps {
 impl Steps {
     fn at(rigidity: &Rigidity, z: [Complex<f64>; 2], a: usize, count: usize) -> Option<Self> {
         let (mut matrix, mut slope) = (rigidity.at(z), rigidity.derivative(z, a) * z[a]);
-        for k in 0..matrix.nrows() {
-            let scale = matrix.row(k).norm().recip();
+        for (k, scale) in rigidity.scales(z).into_iter().enumerate() {
             matrix.row_mut(k).scale_mut(scale);
             slope.row_mut(k).scale_mut(scale);
         }
@@ -149,12 +149,22 @@ impl Steps {
         ROUNDINGS * f64::EPSILON * self.condition.max(1.0)
     }
 
-    /// The roots: one of this multiplicity where they agree as far as the matrix tells, else each by itself.
-    fn roots(&self, z: Complex<f64>) -> Vec<Root> {
-        let condition = self.condition;
+    /// The roots: one of this multiplicity where they agree as far as the matrix tells, else each sought by itself. `None`
+    /// where these are not apart by more than their rounding.
+    fn roots(&self, rigidity: &Rigidity, z: [Complex<f64>; 2], a: usize) -> Option<Vec<Root>> {
         if self.all.iter().all(|step| step.norm() <= self.rounding()) {
-            return vec![Root { z, condition, multiplicity: self.all.len() }; self.all.len()];
+            return Some(vec![
+                Root { z: z[a], condition: self.condition, multiplicity: self.all.len() };
+                self.all.len()
+            ]);
         }
-        self.all.iter().map(|step| Root { z: z * step.exp(), condition, multiplicity: 1 }).collect()
+        let mut search = Search::new(rigidity);
+        let mut near = |step: &Complex<f64>| {
+            let mut at = z;
+            at[a] *= step.exp();
+            search.root(at, a)
+        };
+        let roots: Vec<Root> = self.all.iter().map(&mut near).collect::<Option<_>>()?;
+        clusters(&roots).is_empty().then_some(roots)
     }
 }

@@ -105,7 +105,7 @@ impl<'a> Search<'a> {
     fn null_pair(&mut self, z: [Complex<f64>; 2]) -> Option<[ComplexVector; 2]> {
         let mut matrix = self.rigidity.at(z);
         let n = matrix.nrows();
-        let scales: Vec<f64> = matrix.row_iter().map(|row| row.norm().recip()).collect();
+        let scales = self.rigidity.scales(z);
         matrix.row_iter_mut().zip(&scales).for_each(|(mut row, &scale)| row.scale_mut(scale));
         for _ in 0..3 {
             let [left, right] = solved(&matrix, &self.borders)?;

@@ -4,7 +4,7 @@
 //! `CutLine` and `AuxiliaryLine` of ORIPA and Oriedita do; other layers have the letters of their colours, which are
 //! those of SVG drawings. A contour is a boundary where one face is, and a cut between two faces. y points upwards.
 //!
-//! The file is pairs of lines, a number that says what follows and a value (Autodesk, "DXF Reference", 2012).
+//! Numbers of the parts of entities are those of Autodesk, "DXF Reference", 2012.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -14,7 +14,8 @@ use kurbo::{Affine, Arc, BezPath, Circle, Point, Shape, Vec2};
 use super::bspline::BSpline;
 use super::colour;
 use super::cp::number;
-use super::line::{DrawnLines, Line, Lines, Misread, offset};
+use super::dxf_entity::{Entity, FLAT, LAYER, LEVEL, entities};
+use super::line::{DrawnLines, Line, Lines};
 use super::outline::{self, Outline};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -43,10 +44,8 @@ const LAYERS: [(&str, Option<Assignment>); 14] = [
 const IGNORED: [&str; 9] = ["ATTDEF", "ATTRIB", "DIMENSION", "HATCH", "LEADER", "MTEXT", "POINT", "TEXT", "VIEWPORT"];
 
 /// Numbers of the parts of an entity, as the DXF reference gives them.
-const LAYER: i32 = 8;
 const COLOUR: i32 = 62;
 const TRUE_COLOUR: i32 = 420;
-const FLAGS: i32 = 70;
 const BULGE: i32 = 42;
 const RADIUS: i32 = 40;
 const ANGLES: [i32; 2] = [50, 51];
@@ -57,15 +56,6 @@ const WEIGHT: i32 = 41;
 const FIRST: [i32; 2] = [10, 20];
 const SECOND: [i32; 2] = [11, 21];
 const HEIGHT: i32 = 30;
-/// The normal of the plane in which a flat entity lies; x is the other way where it points down.
-const NORMAL: [i32; 3] = [210, 220, 230];
-/// Largest slope of a line, or of the plane of a flat entity, that is taken for a rounding error.
-const LEVEL: f64 = 1e-4;
-/// The entities that lie in such a plane; others have coordinates of the drawing.
-const FLAT: [&str; 4] = ["ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE"];
-/// Number that is 1 for entities that are not drawn, and for those of a page beside the drawing.
-const INVISIBLE: i32 = 60;
-const ON_PAGE: i32 = 67;
 /// Flag of a polyline that is closed.
 const CLOSED: u32 = 1;
 /// Flag of a layer that is frozen, and of a corner that only shapes the curve through others.
@@ -74,13 +64,6 @@ const OF_FRAME: u32 = 16;
 
 /// Largest distance of the cubic curves of an arc from it, relative to its radius.
 const ROUND: f64 = 1e-6;
-
-/// An entity or another thing that begins with the number 0: its name, the place of the name, and its parts.
-struct Entity<'t> {
-    name: &'t str,
-    at: usize,
-    parts: Vec<(i32, &'t str)>,
-}
 
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
@@ -147,71 +130,16 @@ impl Polyline {
     }
 }
 
-/// Returns the entities of a text.
-fn entities(text: &str) -> Result<Vec<Entity<'_>>, Misread> {
-    let syntax = |line: usize, message: &str| {
-        ([line, 1], PatternFault::Syntax { format: "a DXF file of text", message: message.into() }.into())
-    };
-    if text.starts_with("AutoCAD Binary DXF") {
-        return Err(syntax(1, "it is a binary one; save it as text (ASCII)"));
-    }
-    let mut entities: Vec<Entity> = Vec::new();
-    let mut rows = text.lines().enumerate();
-    while let Some((row, code)) = rows.next() {
-        if code.trim().is_empty() && rows.clone().all(|(_, rest)| rest.trim().is_empty()) {
-            break;
-        }
-        let Ok(code) = code.trim().parse() else {
-            return Err(syntax(row + 1, "every second line should be a whole number, from the first on"));
-        };
-        let Some((_, part)) = rows.next() else { return Err(syntax(row + 1, "its last value is missing")) };
-        let part = part.trim();
-        match (code, entities.last_mut()) {
-            (0, _) => entities.push(Entity { name: part, at: offset(text, part), parts: vec![] }),
-            (_, Some(entity)) => entity.parts.push((code, part)),
-            (_, None) => {}
-        }
-    }
-    Ok(entities)
-}
-
-impl<'t> Entity<'t> {
-    /// Returns the first part of this number.
-    fn first(&self, code: i32) -> Option<&'t str> {
-        self.parts.iter().find(|(known, _)| *known == code).map(|(_, part)| *part)
-    }
-
-    fn number(&self, code: i32) -> Result<f64, PatternFault> {
-        self.first(code).map_or(Ok(0.0), number)
-    }
-
-    fn point(&self, at: [i32; 2]) -> Result<Point, PatternFault> {
-        if let Some(code) = at.into_iter().find(|code| self.first(*code).is_none()) {
-            let element = format!("a {} without the number {code}", self.name);
-            return Err(PatternFault::Element { element, right: "every point should have its x and its y" });
-        }
-        Ok(Point::new(self.number(at[0])?, self.number(at[1])?))
-    }
-
+impl Entity<'_> {
     /// Returns the map from the plane in which the entity lies to the drawing.
     fn placed(&self) -> Result<Affine, PatternFault> {
-        let [x, y, z] = NORMAL.map(|code| self.number(code));
-        let (across, z) = (x?.hypot(y?), z?);
+        let [across, z] = self.normal()?;
         if across > LEVEL * z.abs() && !["LINE", "SPLINE"].contains(&self.name) {
             return Err(tilted(format!("a {} in a plane that is tilted", self.name)));
         }
+        // x is the other way where the normal points away from who looks
         let turned = FLAT.contains(&self.name) && z < 0.0;
         Ok(if turned { Affine::FLIP_X } else { Affine::IDENTITY })
-    }
-
-    fn has_flag(&self, flag: u32) -> bool {
-        self.first(FLAGS).and_then(|flags| flags.parse::<u32>().ok()).is_some_and(|flags| flags & flag != 0)
-    }
-
-    /// Whether the entity is not displayed: by itself, on a page, or on a layer that is frozen or off.
-    fn is_hidden(&self, layers: &HashSet<String>) -> bool {
-        let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
-        layers.contains(&layer) || [INVISIBLE, ON_PAGE].iter().any(|code| self.first(*code) == Some("1"))
     }
 
     /// Returns the corners of a polyline, each with the bulge of the side that begins there: the tangent of a quarter
@@ -262,7 +190,7 @@ impl<'t> Entity<'t> {
         let [from, to] = [self.number(PARAMETERS[0])?, self.number(PARAMETERS[1])?];
         let sweep = (to - from).rem_euclid(TAU);
         // seen from below, the short half axis and the parameters go the other way round
-        let side = if self.number(NORMAL[2])? < 0.0 { -1.0 } else { 1.0 };
+        let side = if self.normal()?[1] < 0.0 { -1.0 } else { 1.0 };
         let radii = (long.hypot(), self.number(RADIUS)? * long.hypot());
         // a whole ellipse goes from 0 to 2 pi, whose remainder may be a rounding error
         let sweep = if sweep < ROUND { TAU } else { sweep };
@@ -358,7 +286,7 @@ fn level(corners: &[Corner]) -> Result<&[Corner], PatternFault> {
 }
 
 fn tilted(element: String) -> PatternFault {
-    PatternFault::Element { element, right: "lay the drawing into the plane of x and y: it is seen along z" }
+    PatternFault::Element { element, right: "draw all of it in one plane, of x and y, of x and z or of y and z" }
 }
 
 /// Returns the path along corners with the bulges of the sides that begin there.

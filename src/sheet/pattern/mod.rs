@@ -42,6 +42,7 @@ mod cleanup;
 mod colour;
 mod cp;
 mod dxf;
+mod dxf_entity;
 mod flat;
 mod line;
 mod mesh;
