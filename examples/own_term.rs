@@ -1,8 +1,8 @@
 //! A term of one's own: magnets on two vertices of a sheet.
 //!
-//! A term is a measure of some points with its derivatives and a law, on chosen vertices: here `1 / d` of two points at
-//! the distance `d`, so that two like poles of strength `q` have the energy `q / d`. Everything else, relaxations,
-//! paths, wells, files, goes on as before, and the term's energy is listed by its name.
+//! A term is a measure of some points with its derivatives, on chosen vertices, which is an energy but for a factor or has
+//! a law: here `1 / d` of two points at the distance `d`, so that two like poles of strength `q` have the energy `q / d`.
+//! Everything else, relaxations, paths, wells, files, goes on as before, and the term's energy is listed by its name.
 //!
 //! ```text
 //! cargo run --release --example own_term
@@ -11,7 +11,7 @@
 mod common;
 
 use foldwell::math::Vec3;
-use foldwell::model::{Drive, Driven, Law, Measure, OwnTerm, RIGID, Site, Spring};
+use foldwell::model::{Drive, Driven, Measure, OwnTerm, RIGID, Site};
 use foldwell::{Assembly, Pattern, Rest, generate, relax};
 use nalgebra::{Matrix3, SVector};
 use std::error::Error;
@@ -46,26 +46,11 @@ impl Measure<2, 6> for InverseDistance {
     }
 }
 
-/// A constant force along the measure: the energy is `q` times the measure.
-#[derive(Debug)]
-struct Constant;
-
-impl Law for Constant {
-    fn at(&self, value: f64, _: f64) -> [f64; 3] {
-        [value, 1.0, 0.0]
-    }
-
-    fn by_rest(&self, _: f64, _: f64) -> [f64; 3] {
-        [0.0; 3]
-    }
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let sheet = generate(&Pattern::named("miura")?)?;
     let without = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Assigned(0.6)).build()?;
     let poles = [0, 3 * without.sheet().vertices.len()].map(|vertex| Site { vertex, shift: [0, 0] });
-    let strength = Spring { stiffness: 5.0, rest: 0.0 };
-    let magnets = without.with_own_term(OwnTerm::with_law("magnets", InverseDistance, [(poles, strength)], Constant));
+    let magnets = without.with_own_term(OwnTerm::energy("magnets", InverseDistance, [(poles, 5.0)]));
     println!("the magnets store {:.9}", relax(&magnets)?.state.energy_of_term("magnets"));
     common::use_it("magnets", &magnets, &Drive { quantity: Driven::Rest, to: 1.0 })
 }

@@ -2,7 +2,7 @@
 
 use crate::errors::refused;
 use foldwell::math::Vec3;
-use foldwell::model::{Domain, Law, Measure, OwnTerm, Site, Spring};
+use foldwell::model::{Domain, Measure, OwnTerm, Site};
 use foldwell::numerics::derivatives::{DerivativeError, check_gradient};
 use nalgebra::{SMatrix, SVector};
 use numpy::PyReadonlyArray1;
@@ -71,7 +71,7 @@ impl CalledTerm {
     fn term<const N: usize, const D: usize>(&self, py: Python<'_>, assembly: &foldwell::Assembly) -> PyResult<OwnTerm> {
         let measure = Called { function: self.function.clone_ref(py), failure: self.failure.clone() };
         let sites = |vertices: &Vec<usize>| array::from_fn::<_, N, _>(|k| Site { vertex: vertices[k], shift: [0, 0] });
-        let elements = self.elements.iter().map(|vertices| (sites(vertices), Spring { stiffness: 1.0, rest: 0.0 }));
+        let elements = self.elements.iter().map(|vertices| (sites(vertices), 1.0));
         let coordinates = &assembly.drawn().coordinates;
         let all: Vec<Vec3> = coordinates.chunks_exact(3).map(Vec3::from_column_slice).collect();
         let drawn = |vertices: &Vec<usize>| array::from_fn::<_, N, _>(|k| all[vertices[k]]);
@@ -88,7 +88,7 @@ impl CalledTerm {
             let help = "it should be that of the energy by the positions, vertex by vertex: x, y and z of the first, then of the second";
             refused(py, message, help)
         })?;
-        Ok(OwnTerm::with_law::<_, N, D>(&self.name, measure, elements, Itself))
+        Ok(OwnTerm::energy::<_, N, D>(&self.name, measure, elements))
     }
 }
 
@@ -187,19 +187,5 @@ impl<const N: usize, const D: usize> Measure<N, D> for Called {
             lower.resize(D * (D + 1) / 2, f64::NAN);
             (f64::NAN, SVector::repeat(f64::NAN))
         })
-    }
-}
-
-/// The law whose energy is the measure itself.
-#[derive(Debug)]
-struct Itself;
-
-impl Law for Itself {
-    fn at(&self, value: f64, _: f64) -> [f64; 3] {
-        [value, 1.0, 0.0]
-    }
-
-    fn by_rest(&self, _: f64, _: f64) -> [f64; 3] {
-        [0.0; 3]
     }
 }

@@ -116,3 +116,53 @@ def test_wrong_derivatives_are_refused_by_name(soft):
         soft.with_term("upper", [[0]], lambda points: (points[0, 2] ** 3, [0, 0, points[0, 2] ** 2], np.diag([0, 0, 2 * points[0, 2]])))
     single = soft.with_term("single", [[0, 12]], lambda points: poles(np.float32(points)))
     assert fw.relax(single, must_converge=False).summary["energy"]["single"] > 0.0
+
+
+def spring(stiffness, rest):
+    """A spring between two vertices, as `springs` has it."""
+
+    def energy(points):
+        along = points[1] - points[0]
+        length = np.linalg.norm(along)
+        unit = along / length
+        block = stiffness * np.outer(unit, unit) + stiffness * (1.0 - rest / length) * (np.eye(3) - np.outer(unit, unit))
+        pull = stiffness * (length - rest) * unit
+        return 0.5 * stiffness * (length - rest) ** 2, [-pull, pull], np.block([[block, -block], [-block, block]])
+
+    return energy
+
+
+def test_relaxations_know_its_curvature():
+    """Strong springs from a stiff sheet's corner to another, as terms: each relaxes in at most 60 steps, and one of `springs` from there
+    has the same energy. Source: the springs of the program."""
+    sheet, rng = fw.generate("miura", fold=0.5), np.random.default_rng(3)
+    for _ in range(12):
+        cells, thickness, stiffness, rest = int(rng.integers(2, 4)), 10 ** rng.uniform(-2, -0.5), 10 ** rng.uniform(-1, 1), rng.uniform(0.5, 2)
+        material = {"young": 1400.0, "poisson": 0.3, "thickness": thickness, "crease_length": 20.0}
+        terms = {"material": material, "rest": 0.2}
+        last = 4 * cells * cells - 3
+        term = fw.Assembly.patch(sheet, (cells, cells), **terms).with_term("own", [[0, last]], spring(stiffness, rest))
+        ends = [0, (1, cells - 1, cells - 1)]
+        springs = fw.Assembly.patch(sheet, (cells, cells), **terms, springs=[{"vertices": ends, "stiffness": stiffness, "rest": rest}])
+        found = fw.relax(term)
+        assert found.summary["iterations"] <= 60
+        again = fw.relax(springs, start=found)
+        assert again.summary["energy"]["total"] == pytest.approx(found.summary["energy"]["total"], rel=1e-9)
+
+
+def test_what_pulls_a_free_sheet_is_refused(soft):
+    """A field, a pull at one vertex and one that turns an edge have no equilibrium on a free sheet, and have one on a pinned one."""
+
+    def field(points):
+        return points[0, 2], [0.0, 0.0, 1.0], np.zeros((3, 3))
+
+    def turning(points):
+        along = points[1] - points[0]
+        return along[2], [0.0, 0.0, -1.0, 0.0, 0.0, 1.0], np.zeros((6, 6))
+
+    for function, vertices, how in [(field, [[5]], "moves along z"), (turning, [[0, 12]], "turns about")]:
+        with pytest.raises(fw.SceneError, match=f"the energy of the term `pull` changes where the sheet {how}"):
+            fw.relax(soft.with_term("pull", vertices, function))
+        pins = [{"vertex": vertex} for vertex in range(3)]
+        pinned = fw.Assembly.patch(fw.generate("miura"), (3, 3), bars=1e3, creases=1.0, facets=10.0, pins=pins).with_term("pull", vertices, function)
+        assert np.abs(pinned.gradient(pinned.unknowns(fw.relax(pinned)))).max() < 1e-8

@@ -67,4 +67,9 @@ pub enum AssemblyError {
         ["x", "y", "z"][*axis]
     )]
     Unbalanced { piece: Option<usize>, axis: usize, force: f64 },
+    #[error(
+        "the energy of the term `{term}` changes where the sheet {} as a whole, and nothing holds the sheet there",
+        ["moves along x", "moves along y", "moves along z", "turns about x", "turns about y", "turns about z"][*motion]
+    )]
+    Moving { term: String, motion: usize },
 }

@@ -294,12 +294,17 @@ impl<'a> Element<'a> {
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
     pub(super) fn metric(&self) -> f64 {
-        if self.is_beyond_spring() || self.is_load() { 0.0 } else { self.spring.stiffness }
+        if self.is_beyond_spring() || self.is_load() || self.is_value() { 0.0 } else { self.spring.stiffness }
     }
 
     /// Whether it stores what a law has beyond a spring, which is another element.
     pub(crate) fn is_beyond_spring(&self) -> bool {
         matches!(self.stored(), Stored::BeyondSpring(_))
+    }
+
+    /// Whether its energy is a multiple of its value.
+    pub(super) fn is_value(&self) -> bool {
+        matches!(self.stored(), Stored::Value)
     }
 
     /// Whether it is a load, whose potential is no energy of the sheet.

@@ -185,6 +185,8 @@ pub(super) enum Stored {
     /// The energy of a law less that of a spring. The spring is an element of its own, with a tension as unknown, so
     /// that the sum loses no digits however stiff it is.
     BeyondSpring(Arc<dyn Law>),
+    /// The stiffness times the value: a measure that is an energy.
+    Value,
 }
 
 impl Stored {
@@ -200,7 +202,7 @@ impl Stored {
 
     fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
         match self {
-            Self::Spring => None,
+            Self::Spring | Self::Value => None,
             Self::Law(law) | Self::BeyondSpring(law) => law.remembering(memory),
         }
     }
@@ -211,6 +213,9 @@ impl Stored {
         if let Self::Spring = self {
             let force = spring.stiffness * off;
             return [0.5 * force * off, force, spring.stiffness];
+        }
+        if let Self::Value = self {
+            return [spring.stiffness * value, spring.stiffness, 0.0];
         }
         self.scaled(spring, memory, [0.5 * off * off, off, 1.0], |law| law.at(value, spring.rest))
     }
@@ -230,6 +235,7 @@ impl Stored {
                 let whole = known(&**law);
                 [0, 1, 2].map(|k| whole[k] - linear[k])
             }
+            Self::Value => [0.0; 3],
         };
         unit.map(|part| spring.stiffness * part)
     }

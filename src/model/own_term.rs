@@ -13,7 +13,8 @@ pub(super) const MEMBRANE: &str = "membrane";
 /// A term of one's own: elements with a measure and a law of one's own, and a name under which their energy is listed.
 ///
 /// Its energy must not change where the whole sheet moves as a rigid body, unless pins prevent that: coordinates are
-/// held against such motions, and forces on them are not looked at.
+/// held against such motions. Studies refuse other terms; [`Assembly::check_own_terms`](super::Assembly::check_own_terms)
+/// asks.
 ///
 /// ```
 /// use foldwell::model::{Length, OwnTerm, RIGID, Site, Spring};
@@ -60,6 +61,17 @@ impl OwnTerm {
         let term = Self::storing(name, measure, elements, Stored::Law(Arc::new(law)));
         assert!(!term.has_tensions, "a rigid element has no law");
         term
+    }
+
+    /// Makes a term of elements whose energy is a multiple of their measure, each with its factor: a potential that is no
+    /// spring.
+    pub fn energy<M: Measure<N, D> + 'static, const N: usize, const D: usize>(
+        name: &str,
+        measure: M,
+        elements: impl IntoIterator<Item = ([Site; N], f64)>,
+    ) -> Self {
+        let springs = elements.into_iter().map(|(sites, factor)| (sites, Spring { stiffness: factor, rest: 0.0 }));
+        Self::storing(name, measure, springs, Stored::Value)
     }
 
     fn storing<M: Measure<N, D> + 'static, const N: usize, const D: usize>(

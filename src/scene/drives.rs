@@ -54,7 +54,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
 }
 
 /// Returns vertices, those of parts among them, with directions along which drives move them, and so support loads.
-pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, SceneError> {
+pub(crate) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<(usize, Vec3)>, SceneError> {
     let mut directions = Vec::new();
     for spec in &file.scene.drives {
         match resolve(file, assembly, spec)?.quantity {

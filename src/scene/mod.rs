@@ -6,7 +6,7 @@
 pub mod build;
 mod checks;
 mod digest;
-mod drives;
+pub(crate) mod drives;
 mod elements;
 pub(crate) mod error;
 mod file;

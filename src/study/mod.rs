@@ -80,6 +80,7 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
     if matches!(kind, Wells(_) | Trace(_) | Surface(_)) {
         supported::no_memory(context)?;
     }
+    supported::own_terms(context)?;
     of_kind!(check(context))
 }
 

@@ -149,7 +149,7 @@ fn add_buckling(
     if let (Some(factor), Some(shown)) = (found.factors.first(), shown) {
         let factor = rounded(*factor, 5);
         let words = format!("buckles at {factor} times the loads, drawn with an amplitude of a tenth of the sheet");
-        states::add_figure_as(&format!("{name}-buckling"), answer, context, (&shown, &words));
+        states::add_figure_as(&format!("{name}-buckling"), answer, context, (&shown, &*words, 1.0));
     }
     Ok(Some(found.factors))
 }

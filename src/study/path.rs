@@ -245,7 +245,9 @@ fn add_pictures(
             _ => format!("{quantity} {}", rounded(last.drive, 5)),
         };
         let words = format!("{driven}, energy {}{unstable}", rounded(last.state.total(), 5));
-        states::add_figure(answer, context, &picture(0, branch.points.len() - 1, last), &words);
+        let loads = if drive.quantity == Driven::Loads { last.drive } else { 1.0 };
+        let shown = (&picture(0, branch.points.len() - 1, last), &*words, loads);
+        states::add_figure_as(context.name(), answer, context, shown);
     }
     if context.draws(Draw::Svg) {
         answer.add(format!("{}-reaction.svg", context.name()), figure(context, drive, branches));

@@ -148,21 +148,22 @@ pub(crate) fn add_series(
 
 /// Adds one picture as SVG, with the description `state`, if the study asks for it.
 pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
-    add_figure_as(context.name(), answer, context, (picture, state));
+    add_figure_as(context.name(), answer, context, (picture, state, 1.0));
 }
 
-/// Adds a picture under another name than that of the study, without its ending.
+/// Adds a picture under another name than that of the study, without its ending, with so many times the loads.
 pub(crate) fn add_figure_as(
     name: &str,
     answer: &mut Answer,
     context: &Context<'_>,
-    (picture, state): (&Picture, &str),
+    (picture, state, factor): (&Picture, &str, f64),
 ) {
     if context.draws(Draw::Svg) {
         let numbers = context.study.draw.contains(&Draw::Numbers);
         // arrows of a weight, on every vertex, would hide the sheet
         let weighs = context.file.scene.loads.iter().any(|load| load.weight.is_some());
-        let loads = if weighs { vec![] } else { context.assembly.terms().loads.clone() };
+        let loads = context.assembly.terms().loads.iter().filter(|_| !weighs && factor != 0.0);
+        let loads = loads.map(|(vertex, force)| (*vertex, force * factor)).collect();
         let added = Annotations { loads, numbers };
         answer.add(format!("{name}.svg"), sheet::svg(picture, &added, &context.caption(state)));
     }

@@ -3,6 +3,7 @@
 use super::{Context, StudyError};
 use crate::model::Domain;
 use crate::scene::Located;
+use crate::scene::drives::supported;
 use crate::scene::spec::StudyKind;
 use crate::scene::values::Positive;
 
@@ -46,6 +47,15 @@ pub(super) fn small_tolerance(context: &Context<'_>, given: Option<&Located<Posi
     let message = format!("the tolerance is {}, and states are no equilibria then", wrong.0);
     let help = format!("expected a number up to {LARGEST_TOLERANCE}; leave it out for the usual one");
     Err(context.file.error_at(wrong.span(), message, help).into())
+}
+
+/// Checks that terms of one's own keep their energy where the sheet moves as a whole, but along what a driven path moves.
+pub(super) fn own_terms(context: &Context<'_>) -> Result<(), StudyError> {
+    let drives = matches!(*context.study.kind, StudyKind::Path(_));
+    let driven = if drives { supported(context.file, context.assembly)? } else { vec![] };
+    let help =
+        "pin vertices where the term pulls the sheet, or let its energy depend on where vertices are to each other";
+    context.assembly.check_own_terms(&driven).map_err(|error| context.refuse(error.to_string(), help).into())
 }
 
 /// Checks that each term has one stiffness.

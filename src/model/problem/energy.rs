@@ -4,6 +4,9 @@ use super::{Equations, Model, POSE};
 use crate::math::lower_triangle;
 use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, continued};
+use crate::model::law::Stored;
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{SymmetricEigen, symmetric_eigen};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -245,8 +248,9 @@ impl Model {
     ) {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
+            let is_value = matches!(term.head().stored.first(), Some(Stored::Value));
             let size = match term.head().kind {
-                kind if kind.is_load() => f64::INFINITY,
+                kind if kind.is_load() || is_value => f64::INFINITY,
                 _ if term.head().is_angle => 1.0,
                 _ => self.equations.mean_edge,
             };
@@ -257,7 +261,9 @@ impl Model {
                 let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * force.abs().max(stiffness * LEAST_ANGLE));
                 out.rest_stiffness = out.rest_stiffness.max(stiffness * largest * largest);
-                let (gradient, hessian) = (&local.gradient, &local.hessian);
+                // a measure that is an energy has no stiffness but that of its own curvature
+                let positive = (is_value && !full).then(|| positive_part(&local.hessian, local.gradient.len(), force));
+                let (gradient, hessian) = (&local.gradient, positive.as_ref().unwrap_or(&local.hessian));
                 let secant = force / (local.value - element.spring.rest);
                 let least = LEAST_STIFFNESS * stiffness;
                 let second = if (0.0..least).contains(&second) { least } else { second };
@@ -265,7 +271,7 @@ impl Model {
                 let excess = second - metric;
                 out.add_soft(first + k, &SoftElement { stiffness: metric, excess, force, size, gradient, hessian });
             };
-            parallel::compute_and_consume(term.len(), self.locals((first, term), all, full), add);
+            parallel::compute_and_consume(term.len(), self.locals((first, term), all, full || is_value), add);
         }
     }
 
@@ -353,4 +359,17 @@ impl Model {
             }
         }
     }
+}
+
+/// The lower triangle of a Hessian of this order without the curvatures that its factor makes negative; zeros where it is
+/// not finite.
+fn positive_part(lower: &[f64], order: usize, factor: f64) -> Vec<f64> {
+    let mut hessian = DenseMatrix::zeros(order, order);
+    for ((row, column), value) in lower_triangle(order).zip(lower) {
+        hessian[(row, column)] = *value;
+    }
+    let Ok(SymmetricEigen { values, vectors }) = symmetric_eigen(&hessian) else { return vec![0.0; lower.len()] };
+    let kept: Vec<usize> = (0..order).filter(|k| values[*k] * factor > 0.0).collect();
+    let entry = |(row, column)| kept.iter().map(|&k| values[k] * vectors[(row, k)] * vectors[(column, k)]).sum();
+    lower_triangle(order).map(entry).collect()
 }

@@ -166,7 +166,8 @@ fn rising_lines_of_dxf_are_refused() {
 #[test]
 fn upright_dxf_drawings() {
     let sides = [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 9], [0, 9, 0, 0]];
-    let drawing = |place: fn(i32, i32) -> [i32; 3], normal: [i32; 3], is_behind: bool| {
+    type Place = fn(i32, i32) -> [i32; 3];
+    let drawing = |place: Place, normal: [i32; 3], is_behind: bool| {
         let line = |[a, b, c, d]: [i32; 4]| {
             let ([x1, y1, z1], [x2, y2, z2]) = (place(a, b), place(c, d));
             format!("0\nLINE\n8\ncut\n10\n{x1}\n20\n{y1}\n30\n{z1}\n11\n{x2}\n21\n{y2}\n31\n{z2}\n")
@@ -195,7 +196,7 @@ fn upright_dxf_drawings() {
         (points, letters.map(count))
     };
     let top = shape(&drawing(|x, y| [x, y, 5], [0, 0, 1], false));
-    let views: [(fn(i32, i32) -> [i32; 3], _, _); 4] = [
+    let views: [(Place, _, _); 4] = [
         (|x, y| [x, 5, y], [0, -1, 0], false),
         (|x, y| [x, 5, y], [0, 1, 0], true),
         (|x, y| [5, x, y], [1, 0, 0], false),
