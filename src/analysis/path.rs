@@ -144,6 +144,9 @@ fn begin(
         (x, relaxed.configuration.tension.unwrap_or_default())
     };
     let x = driven.about_best_axis(x, &tension);
+    if driven.stays_straight(&x, &tension) {
+        return Err(DriveError::StaysStraight.into());
+    }
     Ok((driven, Start { x, tension: Some(tension) }))
 }
 

@@ -60,6 +60,8 @@ pub enum DriveError {
     NotLocked,
     #[error("no motion of the sheet changes the angle of this crease")]
     NoMotion,
+    #[error("the sheet stays straight while it is driven, and the axis of its cylinder has no direction: take a torus")]
+    StaysStraight,
     #[error("there are no {}", .0.name())]
     NoTerm(TermKind),
     #[error("the {} do not all have the same stiffness", .0.name())]

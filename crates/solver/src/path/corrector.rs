@@ -22,6 +22,9 @@ const MOST_POLISHED: usize = 2;
 const NEXT_TO_NOTHING: f64 = 1e-9;
 /// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
 const MOST_ROUNDING: f64 = 1e-8;
+/// Scaled residual length up to which gaps are rounding errors: no motion closes those of rigid measures that depend on each
+/// other, and a step that balances forces is taken without them.
+const ROUNDED_GAPS: f64 = 1e-13;
 /// Error of the stretch of stiff measures, relative to the largest one by a tension, above which tensions are not
 /// known.
 const STRETCH_ERROR: f64 = 1e-6;
@@ -63,11 +66,12 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 break;
             }
             self.bordered.factor()?;
-            let (force, missing) = (
-                self.bordered.tangent.at.force(&at.tension),
-                self.bordered.tangent.at.missing(&at.tension, self.problem.compliance()),
-            );
-            let (step, residual) = self.bordered.solve(&force, &missing, 0.0, plane);
+            let force = self.bordered.tangent.at.force(&at.tension);
+            let missing = self.bordered.tangent.at.missing(&at.tension, self.problem.compliance());
+            let (mut step, mut residual) = self.bordered.solve(&force, &missing, 0.0, plane);
+            if residual > REFUSED_RESIDUAL && residuals.length <= ROUNDED_GAPS && !rounded {
+                (step, residual) = self.bordered.solve(&force, &vec![0.0; missing.len()], 0.0, plane);
+            }
             let length = norm_blocked(&step.x).hypot(step.parameter / self.bordered.unit());
             let small = length <= ROUNDING * larger(max_abs(&at.x), self.bordered.length());
             // from one side of a kink to the other steps may become longer
