@@ -70,10 +70,10 @@ fn one(n: usize, folder: Option<&Path>) {
     let inertia = system.factor(&at, &rigid, 0.0).unwrap();
     assert_eq!(inertia.negative, 0, "a minimum");
     let right = vector(2, unknowns, 1.0);
-    let (layout, pattern, entries) = (model.layout(), at.pattern(), system.entries());
+    let (layout, pattern, entries) = (model.layout(), at.pattern(), &system.values);
     let tearing = layout.tearing().unwrap();
     let mut whole = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
-    let outer = at.rank_one_terms(1.0, system.weights());
+    let outer = at.rank_one_terms(1.0, &system.weights);
     let threads = [1, 2].map(|count| Threads::new(Some(count)));
     let [mut torn, mut other] = [(); 2].map(|()| TornFactor::of(tearing).unwrap());
     let [one, two] = &threads;

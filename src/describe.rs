@@ -49,17 +49,12 @@ pub(crate) fn describe_sweep(report: &SweepReport) -> String {
 
 /// Returns increasing numbers with runs of them shortened: `0, 3-7`.
 fn ranges(numbers: &[usize]) -> String {
-    let runs: Vec<String> = numbers
-        .chunk_by(|a, b| a + 1 == *b)
-        .map(|run| match run {
-            [first, .., last] => format!("{first}-{last}"),
-            one => one.iter().map(usize::to_string).collect(),
-        })
-        .collect();
-    match runs.len().checked_sub(MOST_LISTED).filter(|more| *more > 0) {
-        Some(_) => format!("{}, ...", runs[..MOST_LISTED].join(", ")),
-        None => runs.join(", "),
-    }
+    let range = |run: &[usize]| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        one => one.iter().map(usize::to_string).collect(),
+    };
+    let runs: Vec<String> = numbers.chunk_by(|a, b| a + 1 == *b).map(range).collect();
+    if runs.len() > MOST_LISTED { format!("{}, ...", runs[..MOST_LISTED].join(", ")) } else { runs.join(", ") }
 }
 
 #[cfg(test)]

@@ -35,7 +35,8 @@ const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 pub(crate) struct Springs {
     closure: Closure,
     stiffness: DVector<f64>,
-    rest: DVector<f64>,
+    /// Rest angles of all edges; 0 where there is no spring.
+    pub(crate) rest: DVector<f64>,
     /// Fold angle of every edge, those of rigid hinges at rest.
     start: Vec<f64>,
 }
@@ -123,11 +124,6 @@ impl Springs {
         Some(Self { closure, stiffness, rest, start })
     }
 
-    /// Rest angles of all edges; 0 where there is no spring.
-    pub(crate) fn rest(&self) -> &[f64] {
-        self.rest.as_slice()
-    }
-
     /// The energy of the hinges at fold angles of all edges.
     pub(crate) fn energy(&self, angles: &[f64]) -> f64 {
         let off =
@@ -191,9 +187,6 @@ impl Along {
 
     /// Number of negative eigenvalues.
     fn negative(&self) -> Option<usize> {
-        if self.tangents.ncols() == 0 {
-            return Some(0);
-        }
         Some(symmetric_eigenvalues(&self.hessian).ok()?.iter().filter(|value| **value < 0.0).count())
     }
 }

@@ -182,7 +182,7 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let hinged: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
     let closure = Closure::of_edges(&hinged, |site| state.domain.point(&state.coordinates, site))?;
     let tube = matches!(assembly.domain(), Domain::Tube { .. } | Domain::Own(_));
-    let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || tiling.has_bars_alone();
+    let unchecked = tube || closure.unchecked_loops > 0 || pieces_with_openings(tiling) || tiling.has_bars_alone();
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }

@@ -4,6 +4,7 @@ mod strip;
 
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Drawn, Site};
+use crate::sheet::sides::sorted;
 use crate::sheet::tiling::{TiledEdge, TiledTriangle};
 use crate::sheet::{Assignment, EdgeKind, Sheet, Tiling, tile};
 use std::collections::HashMap;
@@ -140,7 +141,6 @@ impl ShownCells {
     /// Values of the edges of the model from values of lines between the points of the patch; NaN where no line is a
     /// copy of the edge.
     pub(crate) fn on_edges(&self, edges: usize, lines: &[[usize; 2]], values: &[f64]) -> Vec<f64> {
-        let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
         let given: HashMap<[usize; 2], f64> =
             lines.iter().map(|line| sorted(*line)).zip(values.iter().copied()).collect();
         let mut found = vec![f64::NAN; edges];

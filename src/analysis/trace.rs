@@ -96,8 +96,8 @@ pub fn trace(
         embedding: &embedding,
         periodic: assembly.domain().is_one_cell(),
         starts_straight: condition.is_none(),
-        tube: tube.map(|(tube, kept)| (tube.seam(), *kept)),
-        drawn: tube.and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam()))),
+        tube: tube.map(|(tube, kept)| (tube.seam, *kept)),
+        drawn: tube.and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam))),
         known: Vec::new(),
         stop: options.stop,
         intersects,
@@ -110,10 +110,8 @@ pub fn trace(
     let wanted = found.rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
-        let one = along((&mut closing, &mut watched), options, (ray, &found), observe);
-        let interrupted = one.end == End::Interrupted;
-        traced.push(one);
-        if interrupted {
+        traced.push(along((&mut closing, &mut watched), options, (ray, &found), observe));
+        if traced.last().is_some_and(|one: &Traced| one.end == End::Interrupted) {
             break;
         }
     }

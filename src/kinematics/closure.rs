@@ -39,7 +39,9 @@ pub struct Closure {
     /// Number of the edge of every column of the Jacobian.
     folding: Vec<usize>,
     edges: usize,
-    unchecked_loops: usize,
+    /// Number of independent loops that the conditions do not close, except for the two of a torus: the openings of a
+    /// periodic sheet. If it is not zero, the conditions are incomplete.
+    pub(crate) unchecked_loops: usize,
 }
 
 /// An interior vertex with its edges, counter-clockwise.
@@ -106,22 +108,16 @@ impl Closure {
     /// corners. `position` returns the position of a corner in any state in which the faces have their shape.
     pub(crate) fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
         let halves = halves_by_vertex(edges);
-        let mut rounds = Vec::new();
-        for (vertex, halves) in halves.iter().enumerate() {
-            let interior = halves.iter().all(|half| half.wings.iter().all(Option::is_some));
-            if interior && !halves.is_empty() {
-                rounds.push(Round::new(vertex, halves, &position)?);
-            }
-        }
+        let is_interior = |halves: &[HalfEdge]| halves.iter().all(|half| half.wings.iter().all(Option::is_some));
+        let interior = halves.iter().enumerate().filter(|(_, halves)| !halves.is_empty() && is_interior(halves));
+        let rounds = interior.map(|(vertex, halves)| Round::new(vertex, halves, &position));
+        let rounds: Vec<Round> = rounds.collect::<Result<_, _>>()?;
         let folding = (0..edges.len()).filter(|&edge| edges[edge].folds()).collect();
         let vertices = halves.iter().filter(|halves| !halves.is_empty()).count();
         let unchecked = unchecked_loops(edges, vertices);
         let inside: Vec<usize> = rounds.iter().map(|round: &Round| round.vertex).collect();
-        let openings = match unchecked {
-            0 => Vec::new(),
-            _ if is_periodic(edges) => Vec::new(),
-            _ => opening::openings(edges, &inside, &position),
-        };
+        let has_openings = unchecked > 0 && !is_periodic(edges);
+        let openings = if has_openings { opening::openings(edges, &inside, &position) } else { Vec::new() };
         let unchecked_loops = unchecked.saturating_sub(openings.len());
         Ok(Self { rounds, openings, folding, edges: edges.len(), unchecked_loops }.with_columns())
     }
@@ -150,12 +146,6 @@ impl Closure {
     /// Number of conditions.
     pub(crate) fn rows(&self) -> usize {
         3 * self.rounds.len() + opening::ROWS * self.openings.len()
-    }
-
-    /// Number of independent loops that the conditions do not close, except for the two of a torus: the openings of a
-    /// periodic sheet. If it is not zero, the conditions are incomplete.
-    pub(crate) fn unchecked_loops(&self) -> usize {
-        self.unchecked_loops
     }
 
     /// Returns an error if a loop is left that the conditions do not close.
@@ -345,7 +335,7 @@ mod tests {
         for sheet in [open_star(), open_flat(), miura(), finite_grid(3, 4, 0.3)] {
             let closure = Closure::of_cell(&sheet).unwrap();
             assert!(closure.residual(&drawn_fold_angles(&sheet)).amax() <= 5e-15, "{}", sheet.title);
-            assert_eq!(closure.unchecked_loops(), 0);
+            assert_eq!(closure.unchecked_loops, 0);
         }
     }
 
@@ -473,6 +463,6 @@ mod tests {
         let error = Closure::of_edges(&edges, position).unwrap_err();
         assert_eq!(error, KinematicsError::BrokenRound { vertex: 4 });
         let ring = Closure::of_cell(&ring()).unwrap();
-        assert_eq!((ring.unchecked_loops(), ring.rounds.len(), ring.rows()), (0, 0, 6));
+        assert_eq!((ring.unchecked_loops, ring.rounds.len(), ring.rows()), (0, 0, 6));
     }
 }

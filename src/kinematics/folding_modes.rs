@@ -59,7 +59,7 @@ pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
 pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<FoldingModes, KinematicsError> {
     let lattice = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
     let closure = Closure::of_cell(sheet)?.with_locked(locked);
-    match closure.unchecked_loops() {
+    match closure.unchecked_loops {
         0 if sheet.holes.is_empty() => {}
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
     }

@@ -58,7 +58,7 @@ pub struct Motion {
 }
 
 /// The velocities `w x x + u` of the points of a rigid body, per unit of the parameter of the motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Twist {
     /// The angular velocity `w`.
     pub angular: Vec3,
@@ -112,11 +112,6 @@ impl Mul for Motion {
 }
 
 impl Twist {
-    /// Returns the twist of a body at rest.
-    pub(crate) fn zero() -> Self {
-        Self { angular: Vec3::zeros(), linear: Vec3::zeros() }
-    }
-
     /// Returns the twist of a rotation about a line at an angular speed.
     pub(crate) fn about(line: &Line, speed: f64) -> Self {
         let angular = speed * line.direction;
@@ -157,7 +152,7 @@ impl Moving {
 
 impl Rigid for Moving {
     fn constant(motion: Motion) -> Self {
-        Self { motion, twist: Twist::zero() }
+        Self { motion, twist: Twist::default() }
     }
 
     fn inverse(&self) -> Self {

@@ -28,7 +28,7 @@ use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::numerics::root::Search;
 use crate::sheet::{Seam, Sheet};
-use crate::solver::continuation::{CurveOptions, End, follow};
+use crate::solver::continuation::{CurveOptions, End, Point, follow};
 use nalgebra::DVector;
 use std::f64::consts::TAU;
 
@@ -67,7 +67,7 @@ pub struct Tube<'a> {
     sheet: &'a Sheet,
     closure: Closure,
     embedding: Embedding,
-    seam: Seam,
+    pub(crate) seam: Seam,
     /// Length of the drawn seam.
     length: f64,
     /// Axis of the drawing, about which the drawn seam turns by a positive angle; `None` for a sheet with lattice
@@ -96,11 +96,6 @@ impl<'a> Tube<'a> {
         let length = if axis.is_some() { steps[0].norm() + steps[1].norm() } else { (steps[0] + steps[1]).norm() };
         let (closure, embedding) = (Closure::of_cell(sheet)?, Embedding::new(sheet)?);
         Ok(Self { sheet, closure, embedding, seam: number, length, axis })
-    }
-
-    /// Returns the seam.
-    pub(crate) fn seam(&self) -> Seam {
-        self.seam
     }
 
     /// Returns the errors of the two conditions at fold angles, given with one number per edge in radians: `|W| - 2 pi`
@@ -154,14 +149,9 @@ impl<'a> Tube<'a> {
         let start = self.embedding.drawn_angles().to_vec();
         let kept = self.keeping(Condition::Rise);
         let mut curve = Closing::new(&self.closure, start.clone()).keeping(&kept);
-        let found = follow(
-            &mut curve,
-            start,
-            ray,
-            &options,
-            &mut |_, point, out| out.push(self.defects(&point.x)[Condition::Turn as usize]),
-            &mut |_| true,
-        );
+        let turned = |point: &Point| self.defects(&point.x)[Condition::Turn as usize];
+        let mut stop = |_: &mut _, point: &Point, out: &mut Vec<f64>| out.push(turned(point));
+        let found = follow(&mut curve, start, ray, &options, &mut stop, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
         let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };

@@ -91,8 +91,8 @@ pub struct Local {
 }
 
 impl Local {
-    /// Converts the derivatives by the shared coordinates to derivatives by the shared unknowns. `units` holds the
-    /// size of each shared unknown in its coordinate; an empty list leaves everything as it is.
+    /// Converts the derivatives by the last coordinates, those shared or all, to derivatives by their unknowns. `units`
+    /// holds the size of each of these unknowns in its coordinate; an empty list leaves everything as it is.
     pub(crate) fn measure_in(&mut self, units: &[f64]) {
         if units.is_empty() {
             return;

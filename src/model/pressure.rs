@@ -38,11 +38,8 @@ impl Measure<3, 9> for VolumeFrom {
 
     fn gradient(&self, points: &[Vec3; 3]) -> (f64, SVector<f64, 9>) {
         let [a, b, c] = self.spokes(points);
-        let mut gradient = SVector::<f64, 9>::zeros();
-        for (k, normal) in [b.cross(&c), c.cross(&a), a.cross(&b)].into_iter().enumerate() {
-            gradient.fixed_rows_mut::<3>(3 * k).copy_from(&(normal / 6.0));
-        }
-        (self.value(points), gradient)
+        let normals = [b.cross(&c), c.cross(&a), a.cross(&b)];
+        (self.value(points), SVector::from_fn(|k, _| normals[k / 3][k % 3] / 6.0))
     }
 
     /// The Hessian has zero blocks of each corner with itself: the volume is linear in each.

@@ -43,10 +43,7 @@ impl Measure<2, 6> for TurnAbout {
     fn gradient(&self, points: &[Vec3; 2]) -> (f64, SVector<f64, 6>) {
         let [u, v] = self.components(points);
         let rate = (u * self.across[1] - v * self.across[0]) / (u * u + v * v);
-        let mut gradient = SVector::<f64, 6>::zeros();
-        gradient.fixed_rows_mut::<3>(0).copy_from(&-rate);
-        gradient.fixed_rows_mut::<3>(3).copy_from(&rate);
-        (v.atan2(u), gradient)
+        (v.atan2(u), SVector::from_fn(|k, _| if k < 3 { -rate[k] } else { rate[k - 3] }))
     }
 
     fn hessian(&self, points: &[Vec3; 2], lower: &mut Vec<f64>) -> (f64, SVector<f64, 6>) {

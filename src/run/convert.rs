@@ -1,11 +1,10 @@
 //! Meshes of VTU files, and the parts of a mesh file that a conversion does not keep.
 
-use std::collections::BTreeSet;
-
 use crate::output::picture::Picture;
 use crate::output::vtk::VtuMesh;
 use crate::sheet::build::{self, Drawing};
 use crate::sheet::info::{TURNED_OVER, remarks};
+use crate::sheet::sides::{sorted, uses_of_sides};
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
@@ -14,12 +13,8 @@ const FLAT_RAD: f64 = 1e-6;
 /// Returns the mesh of a VTU file as a drawing. Lines that are assigned J are diagonals of polygons and become facets;
 /// a mountain or valley that the state has folded to the other side is what the state shows.
 pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let sides = |face: &[usize]| -> Vec<[usize; 2]> {
-        (0..face.len()).map(|k| sorted([face[k], face[(k + 1) % face.len()]])).collect()
-    };
-    let triangles = mesh.triangles.iter().flat_map(|corners| sides(corners));
-    let sides: BTreeSet<[usize; 2]> = triangles.chain(mesh.polygons.iter().flat_map(|face| sides(face))).collect();
+    let faces: Vec<Vec<usize>> = mesh.triangles.iter().map(|t| t.to_vec()).chain(mesh.polygons).collect();
+    let sides = uses_of_sides(&faces);
     let letters = mesh.letters.unwrap_or_default();
     let angles = mesh.fold_angle.unwrap_or_else(|| vec![0.0; letters.len()]);
     let told = mesh.lines.iter().zip(letters).zip(angles).filter_map(|((ends, letter), angle)| {
@@ -29,15 +24,9 @@ pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
             Assignment::Boundary => true,
             _ => false,
         };
-        (!contrary && sides.contains(&sorted(*ends))).then_some((*ends, letter))
+        (!contrary && sides.contains_key(&sorted(*ends))).then_some((*ends, letter))
     });
-    Drawing {
-        title,
-        assignments: told.collect(),
-        coords: mesh.points,
-        faces: mesh.triangles.iter().map(|t| t.to_vec()).chain(mesh.polygons).collect(),
-        ..Drawing::default()
-    }
+    Drawing { title, assignments: told.collect(), coords: mesh.points, faces, ..Drawing::default() }
 }
 
 /// Returns a sentence for each part of the file of `sheet` that a file of this ending does not keep.

@@ -38,13 +38,9 @@ pub fn film(
         return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: ".gif or .mp4" });
     }
     let (folder, studies) = studies(from)?;
-    let mut films = Vec::new();
-    for (name, kind) in studies {
-        let filmed = Filmed::read(&folder, name, &kind)?;
-        if filmed.states.len() > 1 {
-            films.push(filmed);
-        }
-    }
+    let films = studies.into_iter().map(|(name, kind)| Filmed::read(&folder, name, &kind));
+    let mut films: Vec<Filmed> = films.collect::<Result<_, _>>()?;
+    films.retain(|film| film.states.len() > 1);
     if films.is_empty() {
         return Err(RunError::NothingToFilm { path: from.into() });
     }

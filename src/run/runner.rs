@@ -95,10 +95,8 @@ impl<'a> Runner<'a> {
             files::remove_drafts(&self.out.join(&study.name.0));
             if let Some((found, state)) = previous.study(self.studies.file, (&self.out, &self.belongings), study) {
                 self.studies.earlier.states.extend(state.map(|state| (found.name.clone(), state)));
-                self.studies
-                    .earlier
-                    .paths
-                    .extend(resume::paths(&self.out, study)?.map(|paths| (found.name.clone(), paths)));
+                let paths = resume::paths(&self.out, study)?;
+                self.studies.earlier.paths.extend(paths.map(|paths| (found.name.clone(), paths)));
                 self.kept.push(found.name.clone());
                 summary.studies.push(found);
             }
@@ -116,11 +114,9 @@ impl<'a> Runner<'a> {
         }
         self.take_written();
         self.ledger.begin(study, self.order[study.name.0.as_str()]);
-        match self.compute(study).and_then(|answer| self.finished(study, answer)) {
-            Ok(()) => Ok(()),
-            // the studies before this one remain recorded as finished
-            Err(error) => self.ledger.write().and(Err(error)),
-        }
+        let done = self.compute(study).and_then(|answer| self.finished(study, answer));
+        // the studies before this one remain recorded as finished
+        done.or_else(|error| self.ledger.write().and(Err(error)))
     }
 
     fn compute(&mut self, study: &StudySpec) -> Result<Answer, RunError> {

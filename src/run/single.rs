@@ -94,9 +94,7 @@ fn has_something_to_compute(file: &SceneFile) -> Result<(), RunError> {
 
 /// Checks that a scene has a study.
 pub(super) fn has_studies(file: &SceneFile) -> Result<(), RunError> {
-    if file.scene.studies.is_empty() {
-        let help = "add a [[study]], as in name = \"relaxed\", kind = \"relax\"";
-        return Err(file.error_at(0..0, "there is nothing to compute: the scene has no study", help).into());
-    }
-    Ok(())
+    let help = "add a [[study]], as in name = \"relaxed\", kind = \"relax\"";
+    let none = file.scene.studies.is_empty();
+    Ok(file.error_if(none, 0..0, "there is nothing to compute: the scene has no study", help)?)
 }

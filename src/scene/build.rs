@@ -259,10 +259,9 @@ impl<'a> Reader<'a> {
     /// Returns the angles of the sheet folded flat by its letters.
     fn flat_folded(&self, of: ElementKind, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
         let angles = self.assembly.assigned_angles();
-        if of == ElementKind::Creases && angles.iter().all(|angle| *angle == 0.0) {
-            let help = "give `edges_assignment` in the mesh, or other rest angles";
-            return Err(self.file.error_at(span, "no crease has the letter M or V", help));
-        }
+        let unfolded = of == ElementKind::Creases && angles.iter().all(|angle| *angle == 0.0);
+        let help = "give `edges_assignment` in the mesh, or other rest angles";
+        self.file.error_if(unfolded, span, "no crease has the letter M or V", help)?;
         Ok(angles)
     }
 
@@ -318,12 +317,10 @@ impl<'a> Reader<'a> {
                     locks.push((k, lock.angle.as_ref().map_or(start, |angle| angle.radians)));
                 }
             }
-            if locks.len() == before {
-                let [n1, n2] = self.tiling.cells;
-                let message = format!("no copy of the crease {} folds in a patch of {n1} x {n2} cells", lock.crease.0);
-                let help = "all of them are on its rim or beyond: lock a crease inside, or give more `cells`";
-                return Err(self.file.error_at(lock.crease.span(), message, help));
-            }
+            let [n1, n2] = self.tiling.cells;
+            let message = format!("no copy of the crease {} folds in a patch of {n1} x {n2} cells", lock.crease.0);
+            let help = "all of them are on its rim or beyond: lock a crease inside, or give more `cells`";
+            self.file.error_if(locks.len() == before, lock.crease.span(), message, help)?;
         }
         Ok(locks)
     }

@@ -134,10 +134,9 @@ fn locks(file: &SceneFile) -> Checked {
 fn fractions(file: &SceneFile) -> Checked {
     for CreasesSpec { rest, fraction, .. } in file.scene.energy.hinges().into_iter().flatten() {
         let Some(fraction) = fraction else { continue };
-        if !matches!(rest.as_deref(), Some(RestSpec::Target | RestSpec::Assigned | RestSpec::Letters(_))) {
-            let help = "it belongs to rest = \"target\", \"assigned\" or { M = .., V = .. }; leave it out otherwise";
-            return Err(file.error_at(fraction.span(), "`fraction` is given without angles of a folded sheet", help));
-        }
+        let folded = matches!(rest.as_deref(), Some(RestSpec::Target | RestSpec::Assigned | RestSpec::Letters(_)));
+        let help = "it belongs to rest = \"target\", \"assigned\" or { M = .., V = .. }; leave it out otherwise";
+        file.error_if(!folded, fraction.span(), "`fraction` is given without angles of a folded sheet", help)?;
     }
     Ok(())
 }
@@ -186,11 +185,9 @@ fn place(
     cell: Option<&Located<CellIndex>>,
 ) -> Checked {
     let sheet = &file.scene.sheet;
-    if sheet.domain() != DomainSpec::Patch {
-        let span = vertex.map(Located::span).or(vertices.map(Located::span)).unwrap_or(0..0);
-        let help = "loads, pins and springs need domain = \"patch\"";
-        return Err(file.error_at(span, format!("{what} on a {}", domain_name(file)), help));
-    }
+    let (periodic, help) = (sheet.domain() != DomainSpec::Patch, "loads, pins and springs need domain = \"patch\"");
+    let span = vertex.map(Located::span).or(vertices.map(Located::span)).unwrap_or(0..0);
+    file.error_if(periodic, span, format!("{what} on a {}", domain_name(file)), help)?;
     let cells = sheet.cells();
     let outside = cell.filter(|cell| cell.0[0] >= cells[0] || cell.0[1] >= cells[1]);
     let Some(cell) = outside else { return Ok(()) };
@@ -333,11 +330,7 @@ fn of_rigid(file: &SceneFile, wells: &WellsSpec) -> Checked {
 }
 
 fn not_empty(file: &SceneFile, landscape: &LandscapeSpec) -> Checked {
-    if landscape.modes.is_empty() {
-        return Err(file.error_at(landscape.modes.span(), "no modes", "give at least one, as in [[1, 0, 0]]"));
-    }
-    if landscape.amplitudes.is_empty() {
-        return Err(file.error_at(landscape.amplitudes.span(), "no amplitudes", "give at least one, as in [0.01]"));
-    }
-    Ok(())
+    let LandscapeSpec { modes, amplitudes, .. } = landscape;
+    file.error_if(modes.is_empty(), modes.span(), "no modes", "give at least one, as in [[1, 0, 0]]")?;
+    file.error_if(amplitudes.is_empty(), amplitudes.span(), "no amplitudes", "give at least one, as in [0.01]")
 }

@@ -322,12 +322,9 @@ fn lock(
     }
     one_hinge(file, assembly.sheet(), crease)?;
     if locks.iter().all(|(_, angle)| *angle == spec.to.0[0].radians) {
+        let message = format!("the crease is locked at {} already", spec.to.0[0].radians);
         let help = "give another angle, in radians, to which the lock is driven";
-        return Err(file.error_at(
-            spec.to.span(),
-            format!("the crease is locked at {} already", spec.to.0[0].radians),
-            help,
-        ));
+        return Err(file.error_at(spec.to.span(), message, help));
     }
     Ok(Driven::Lock(locks.iter().map(|(edge, _)| *edge).collect()))
 }

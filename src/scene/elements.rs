@@ -35,11 +35,7 @@ impl ElementKind {
 
     /// Whether an edge of this kind has an element.
     pub(super) fn is_at(self, kind: EdgeKind) -> bool {
-        match self {
-            Self::Bars => true,
-            Self::Creases => kind == EdgeKind::Crease,
-            Self::Facets => kind == EdgeKind::Facet,
-        }
+        matches!((self, kind), (Self::Bars, _) | (Self::Creases, EdgeKind::Crease) | (Self::Facets, EdgeKind::Facet))
     }
 
     /// Returns the letters of which another one counts as well if a table does not give them: a diagonal is flat, and a

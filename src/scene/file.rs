@@ -111,6 +111,17 @@ impl SceneFile {
         error_at(&self.text, span, message.into(), Some(help.into()))
     }
 
+    /// Fails with the error of [`Self::error_at`] where something is wrong.
+    pub(crate) fn error_if(
+        &self,
+        wrong: bool,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Result<(), SceneError> {
+        if wrong { Err(self.error_at(span, message, help)) } else { Ok(()) }
+    }
+
     /// Returns the error of a file that is not there, with the name of a file beside it that may be meant.
     pub(super) fn no_file(&self, span: Range<usize>, path: &Path) -> SceneError {
         let beside = fs::read_dir(Path::new(".").join(path.parent().unwrap_or(path))).into_iter().flatten().flatten();

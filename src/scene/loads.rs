@@ -110,9 +110,8 @@ fn turning(
 
 /// Returns the weight of every vertex.
 fn weights(file: &SceneFile, assembly: &Assembly, gravity: &Located<Triple>) -> Result<Vec<(usize, Vec3)>, SceneError> {
-    if *assembly.domain() != Domain::Patch {
-        return Err(file.error_at(gravity.span(), "only a patch has weight", "give domain = \"patch\""));
-    }
+    let is_patch = *assembly.domain() == Domain::Patch;
+    file.error_if(!is_patch, gravity.span(), "only a patch has weight", "give domain = \"patch\"")?;
     let Some(masses) = assembly.masses() else {
         let help = "give mass = { area = 1.0 }, a mass per area, or { vertex = 1.0 }";
         return Err(file.error_at(gravity.span(), "the sheet has weight and no mass", help));
@@ -147,10 +146,9 @@ fn pressure(file: &SceneFile, assembly: &Assembly, spec: &Located<PressureSpec>)
         let help = format!("the faces of the mesh are 0 to {}", count - 1);
         return Err(file.error_at(span(), format!("there is no face {face}"), help));
     }
-    if spec.faces.as_ref().is_some_and(|faces| faces.is_empty()) {
-        let help = "name faces that close, or leave the key out: all faces have the pressure then";
-        return Err(file.error_at(span(), "the pressure is on no face", help));
-    }
+    let on_none = spec.faces.as_ref().is_some_and(|faces| faces.is_empty());
+    let help = "name faces that close, or leave the key out: all faces have the pressure then";
+    file.error_if(on_none, span(), "the pressure is on no face", help)?;
     let (value, name) = match (&spec.value, &spec.name) {
         (None, None) => {
             let help = "give value = .., or name = \"..\" for a drive to refer to";

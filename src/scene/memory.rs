@@ -51,9 +51,7 @@ pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
     let vertices = cells.iter().fold(sheet.vertices.len() as f64, |product, &n| product * n as f64);
     let whose = if spec.is_one_cell() { "the pictures have" } else { "the model has" };
     let what = format!("{whose} {} vertices", shown(vertices));
-    if vertices > MOST_VERTICES {
-        return Err(file.error_at(span(), what, format!("at most {MOST_VERTICES} can be indexed")));
-    }
+    file.error_if(vertices > MOST_VERTICES, span(), &what, format!("at most {MOST_VERTICES} can be indexed"))?;
     let relaxed = !spec.is_one_cell() && file.scene.studies.iter().any(|study| relaxes(&study.kind));
     let each = TILED_VERTEX + if relaxed { RELAXED_VERTEX } else { 0.0 };
     let free = free_memory();

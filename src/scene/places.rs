@@ -51,9 +51,7 @@ impl<'a> Places<'a> {
             VertexSet::Where(values) => self.at(values),
             VertexSet::Box(corners) => self.within(corners),
         };
-        if found.is_empty() {
-            return Err(self.file.error_at(span(), "this set has no vertices", self.extremes()));
-        }
+        self.file.error_if(found.is_empty(), span(), "this set has no vertices", self.extremes())?;
         let Some(vertex) = twice(&found) else { return Ok(found) };
         let message = format!("{} is listed twice", self.described(vertex));
         Err(self.file.error_at(span(), message, "name every vertex once"))
@@ -174,10 +172,8 @@ impl<'a> Places<'a> {
                 return Err(self.file.error_at(vertices.span(), "a spring is between two vertices", help));
             };
             let drawn = (self.tiling.positions[b] - self.tiling.positions[a]).norm();
-            if drawn <= self.tolerance {
-                let help = "two vertices in one place have no direction between them";
-                return Err(self.file.error_at(vertices.span(), "the spring has no length", help));
-            }
+            let help = "two vertices in one place have no direction between them";
+            self.file.error_if(drawn <= self.tolerance, vertices.span(), "the spring has no length", help)?;
             let rest = rest.map_or(drawn, |rest| rest.0);
             springs.push(([site(a), site(b)], Spring { stiffness: stiffness.0, rest }));
         }
@@ -193,11 +189,9 @@ impl<'a> Places<'a> {
             let what = ("the pin", pin.span());
             let on = self.of_entry(what, vertex.as_ref(), cell.as_ref(), vertices.as_ref())?;
             if let Some(normal) = normal {
-                if axes.is_some() {
-                    let help =
-                        "`axes` names coordinates that stay, `normal` the one direction along which nothing moves";
-                    return Err(self.file.error_at(normal.span(), "the pin has both `axes` and `normal`", help));
-                }
+                let help = "`axes` names coordinates that stay, `normal` the one direction along which nothing moves";
+                let message = "the pin has both `axes` and `normal`";
+                self.file.error_if(axes.is_some(), normal.span(), message, help)?;
                 let direction = Vec3::from(normal.0).try_normalize(0.0).ok_or_else(|| {
                     let help = "give the direction along which the vertices keep their coordinate, as in [0, 0, 1]";
                     self.file.error_at(normal.span(), "the normal is zero", help)

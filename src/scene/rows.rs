@@ -100,10 +100,9 @@ fn parse(text: &str, value: Column) -> Result<Vec<TableRow>, Fault> {
     let mut seen = HashMap::new();
     for (line, text) in lines {
         let row = row(text, (columns, value), line).map_err(|fault| (line, fault))?;
-        if let Some(&first) = seen.get(&(row.cell, row.key)) {
+        if let Some(first) = seen.insert((row.cell, row.key), line) {
             return Err((line, TableFault::Twice { first }));
         }
-        seen.insert((row.cell, row.key), line);
         rows.push(row);
     }
     if rows.is_empty() { Err((at, TableFault::Empty)) } else { Ok(rows) }

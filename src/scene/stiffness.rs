@@ -31,28 +31,22 @@ pub enum StiffnessSpec {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "StiffnessByLetter")]
+#[allow(non_snake_case)] // the letters as a scene writes them
 struct Letters {
     /// Mountains.
-    #[serde(rename = "M")]
-    mountain: Option<Located<Stiffness>>,
+    M: Option<Located<Stiffness>>,
     /// Valleys.
-    #[serde(rename = "V")]
-    valley: Option<Located<Stiffness>>,
+    V: Option<Located<Stiffness>>,
     /// Creases that are flat; diagonals of polygons where `J` is not given.
-    #[serde(rename = "F")]
-    flat: Option<Located<Stiffness>>,
+    F: Option<Located<Stiffness>>,
     /// Creases of which nothing is said.
-    #[serde(rename = "U")]
-    unassigned: Option<Located<Stiffness>>,
+    U: Option<Located<Stiffness>>,
     /// Bars on the rim.
-    #[serde(rename = "B")]
-    boundary: Option<Located<Stiffness>>,
+    B: Option<Located<Stiffness>>,
     /// Bars along cuts; where it is not given, `B` counts.
-    #[serde(rename = "C")]
-    cut: Option<Located<Stiffness>>,
+    C: Option<Located<Stiffness>>,
     /// Diagonals of polygons.
-    #[serde(rename = "J")]
-    join: Option<Located<Stiffness>>,
+    J: Option<Located<Stiffness>>,
     /// A table with a row per element; not together with letters.
     #[schemars(skip)]
     file: Option<Located<PathBuf>>,
@@ -61,13 +55,13 @@ struct Letters {
 impl Letters {
     fn into_spec(self) -> Result<StiffnessSpec, &'static str> {
         let given = [
-            (Assignment::Mountain, self.mountain),
-            (Assignment::Valley, self.valley),
-            (Assignment::Flat, self.flat),
-            (Assignment::Unassigned, self.unassigned),
-            (Assignment::Boundary, self.boundary),
-            (Assignment::Cut, self.cut),
-            (Assignment::Join, self.join),
+            (Assignment::Mountain, self.M),
+            (Assignment::Valley, self.V),
+            (Assignment::Flat, self.F),
+            (Assignment::Unassigned, self.U),
+            (Assignment::Boundary, self.B),
+            (Assignment::Cut, self.C),
+            (Assignment::Join, self.J),
         ];
         let letters: BTreeMap<Assignment, f64> =
             given.into_iter().filter_map(|(letter, stiffness)| Some((letter, stiffness?.0))).collect();

@@ -178,11 +178,8 @@ fn different_keys(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
         if first[..k].iter().any(|(_, other)| setting.same_key(other)) {
             let path = setting.to_string();
             let path = path.split('=').next().unwrap_or_default().trim();
-            return Err(file.error_at(
-                axis.span.clone(),
-                format!("two axes set the key `{path}`"),
-                "leave out one of them",
-            ));
+            let message = format!("two axes set the key `{path}`");
+            return Err(file.error_at(axis.span.clone(), message, "leave out one of them"));
         }
     }
     Ok(())

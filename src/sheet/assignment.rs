@@ -43,6 +43,15 @@ impl Assignment {
         if angle > 0.0 { Self::Valley } else { Self::Mountain }
     }
 
+    /// Returns the letter that the edge has from the other side of the sheet.
+    pub(crate) fn from_behind(self) -> Self {
+        match self {
+            Self::Mountain => Self::Valley,
+            Self::Valley => Self::Mountain,
+            other => other,
+        }
+    }
+
     /// Returns the fold angle of an edge with this letter in the sheet folded flat, in radians: -pi for a mountain, pi
     /// for a valley, 0 for an edge that does not fold; `None` if the letter says nothing about it.
     pub fn flat_folded_angle(self) -> Option<f64> {

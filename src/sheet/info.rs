@@ -111,7 +111,8 @@ impl Info {
         let free = 3 * sheet.vertices.len() as i64 - edges as i64;
         let bars_alone = sheet.bars_alone().count();
         let lengths = || sheet.edges.iter().map(|edge| sheet.length(edge.key));
-        let (defect, thin) = (largest_angle_defect(sheet), thin_triangles(sheet));
+        let defect = angle_defects(sheet).fold(0.0, |largest: f64, (_, defect)| largest.max(defect.abs()));
+        let thin = thin_triangles(sheet);
         Self {
             title: sheet.title.clone(),
             periodic: sheet.is_repeated(),
@@ -183,10 +184,6 @@ fn quality([a, b, c]: [Vec3; 3]) -> f64 {
     let doubled = (b - a).cross(&(c - a)).norm();
     let squares = (b - a).norm_squared() + (c - b).norm_squared() + (a - c).norm_squared();
     2.0 * 3.0f64.sqrt() * doubled / squares
-}
-
-fn largest_angle_defect(sheet: &Sheet) -> f64 {
-    angle_defects(sheet).fold(0.0, |largest, (_, defect)| largest.max(defect.abs()))
 }
 
 /// Returns the inner vertices, each with its angle defect, a full turn less the sum of the angles of its faces, in

@@ -141,19 +141,13 @@ impl Sheet {
         let mut outlines = self.polygons.clone();
         for panel in &self.panels {
             let triangles = panel.triangles.map(|triangle| &self.triangles[triangle]);
-            let frames = triangles.map(|triangle| {
-                triangle
-                    .corners
-                    .iter()
-                    .find(|corner| corner.vertex == panel.centre)
-                    .map_or([0, 0], |corner| corner.shift)
-            });
+            let is_centre = |corner: &&Corner| corner.vertex == panel.centre;
+            let frames = triangles.map(|t| t.corners.iter().find(is_centre).map_or([0, 0], |corner| corner.shift));
             for (triangle, [n1, n2]) in triangles.iter().zip(frames) {
-                let in_frame = triangles
-                    .iter()
-                    .zip(frames)
-                    .flat_map(|(other, [m1, m2])| other.corners.map(|corner| corner.translated([n1 - m1, n2 - m2])));
-                outlines[triangle.polygon].extend(in_frame);
+                for (other, [m1, m2]) in triangles.iter().zip(frames) {
+                    let in_frame = other.corners.map(|corner| corner.translated([n1 - m1, n2 - m2]));
+                    outlines[triangle.polygon].extend(in_frame);
+                }
             }
         }
         outlines

@@ -81,15 +81,9 @@ type LatticeMap = [[i32; 2]; 2];
 pub fn symmetries(sheet: &Sheet) -> Vec<Symmetry> {
     let Some(lattice) = sheet.lattice.filter(|_| sheet.is_surface()) else { return vec![] };
     let frame = Frame::new(sheet, lattice);
-    let mut found = Vec::new();
-    for map in frame.lattice_maps() {
-        for turns_over in [false, true] {
-            if map != IDENTITY || turns_over {
-                found.extend(frame.symmetry(map, turns_over));
-            }
-        }
-    }
-    found
+    let maps = frame.lattice_maps().into_iter().flat_map(|map| [(map, false), (map, true)]);
+    let maps = maps.filter(|map| *map != (IDENTITY, false));
+    maps.filter_map(|(map, turns_over)| frame.symmetry(map, turns_over)).collect()
 }
 
 const IDENTITY: LatticeMap = [[1, 0], [0, 1]];

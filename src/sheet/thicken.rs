@@ -51,15 +51,9 @@ pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Solid, Defect> {
     let offsets = offsets(&coords, &triangles);
     let moved = |half: f64| coords.iter().zip(&offsets).map(move |(x, offset)| x + offset * half).collect::<Vec<_>>();
     let count = coords.len();
-    let mut faces: Vec<Vec<usize>> = Vec::with_capacity(2 * triangles.len());
-    for &[a, b, c] in &triangles {
-        faces.push(vec![a, b, c]);
-        faces.push(vec![c + count, b + count, a + count]);
-    }
-    for [a, b] in open_sides(&triangles) {
-        faces.push(vec![a + count, b + count, b]);
-        faces.push(vec![a + count, b, a]);
-    }
+    let layers = triangles.iter().flat_map(|&[a, b, c]| [[a, b, c], [c + count, b + count, a + count]]);
+    let rim = open_sides(&triangles).into_iter().flat_map(|[a, b]| [[a + count, b + count, b], [a + count, b, a]]);
+    let faces = layers.chain(rim).map(Vec::from).collect();
     let height = |corners: &[usize; 3]| {
         let normal = normal(corners.map(|point| coords[point]));
         corners.map(|point| offsets[point].dot(&normal)).into_iter().fold(1.0, f64::min)

@@ -108,11 +108,8 @@ struct CellGrid {
 
 impl CellGrid {
     fn positions(&self, sheet: &Sheet) -> Vec<Vec3> {
-        let mut positions = Vec::with_capacity(self.cells[0] * self.cells[1] * self.vertices);
-        for cell in self.all_cells() {
-            positions.extend((0..self.vertices).map(|vertex| sheet.position(Corner { vertex, shift: cell })));
-        }
-        positions
+        let of_cell = |shift| (0..self.vertices).map(move |vertex| sheet.position(Corner { vertex, shift }));
+        self.all_cells().flat_map(of_cell).collect()
     }
 
     fn all_cells(&self) -> impl Iterator<Item = [i32; 2]> + use<> {

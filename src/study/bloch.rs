@@ -41,9 +41,7 @@ const DRAWN: usize = 240;
 /// Checks that the sheet has a lattice, and as many constraints as coordinates unless bands alone are asked for.
 pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
     let (file, assembly) = (context.file, context.assembly);
-    if let Some(start) = &spec.start {
-        check_start(context, start)?;
-    }
+    spec.start.as_ref().map_or(Ok(()), |start| check_start(context, start))?;
     let stiffness = context.assembly.terms().facets.as_ref().map(|facets| &facets.stiffness);
     if stiffness.is_some_and(|stiffness| stiffness.has_rigid() && !stiffness.is_rigid()) {
         let message = "spatially varying modes are those of polygons that are all rigid or all soft";

@@ -151,19 +151,19 @@ impl Along {
     }
 
     fn name(&self) -> String {
-        match (&self.mode, self.curvature) {
-            (Mode::Wave(wave), _) => format!("{{ wave = {:?} }}", *wave.wave),
-            (Mode::Rates(name), _) => format!("{{ rates = {:?} }}", *name.rates),
-            (Mode::Curvature(curvature), _) => format!("{curvature:?}"),
+        match &self.mode {
+            Mode::Wave(wave) => format!("{{ wave = {:?} }}", *wave.wave),
+            Mode::Rates(name) => format!("{{ rates = {:?} }}", *name.rates),
+            Mode::Curvature(curvature) => format!("{curvature:?}"),
         }
     }
 
     /// Returns the name of the mode for the legend.
     fn legend(&self) -> String {
-        match (&self.mode, self.curvature) {
-            (Mode::Wave(wave), _) => format!("wave ({}, {})", wave.wave[0], wave.wave[1]),
-            (Mode::Rates(name), _) => format!("rates of {:?}", *name.rates),
-            (Mode::Curvature([k11, k22, k12]), _) => {
+        match &self.mode {
+            Mode::Wave(wave) => format!("wave ({}, {})", wave.wave[0], wave.wave[1]),
+            Mode::Rates(name) => format!("rates of {:?}", *name.rates),
+            Mode::Curvature([k11, k22, k12]) => {
                 format!("k\u{2081}\u{2081}, k\u{2082}\u{2082}, k\u{2081}\u{2082} = {k11}, {k22}, {k12}")
                     .replace('-', "\u{2212}")
             }
@@ -200,19 +200,13 @@ impl Along {
         worst(self.samples().iter().map(of))
     }
 
-    /// Returns the amplitudes and energies of all samples.
-    fn energies(&self) -> Vec<(f64, f64)> {
-        self.samples().iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
-    }
-
     fn summarized(&self, amplitudes: &[f64]) -> ModeLandscape {
-        let energies = self.energies();
         let sample = |(k, amplitude): (usize, &f64)| SampleSummary {
             amplitude: *amplitude,
-            energy: energies.get(k).map(|(_, energy)| *energy),
+            energy: self.samples().get(k).map(|sample| sample.relaxed.state.total()),
             below_rounding: self.samples().get(k).is_some_and(Sample::below_rounding),
             other_minimum: self.samples().get(k).is_some_and(|sample| sample.other_minimum),
-            converged: k < energies.len(),
+            converged: k < self.samples().len(),
         };
         let fitted = self.fitted();
         let (exponent, coefficient) = (fit::exponent(&fitted), fit::coefficient(&fitted));

@@ -1,7 +1,7 @@
 //! The page of a study, made of its other files: those are written too only where the study asks for them.
 
 use super::{Answer, Context};
-use crate::output::artifact::Artifact;
+use crate::output::artifact::Artifact::{self, Grid, Net, Page, Script, Series, State, Surface, Svg, Table};
 use crate::output::html::{Content, StudyFiles, page};
 use crate::scene::spec::Draw;
 
@@ -15,20 +15,15 @@ pub(crate) fn add(answer: &mut Answer, context: &Context<'_>) {
     let study = StudyFiles::new(summary.unwrap_or_default(), shown);
     let text = page(&context.file.title(), &[study]);
     answer.files.retain(|(_, artifact)| draw(artifact).is_none_or(|draw| context.study.draw.contains(&draw)));
-    answer.add(format!("{}.html", context.name()), Artifact::Page(text));
+    answer.add(format!("{}.html", context.name()), Page(text));
 }
 
 /// Returns the kind of picture that a file is; `None` for tables.
 fn draw(artifact: &Artifact) -> Option<Draw> {
     match artifact {
-        Artifact::Table(_) => None,
-        Artifact::State(_)
-        | Artifact::Surface(_)
-        | Artifact::Net(_)
-        | Artifact::Grid(_)
-        | Artifact::Script(_)
-        | Artifact::Series(_) => Some(Draw::Vtk),
-        Artifact::Svg(_) => Some(Draw::Svg),
-        Artifact::Page(_) => Some(Draw::Html),
+        Table(_) => None,
+        State(_) | Surface(_) | Net(_) | Grid(_) | Script(_) | Series(_) => Some(Draw::Vtk),
+        Svg(_) => Some(Draw::Svg),
+        Page(_) => Some(Draw::Html),
     }
 }

@@ -33,12 +33,9 @@ pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), St
         return refuse("the linear response is that of a periodic sheet", help);
     }
     let Some(start) = spec.start.as_ref().filter(|start| !matches!(***start, StartSpec::Drawn)) else { return Ok(()) };
-    if assembly.tiling().cells != [1, 1] {
-        let help = "give cells = [1, 1], or domain = \"screw\"";
-        let message = "the linear response is that of a state of one cell, and cells of a larger torus may differ";
-        return Err(context.file.error_at(start.span(), message, help).into());
-    }
-    Ok(())
+    let help = "give cells = [1, 1], or domain = \"screw\"";
+    let message = "the linear response is that of a state of one cell, and cells of a larger torus may differ";
+    Ok(context.file.error_if(assembly.tiling().cells != [1, 1], start.span(), message, help)?)
 }
 
 /// Computes the response of the state that the scene names.

@@ -4,7 +4,9 @@ use super::{Context, StudyError};
 use crate::model::Domain;
 use crate::scene::Located;
 use crate::scene::drives::supported;
-use crate::scene::spec::StudyKind;
+use crate::scene::spec::StudyKind::{
+    Bloch, Branches, Fold, Landscape, Modes, Path, Relax, Response, Surface, Trace, Wells,
+};
 use crate::scene::values::Positive;
 
 /// Help for a study that does not support stiffnesses and rest values of single elements.
@@ -18,7 +20,7 @@ const MOTIONS_OF_A_TUBE: &str = "use domain = \"screw\"; `modes` counts the moti
 /// springs between vertices are, which relaxations, paths and wells alone know.
 pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
-    let knows_parts = matches!(*context.study.kind, StudyKind::Modes(_));
+    let knows_parts = matches!(*context.study.kind, Modes(_));
     let what = match terms.own_names().first() {
         _ if !terms.parts.is_empty() && !knows_parts => "rigid parts, which [[part]] and [[tie]] give".to_owned(),
         _ if !terms.guides.is_empty() => "pins along a direction, the key `normal` of [[pin]]".to_owned(),
@@ -51,7 +53,7 @@ pub(super) fn small_tolerance(context: &Context<'_>, given: Option<&Located<Posi
 
 /// Checks that terms of one's own keep their energy where the sheet moves as a whole, but along what a driven path moves.
 pub(super) fn own_terms(context: &Context<'_>) -> Result<(), StudyError> {
-    let drives = matches!(*context.study.kind, StudyKind::Path(_));
+    let drives = matches!(*context.study.kind, Path(_));
     let driven = if drives { supported(context.file, context.assembly)? } else { vec![] };
     let help =
         "pin vertices where the term pulls the sheet, or let its energy depend on where vertices are to each other";
@@ -105,29 +107,22 @@ pub(super) fn drawn_rigid_hinges(context: &Context<'_>, what: &str) -> Result<()
 pub(super) fn of_a_tube(context: &Context<'_>) -> Result<(), StudyError> {
     let Domain::Tube { .. } = context.assembly.domain() else { return Ok(()) };
     let (message, help) = match &*context.study.kind {
-        StudyKind::Wells(wells) if wells.rigid => {
-            ("the rigid states of a closed tube are single points", "leave out `rigid`")
-        }
-        StudyKind::Relax(_)
-        | StudyKind::Modes(_)
-        | StudyKind::Trace(_)
-        | StudyKind::Wells(_)
-        | StudyKind::Path(_)
-        | StudyKind::Fold(_) => return Ok(()),
-        StudyKind::Surface(_) => (
+        Wells(wells) if wells.rigid => ("the rigid states of a closed tube are single points", "leave out `rigid`"),
+        Relax(_) | Modes(_) | Trace(_) | Wells(_) | Path(_) | Fold(_) => return Ok(()),
+        Surface(_) => (
             "the folded states of a tube are no surface: its closing conditions leave one motion or none",
             MOTIONS_OF_A_TUBE,
         ),
-        StudyKind::Branches(_) => ("branches leave the drawn state, and a tube is another one", MOTIONS_OF_A_TUBE),
-        StudyKind::Landscape(_) => (
+        Branches(_) => ("branches leave the drawn state, and a tube is another one", MOTIONS_OF_A_TUBE),
+        Landscape(_) => (
             "a landscape is the energy along folding modes of a periodic sheet, and a tube has none",
             "use domain = \"patch\" or \"torus\"",
         ),
-        StudyKind::Bloch(_) => (
+        Bloch(_) => (
             "wavenumbers around a closed tube are whole numbers, and bloch asks for all",
             "use domain = \"screw\", and start from a relaxation or a trajectory",
         ),
-        StudyKind::Response(_) => {
+        Response(_) => {
             ("strains and curvatures of a closed tube are fixed by its seam", "use domain = \"screw\" or \"torus\"")
         }
     };

@@ -37,9 +37,7 @@ const OBSERVED: usize = 256;
 /// Checks that the sheet is a screw: surfaces are drawn in the space of lattice strains, which other domains do not
 /// have.
 pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), StudyError> {
-    if let Some(resolution) = &spec.resolution {
-        check_resolution(context.file, resolution)?;
-    }
+    check_resolution(context.file, spec.resolution.as_ref())?;
     if *context.assembly.domain() == Domain::Screw {
         supported::one_stiffness_each(context, "surfaces of folded states")?;
         return supported::drawn_lengths(context, "surfaces of folded states");
@@ -49,10 +47,8 @@ pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), Stu
 }
 
 /// Returns an error if the resolution is so fine that states could not be told from each other.
-pub(crate) fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result<(), StudyError> {
-    if resolution.0 <= MOST_RESOLUTION {
-        return Ok(());
-    }
+pub(crate) fn check_resolution(file: &SceneFile, given: Option<&Located<Count>>) -> Result<(), StudyError> {
+    let Some(resolution) = given.filter(|given| given.0 > MOST_RESOLUTION) else { return Ok(()) };
     let message = format!("a resolution of {} is finer than closure is solved", resolution.0);
     let help = format!("choose at most {MOST_RESOLUTION}; 32 states over a whole turn are usual");
     Err(file.error_at(resolution.span(), &message, &help).into())

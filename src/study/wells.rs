@@ -35,9 +35,7 @@ const RESOLUTION: u32 = 64;
 pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     start::check(context, spec.start.as_ref())?;
-    if let Some(resolution) = &spec.resolution {
-        check_resolution(context.file, resolution)?;
-    }
+    check_resolution(context.file, spec.resolution.as_ref())?;
     let terms = context.assembly.terms();
     let elastic = match (&terms.bars, &terms.creases) {
         (bars, Some(creases)) if bars.is_some() || terms.has_membranes() => !creases.stiffness.is_rigid(),
@@ -298,18 +296,16 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     let name = context.name();
     let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();
     let mut finder = SelfIntersection::new(context.assembly);
-    let mut shown = |state: &State, residuals: [f64; 2]| {
+    let shown = |(state, residuals): (&State, [f64; 2])| {
         let state = states::with_all_angles(context, state);
         let marks = finder.marks(context.assembly.drawn(), &state);
         Shown { state, residuals: Some(residuals), marks: Some(marks) }
     };
-    let mut all = Vec::new();
-    for relaxed in found.wells.iter().map(|well| &well.settled.relaxed) {
-        all.push(shown(&relaxed.state, [relaxed.residual_force, relaxed.residual_length]));
-    }
-    for pass in passes.iter().map(|barrier| &barrier.pass) {
-        all.push(shown(&pass.state, [pass.residual_force, pass.residual_length]));
-    }
+    let of_wells = found.wells.iter().map(|well| &well.settled.relaxed);
+    let of_wells = of_wells.map(|found| (&found.state, [found.residual_force, found.residual_length]));
+    let of_passes = passes.iter().map(|barrier| &barrier.pass);
+    let of_passes = of_passes.map(|pass| (&pass.state, [pass.residual_force, pass.residual_length]));
+    let all: Vec<Shown> = of_wells.chain(of_passes).map(shown).collect();
     answer.add(format!("{name}.csv"), states::table(context, all.iter().enumerate()));
     answer.add(format!("{name}-barriers.csv"), heights(&passes));
     states::add(answer, context, all.iter().enumerate().map(|(k, shown)| (k, k, shown)), None);

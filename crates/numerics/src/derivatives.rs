@@ -104,14 +104,11 @@ fn scale(point: &[f64]) -> f64 {
 
 fn judge(estimate: Estimate, found: f64, allowed: f64, [row, column]: [usize; 2]) -> Result<(), DerivativeError> {
     let Estimate { value: expected, error } = estimate;
-    let (resolved, agrees) = (error <= allowed, (found - expected).abs() <= allowed);
-    if !resolved {
-        return Err(DerivativeError::Unresolved { row, column, error, allowed });
+    match (error <= allowed, (found - expected).abs() <= allowed) {
+        (false, _) => Err(DerivativeError::Unresolved { row, column, error, allowed }),
+        (true, false) => Err(DerivativeError::Entry { row, column, expected, found, allowed }),
+        (true, true) => Ok(()),
     }
-    if !agrees {
-        return Err(DerivativeError::Entry { row, column, expected, found, allowed });
-    }
-    Ok(())
 }
 
 /// The derivative of all components along one variable.

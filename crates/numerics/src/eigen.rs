@@ -90,17 +90,8 @@ pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     let (mut values, mut vectors) = (vec![0.0; count], Mat::<f64>::zeros(size, count));
     let start = Col::<f64>::from_fn(size, |k| 1.0 + ((k as f64) * 0.618_033_988_75).fract());
     let iterate = AssertUnwindSafe(|| {
-        let (vectors, stack) = (vectors.as_mut(), MemStack::new(&mut memory));
-        partial_self_adjoint_eigen(
-            vectors,
-            &mut values,
-            &operator,
-            start.as_ref(),
-            RELATIVE_RESIDUAL,
-            Par::Seq,
-            stack,
-            params,
-        )
+        let (vectors, start, stack) = (vectors.as_mut(), start.as_ref(), MemStack::new(&mut memory));
+        partial_self_adjoint_eigen(vectors, &mut values, &operator, start, RELATIVE_RESIDUAL, Par::Seq, stack, params)
     });
     let found = match catch_unwind(iterate) {
         Ok(found) => found.n_converged_eigen,

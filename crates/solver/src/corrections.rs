@@ -5,7 +5,7 @@
 //! system that are softer than the rounding errors of a factorization cost a few corrections and do not hold up the
 //! rest.
 
-use foldwell_numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
+use foldwell_numerics::vector::{add_scaled, dot_blocked, larger, moved, norm_blocked};
 
 /// Ratio of successive residuals above which another correction is not worth a solve.
 pub const IMPATIENT: f64 = 0.95;
@@ -105,8 +105,7 @@ impl Pair {
 
     /// The difference to another vector.
     pub fn minus(&self, other: &Self) -> Self {
-        let minus = |v: &[f64], w: &[f64]| v.iter().zip(w).map(|(v, w)| v - w).collect();
-        Self(minus(&self.0, &other.0), minus(&self.1, &other.1))
+        Self(moved(&self.0, -1.0, &other.0), moved(&self.1, -1.0, &other.1))
     }
 
     /// The vector with its two block rows multiplied by these factors.

@@ -72,8 +72,11 @@ pub struct KktSystem {
     compliance: Vec<f64>,
     /// The Hessian with its shift; empty where it has none.
     shifted: Vec<f64>,
-    values: Vec<f64>,
-    weights: Vec<f64>,
+    /// Entries of the matrix that was factored last, in the pattern of the linearization: its lower triangle, by
+    /// columns.
+    pub values: Vec<f64>,
+    /// Weights of the stiff measures in the matrix that was factored last.
+    pub weights: Vec<f64>,
     /// Gradients of the stiff measures where it was factored.
     jacobian: Vec<f64>,
     /// Number of factorizations made.
@@ -128,17 +131,6 @@ impl KktSystem {
         }
         self.add_weighted_measures(at, compliance, 1.0);
         self.factor_filled(at, 1.0 + shift)
-    }
-
-    /// Entries of the matrix that was factored last, in the pattern of the linearization: its lower triangle, by
-    /// columns.
-    pub fn entries(&self) -> &[f64] {
-        &self.values
-    }
-
-    /// Weights of the stiff measures in the matrix that was factored last.
-    pub fn weights(&self) -> &[f64] {
-        &self.weights
     }
 
     /// Count of numbers in the factor.
@@ -287,11 +279,11 @@ fn pull(at: &Linearization, tension: &[f64]) -> f64 {
     pulls.map(|pull| pull * pull).sum::<f64>().sqrt()
 }
 
-fn divided(v: &[f64], sizes: &[f64]) -> Vec<f64> {
+pub(super) fn divided(v: &[f64], sizes: &[f64]) -> Vec<f64> {
     v.iter().zip(sizes).map(|(v, size)| v / size).collect()
 }
 
-fn multiplied(v: &[f64], sizes: &[f64]) -> Vec<f64> {
+pub(super) fn multiplied(v: &[f64], sizes: &[f64]) -> Vec<f64> {
     v.iter().zip(sizes).map(|(v, size)| v * size).collect()
 }
 

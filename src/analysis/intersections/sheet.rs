@@ -93,9 +93,6 @@ fn hinges(view: &ShownCells) -> Vec<(usize, [usize; 2])> {
 }
 
 fn mean_edge(sheet: &Sheet, patch: &Tiling) -> f64 {
-    let length = |edge: usize| {
-        let [i, j] = sheet.edges[edge].key.ends().map(|end| sheet.position(end));
-        (i - j).norm()
-    };
-    patch.edges.iter().map(|edge| length(edge.edge)).sum::<f64>() / patch.edges.len().max(1) as f64
+    let lengths = patch.edges.iter().map(|edge| sheet.length(sheet.edges[edge.edge].key));
+    lengths.sum::<f64>() / patch.edges.len().max(1) as f64
 }

@@ -174,8 +174,5 @@ fn across(basis: &DenseMatrix, locked: &[usize]) -> Result<DenseMatrix, Landscap
     let (edges, modes) = basis.shape();
     let mut held = basis.clone().resize_horizontally(modes + locked.len(), 0.0);
     locked.iter().enumerate().for_each(|(k, &edge)| held[(edge, modes + k)] = 1.0);
-    if held.ncols() == edges {
-        return Ok(DenseMatrix::zeros(edges, 0));
-    }
-    Ok(null_space(&held.transpose())?.basis)
+    if held.ncols() == edges { Ok(DenseMatrix::zeros(edges, 0)) } else { Ok(null_space(&held.transpose())?.basis) }
 }

@@ -60,13 +60,8 @@ fn rank_by_counting(
         go_on(observe)?;
         counts.push(rank::count_above(rows, columns, node, 10f64.powi(-decade))?);
     }
-    let mut best = (0, 0);
-    for start in 0..counts.len() {
-        let run = counts[start..].iter().take_while(|count| **count == counts[start]).count();
-        if run > best.1 {
-            best = (counts[start], run);
-        }
-    }
-    let gap = 10f64.powi(best.1 as i32 - 1);
-    if gap >= LEAST_GAP { Ok((best.0, (best.0 > 0).then_some(gap))) } else { Err(ModesError::NoGap { gap }) }
+    let runs = counts.chunk_by(|count, next| count == next).map(|run| (run[0], run.len()));
+    let (rank, length) = runs.fold((0, 0), |longest, run| if run.1 > longest.1 { run } else { longest });
+    let gap = 10f64.powi(length as i32 - 1);
+    if gap >= LEAST_GAP { Ok((rank, (rank > 0).then_some(gap))) } else { Err(ModesError::NoGap { gap }) }
 }

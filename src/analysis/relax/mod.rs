@@ -158,7 +158,7 @@ pub(crate) fn relax_model(
     let straight = straight_screw::begins_straight(&run);
     let begin = if straight { straight_screw::begin } else { fold_angles::begin };
     let mut ending = begin(&mut run, start);
-    let in_angles = run.intrinsic_failure.is_none() && run.recorder.history().iter().any(|step| step.intrinsic);
+    let in_angles = run.intrinsic_failure.is_none() && run.recorder.history.iter().any(|step| step.intrinsic);
     run.note(if in_angles { "fold angles" } else { "positions" }, 0, &ending);
     for route in &ROUTES {
         if (route.wanted)(&run, &ending) {
@@ -231,7 +231,7 @@ fn failed(run: Run<'_>, error: NewtonError) -> RelaxError {
     let state = State::new(&model, &error.x, &error.tension);
     let configuration = model.configuration(&error.x, Some(error.tension));
     // stopped in fold angles, it ends where it started
-    let is_last = recorder.history().last().is_some_and(|step| !step.intrinsic);
+    let is_last = recorder.history.last().is_some_and(|step| !step.intrinsic);
     let (history, kept) = recorder.end(is_last.then_some(&state));
     RelaxError { failure, state, configuration, history, routes, intrinsic_failure, soft_steps, kept }
 }

@@ -36,7 +36,8 @@ pub struct KeptState {
 pub(super) struct Recorder<'a> {
     observe: &'a mut dyn FnMut(&Step) -> bool,
     every: Option<NonZeroUsize>,
-    history: Vec<Step>,
+    /// The steps so far.
+    pub(super) history: Vec<Step>,
     kept: Vec<KeptState>,
 }
 
@@ -67,11 +68,6 @@ impl<'a> Recorder<'a> {
         minimize_iterates(model, start, options, &mut |at| {
             self.see(at.step, || State::new(at.problem, at.x, at.tension))
         })
-    }
-
-    /// The steps so far.
-    pub(super) fn history(&self) -> &[Step] {
-        &self.history
     }
 
     /// Number of steps so far.

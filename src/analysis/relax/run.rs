@@ -82,7 +82,7 @@ impl<'a> Run<'a> {
     /// Notes a way that was taken, with the steps that it added after the first `steps` of the history. One that found
     /// nothing better than the equilibrium that was there is passed over.
     pub(super) fn note(&mut self, name: &'static str, steps: usize, ending: &Ending) {
-        let added = self.recorder.history().get(steps..).unwrap_or_default();
+        let added = self.recorder.history.get(steps..).unwrap_or_default();
         if added.is_empty() && ending.is_ok() {
             return;
         }
@@ -134,6 +134,6 @@ impl<'a> Run<'a> {
 
     /// Whether anything but the tensions of a restarted state has changed.
     pub(super) fn has_moved(&self) -> bool {
-        !self.is_restarted() || self.recorder.history().iter().any(|step| step.fraction > 0.0)
+        !self.is_restarted() || self.recorder.history.iter().any(|step| step.fraction > 0.0)
     }
 }

@@ -75,32 +75,25 @@ pub struct Surface {
 }
 
 /// What is established of a drawn state that no surface of cylinders leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Negative {
     /// The quadric is definite: no direction is real, and the drawn state cannot fold.
+    #[error(
+        "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
+         definite, so that none of them extends"
+    )]
     NoDirection,
     /// The quadric is definite but for one direction, which alone is real: at most a curve of folded states.
+    #[error(
+        "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
+         definite across its null direction, so that this one direction is the only real one and leaves at most a curve"
+    )]
     OneDirection,
     /// No direction satisfies all quadrics where a curve is expected: the drawn state cannot fold.
+    #[error(
+        "no folded states leave the drawn state: the quadratic conditions on its linear motions have no real solution"
+    )]
     NoRay,
-}
-
-impl std::fmt::Display for Negative {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::NoDirection => {
-                "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
-                 definite, so that none of them extends"
-            }
-            Self::OneDirection => {
-                "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
-                 definite across its null direction, so that this one direction is the only real one and leaves at most a curve"
-            }
-            Self::NoRay => {
-                "no folded states leave the drawn state: the quadratic conditions on its linear motions have no real solution"
-            }
-        })
-    }
 }
 
 impl Surface {

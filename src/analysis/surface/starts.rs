@@ -112,12 +112,8 @@ fn follow_out(
     tangent: Vec<f64>,
     (normal, part): (&[f64], f64),
 ) -> Option<Point> {
-    let options = CurveOptions {
-        tolerance: settings.tolerance,
-        length: part * settings.radius,
-        stops: vec![0],
-        ..CurveOptions::default()
-    };
+    let SurfaceOptions { tolerance, radius, .. } = *settings;
+    let options = CurveOptions { tolerance, length: part * radius, stops: vec![0], ..CurveOptions::default() };
     let drawn = folding.drawn.clone();
     let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
     let found = follow(

@@ -68,14 +68,8 @@ impl Watched<'_, '_> {
 
     /// The states at these points; fewer where `go_on` says to stop.
     pub fn states(&mut self, closing: &Closing<'_>, points: &[Point], go_on: &mut dyn FnMut() -> bool) -> Vec<Folded> {
-        let mut states = Vec::with_capacity(points.len());
-        for (k, point) in points.iter().enumerate() {
-            if k > 0 && k % OBSERVED == 0 && !go_on() {
-                break;
-            }
-            states.push(self.folded(closing, point));
-        }
-        states
+        let goes_on = |(k, _): &(usize, &Point)| *k == 0 || k % OBSERVED > 0 || go_on();
+        points.iter().enumerate().take_while(goes_on).map(|(_, point)| self.folded(closing, point)).collect()
     }
 
     /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known. Returns the

@@ -38,7 +38,8 @@ pub struct MinimumTracker {
     /// Numbers of the elastic hinges among all elements, their rest angles and stiffnesses.
     hinges: Vec<usize>,
     rest: Vec<f64>,
-    stiffness: Vec<f64>,
+    /// Stiffness of the elastic hinges: the metric.
+    pub(crate) stiffness: Vec<f64>,
     work: Work,
 }
 
@@ -59,11 +60,6 @@ impl MinimumTracker {
     /// The state with these coordinates, whose angles continue from these fold angles of all edges.
     pub(crate) fn at(&self, coordinates: Vec<f64>, fold_angle: &[f64]) -> Configuration {
         Configuration::new(coordinates, restored::angles(&self.model, fold_angle), None)
-    }
-
-    /// Stiffness of the elastic hinges: the metric.
-    pub(crate) fn stiffness(&self) -> &[f64] {
-        &self.stiffness
     }
 
     /// Relaxes from a place, next to its equilibrium where its tensions are known.

@@ -102,7 +102,7 @@ impl MinimumTracker {
 
     /// Distance of fold angles in the metric of the creases.
     pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        let squares = a.iter().zip(b).zip(self.stiffness()).map(|((a, b), k)| k * (a - b).powi(2));
+        let squares = a.iter().zip(b).zip(&self.stiffness).map(|((a, b), k)| k * (a - b).powi(2));
         squares.sum::<f64>().sqrt()
     }
 

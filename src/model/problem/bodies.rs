@@ -149,19 +149,14 @@ impl Bodies {
     /// Converts the derivatives of an element by the coordinates of its points to derivatives by the coordinates of
     /// its members: those of a point, or the pose of its part.
     pub(super) fn pull(&self, sites: &[Site], generalised: &[f64], local: &mut Local) {
-        let turned: Vec<Option<rotation::Turned>> = sites
-            .iter()
-            .map(|site| self.part_of(site.vertex).and_then(|part| self.moved(part, site.vertex, generalised)))
-            .collect();
+        let of_site = |site: &Site| self.moved(self.part_of(site.vertex)?, site.vertex, generalised);
+        let turned: Vec<Option<rotation::Turned>> = sites.iter().map(of_site).collect();
         let maps: Vec<DMatrix<f64>> = turned.iter().map(|turned| derivative(turned.as_ref())).collect();
-        let starts: Vec<usize> = maps
-            .iter()
-            .scan(0, |end, map| {
-                *end += map.ncols();
-                Some(*end - map.ncols())
-            })
-            .collect();
-        let size = maps.iter().map(DMatrix::ncols).sum();
+        let (mut starts, mut size) = (vec![], 0);
+        for map in &maps {
+            starts.push(size);
+            size += map.ncols();
+        }
         let gradient: Vec<f64> = (0..maps.len())
             .flat_map(|k| (maps[k].transpose() * point(&local.gradient, k)).as_slice().to_vec())
             .collect();

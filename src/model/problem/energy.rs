@@ -214,7 +214,7 @@ impl Model {
         let mut local = Local::default();
         for (number, (part, forces)) in self.loaded_parts().into_iter().enumerate() {
             self.equations.bodies.load(part, &forces, all, &mut local);
-            Self::scale(&mut local, &self.pose_units());
+            local.measure_in(&self.pose_units());
             let (gradient, hessian) = (&local.gradient, &local.hessian);
             // its measure is the potential itself, of stiffness zero
             let size = f64::INFINITY;
@@ -226,14 +226,6 @@ impl Model {
     fn pose_units(&self) -> [f64; POSE] {
         let angle = 1.0 / self.equations.mean_edge;
         [1.0, 1.0, 1.0, angle, angle, angle]
-    }
-
-    /// Converts derivatives by coordinates to derivatives by unknowns, of which one is this many units of its
-    /// coordinate.
-    fn scale(local: &mut Local, units: &[f64]) {
-        local.gradient.iter_mut().zip(units).for_each(|(g, unit)| *g *= unit);
-        let places = lower_triangle(units.len());
-        local.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h *= units[row] * units[column]);
     }
 
     /// Adds the soft elements with these energies, forces, stiffnesses, and stiffnesses at rest, at their values. In the
@@ -355,7 +347,7 @@ impl Model {
                     None => vec![1.0; 3],
                 };
                 let units: Vec<f64> = term.sites(k).iter().flat_map(of_point).collect();
-                Self::scale(local, &units);
+                local.measure_in(&units);
             }
         }
     }

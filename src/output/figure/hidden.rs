@@ -193,10 +193,14 @@ enum Order {
 
 /// Returns the order of `a` relative to `b`.
 fn order(a: &Piece, b: &Piece, limits: &Limits) -> Order {
+    if a.is_line() && b.is_line() {
+        return Order::Apart;
+    }
     if b.is_line() {
-        return match a.is_line() {
-            true => Order::Apart,
-            false => order(b, a, limits).reversed(),
+        return match order(b, a, limits) {
+            Order::Behind => Order::InFront,
+            Order::InFront => Order::Behind,
+            other => other,
         };
     }
     if a.is_line() && a.corners.iter().all(|end| b.corners.contains(end)) {
@@ -223,16 +227,6 @@ fn order(a: &Piece, b: &Piece, limits: &Limits) -> Order {
         (false, false) if a.is_line() || low + high > 0.0 => Order::InFront,
         (false, false) if low + high < 0.0 => Order::Behind,
         (false, false) => Order::Apart,
-    }
-}
-
-impl Order {
-    fn reversed(self) -> Self {
-        match self {
-            Self::Behind => Self::InFront,
-            Self::InFront => Self::Behind,
-            other => other,
-        }
     }
 }
 

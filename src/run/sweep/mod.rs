@@ -88,7 +88,7 @@ pub fn sweep(
     remove_leftovers(&sweep, &out)?;
     board.write()?;
     let (done, pool) = (AtomicUsize::new(kept.len()), Pool::new(options.threads, rest.len()));
-    let of_run = RunOptions { out: Some(out.clone()), threads: Some(pool.threads_of_point()), ..*options };
+    let of_run = RunOptions { out: Some(out.clone()), threads: Some(pool.threads_of_point), ..*options };
     let report = || observer(&progress(POINTS, done.load(Ordering::Relaxed), own.len()));
     let computed = pool.over(&rest, |index| {
         let computed = run_point(&sweep, index, &of_run, &|_| report());
@@ -160,7 +160,7 @@ pub fn rows(
     let report = || observer(&progress(POINTS, done.load(Ordering::Relaxed), own.len()));
     let all: Vec<usize> = (0..own.len()).collect();
     let _ended = pool.over(&all, |k| {
-        let Some(record) = in_memory(&sweep.scene(own[k])?, pool.threads_of_point(), &|_| report())? else {
+        let Some(record) = in_memory(&sweep.scene(own[k])?, pool.threads_of_point, &|_| report())? else {
             return Ok(ControlFlow::Break(()));
         };
         found[k].get_or_init(|| Row::new(Some(&record)));

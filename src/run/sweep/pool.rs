@@ -14,7 +14,8 @@ const STACK: usize = 8 << 20;
 /// A number of threads, and the number of those that each point has.
 pub(super) struct Pool {
     workers: usize,
-    threads_of_point: usize,
+    /// The number of threads that a point has for itself: more than one where there are few points.
+    pub(super) threads_of_point: usize,
 }
 
 impl Pool {
@@ -23,11 +24,6 @@ impl Pool {
         let threads = threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get));
         let workers = threads.min(points).max(1);
         Self { workers, threads_of_point: (threads / workers).max(1) }
-    }
-
-    /// Returns the number of threads that a point has for itself: more than one where there are few points.
-    pub(super) fn threads_of_point(&self) -> usize {
-        self.threads_of_point
     }
 
     /// Does some work for each point; ends early if it breaks or fails. One worker works on the calling thread.

@@ -43,11 +43,8 @@ impl Axis {
             SweepValues::Seeds { from, count } => (*from..).take(*count).map(|seed| seed.to_string()).collect(),
         };
         if texts.is_empty() {
-            return Err(file.error_at(
-                spec.values.span(),
-                format!("`{}` has no values", *spec.key),
-                "give at least one, as in [1e2]",
-            ));
+            let message = format!("`{}` has no values", *spec.key);
+            return Err(file.error_at(spec.values.span(), message, "give at least one, as in [1e2]"));
         }
         check_key(file, spec, &spec.key)?;
         let values = texts.into_iter().map(|text| vec![text]).collect();

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Drawing;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
+use crate::sheet::sides::sides;
 
 /// Returns the mesh that draws `sheet`: its vertices in their order, then the copies that faces and openings need, by
 /// first appearance. [`build`](super::build) makes the same sheet from it.
@@ -65,14 +66,13 @@ fn on_sides<T: Clone>(sheet: &Sheet, faces: &[Vec<usize>], told: &BTreeMap<EdgeK
     let mut seen = BTreeSet::new();
     let mut values = Vec::new();
     for (polygon, face) in sheet.polygons.iter().zip(faces) {
-        for k in 0..polygon.len() {
-            let next = (k + 1) % polygon.len();
-            let key = EdgeKey::new(polygon[k], polygon[next]).0;
+        for ([a, b], ends) in sides(polygon).zip(sides(face)) {
+            let key = EdgeKey::new(a, b).0;
             let [i, j] = key.ends().map(|end| sheet.uncut(end));
             if let Some(value) = told.get(&key)
                 && seen.insert(EdgeKey::new(i, j).0)
             {
-                values.push(([face[k], face[next]], value.clone()));
+                values.push((ends, value.clone()));
             }
         }
     }

@@ -7,6 +7,7 @@ use super::split::{Part, position};
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
 use crate::sheet::pieces::pieces;
+use crate::sheet::sides::sides as sides_of;
 
 /// An edge along the polygons, and the polygons of which it is a side.
 pub(super) struct Side {
@@ -23,12 +24,10 @@ pub(super) fn sides(drawn: &Drawing, polygons: &[Vec<Corner>]) -> Result<Vec<Sid
     let mut numbers: BTreeMap<EdgeKey, usize> = BTreeMap::new();
     let mut sides: Vec<Side> = Vec::new();
     for (f, polygon) in polygons.iter().enumerate() {
-        for a in 0..polygon.len() {
-            let b = (a + 1) % polygon.len();
-            let (key, reversed) = EdgeKey::new(polygon[a], polygon[b]);
+        for ([a, b], drawn) in sides_of(polygon).zip(sides_of(&drawn.faces[f])) {
+            let (key, reversed) = EdgeKey::new(a, b);
             let number = *numbers.entry(key).or_insert(sides.len());
             if number == sides.len() {
-                let drawn = [drawn.faces[f][a], drawn.faces[f][b]];
                 sides.push(Side { key, drawn, uses: Vec::with_capacity(2) });
             }
             sides[number].uses.push((f, reversed));
@@ -71,11 +70,10 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
     }
     let mut rim: BTreeMap<EdgeKey, &Side> = sides.iter().map(|s| (s.key, s)).collect();
     for (h, hole) in holes.iter().enumerate() {
-        for a in 0..hole.len() {
-            let b = (a + 1) % hole.len();
-            let faces = rim.remove(&EdgeKey::new(hole[a], hole[b]).0).map_or(0, |s| s.uses.len());
+        for ([a, b], ends) in sides_of(hole).zip(sides_of(&drawn.holes[h])) {
+            let faces = rim.remove(&EdgeKey::new(a, b).0).map_or(0, |s| s.uses.len());
             if faces != 1 {
-                let edge = drawn.edge_name([drawn.holes[h][a], drawn.holes[h][b]]);
+                let edge = drawn.edge_name(ends);
                 return Err(Defect::new(MeshPart::Hole(h), Problem::HoleSide { hole: h, edge, faces }));
             }
         }

@@ -68,12 +68,9 @@ fn canonical(corners: &[Corner]) -> (Vec<Corner>, [i32; 2]) {
 /// Returns the drawn sides of all faces, each once, in the order of the file.
 pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
     let mut seen = BTreeSet::new();
-    let mut found = Vec::new();
-    for (f, face) in drawn.faces.iter().enumerate() {
-        let new = sides::sides(face).filter(|side| seen.insert(sorted(*side)));
-        found.extend(new.map(|side| (side, MeshPart::Face(f))));
-    }
-    found
+    let faces = drawn.faces.iter().enumerate();
+    let all = faces.flat_map(|(f, face)| sides::sides(face).map(move |side| (side, MeshPart::Face(f))));
+    all.filter(|(side, _)| seen.insert(sorted(*side))).collect()
 }
 
 /// Returns the listed edges, followed by the sides that are not listed; empty if that is the order of the sides.

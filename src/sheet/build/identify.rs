@@ -110,10 +110,10 @@ fn identify_periodic(drawn: &Drawing, metric: &Metric) -> Result<Identified, Def
     for (v, &x) in drawn.coords.iter().enumerate() {
         let bucket = metric.bucket(x);
         let near = metric.around(bucket).into_iter().filter_map(|b| buckets.get(&b)).flatten();
-        let copy = near.copied().filter(|&c| metric.shift(drawn, x, found.homes()[c]).is_some()).min();
-        let known = copy.map(|c| copy_corner(drawn, metric, v, c, found.homes()[c])).transpose()?;
+        let copy = near.copied().filter(|&c| metric.shift(drawn, x, found.identified.homes[c]).is_some()).min();
+        let known = copy.map(|c| copy_corner(drawn, metric, v, c, found.identified.homes[c])).transpose()?;
         if known.is_none() {
-            buckets.entry(bucket).or_default().push(found.homes().len());
+            buckets.entry(bucket).or_default().push(found.identified.homes.len());
         }
         found.add(v, known)?;
     }
@@ -132,10 +132,6 @@ impl<'a> Found<'a> {
     fn new(drawn: &'a Drawing) -> Self {
         let identified = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
         Self { drawn, taken: HashMap::new(), identified }
-    }
-
-    fn homes(&self) -> &[usize] {
-        &self.identified.homes
     }
 
     /// Adds the next drawn vertex, a copy of a known one or the first appearance of another.
@@ -162,7 +158,7 @@ fn identify_turned(drawn: &Drawing, screws: &ScrewLattice) -> Result<Identified,
     for (v, x) in drawn.coords.iter().enumerate() {
         let is_copy = |home: usize, cell| (screws.copy(&drawn.coords[home], cell) - x).norm() <= tolerance;
         let known = cells.iter().find_map(|&shift| {
-            let vertex = found.homes().iter().position(|&home| is_copy(home, shift))?;
+            let vertex = found.identified.homes.iter().position(|&home| is_copy(home, shift))?;
             Some(Corner { vertex, shift })
         });
         found.add(v, known)?;
@@ -221,15 +217,11 @@ impl Metric {
     }
 
     fn around(&self, b: [i64; 3]) -> Vec<[i64; 3]> {
-        let mut all = Vec::with_capacity(27);
-        for d in 0..27i64 {
-            let step = [d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1];
-            all.push(std::array::from_fn(|k| {
-                let moved = b[k].saturating_add(step[k]);
-                self.period[k].map_or(moved, |p| moved.rem_euclid(p))
-            }));
-        }
-        all
+        let number = |k: usize, step: i64| {
+            let moved = b[k].saturating_add(step);
+            self.period[k].map_or(moved, |p| moved.rem_euclid(p))
+        };
+        (0..27).map(|d| [number(0, d % 3 - 1), number(1, d / 3 % 3 - 1), number(2, d / 9 - 1)]).collect()
     }
 
     /// Returns the numbers of lattice vectors from the drawn vertex `home` to `x`; `None` if `x` is not a copy of it.

@@ -47,7 +47,7 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     check_numbers(drawn)?;
     let mut identified = identify::identify(drawn)?;
     faces::check(drawn, &identified)?;
-    if drawn.planar && !drawn.folded && !is_turned(drawn) {
+    if drawn.planar && !drawn.folded && sides_seen(drawn) != [true; 2] {
         planar::check_crossings(drawn, &faces::sides(drawn))?;
     }
     let mut polygons: Vec<_> = drawn.faces.iter().map(|face| identified.corners(face)).collect();
@@ -82,12 +82,11 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     Ok((sheet, identified))
 }
 
-/// Whether some faces of a plane drawing run clockwise and others counter-clockwise: then it shows a sheet that is
-/// folded flat, whose layers lie on each other.
-fn is_turned(drawn: &Drawing) -> bool {
-    let areas = drawn.faces.iter().map(|face| planar::area(&drawn.coords, face));
-    let sides: Vec<f64> = areas.filter(|area| *area != 0.0).collect();
-    sides.iter().any(|area| *area < 0.0) && sides.iter().any(|area| *area > 0.0)
+/// Whether a plane drawing shows faces from above, and faces from below. Where it shows both it is a sheet that is folded
+/// flat, whose layers lie on each other.
+pub(crate) fn sides_seen(drawn: &Drawing) -> [bool; 2] {
+    let areas: Vec<f64> = drawn.faces.iter().map(|face| planar::area(&drawn.coords, face)).collect();
+    [areas.iter().any(|area| *area > 0.0), areas.iter().any(|area| *area < 0.0)]
 }
 
 /// Checks that there are vertices and faces, that coordinates are finite, and that the lattice spans an area.

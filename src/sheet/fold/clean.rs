@@ -11,7 +11,7 @@ use super::read::{ReadFrame, Rows};
 use super::record;
 use crate::math::bounds;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::Drawing;
+use crate::sheet::build::{Drawing, sides_seen};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::SheetError;
 use crate::sheet::pattern::{Cleanup, Line, sheet_of_lines};
@@ -36,12 +36,17 @@ pub(super) fn sheet(
     cleanup: &Cleanup,
 ) -> Result<Sheet, SheetError> {
     if let Some(found) = no_flat_pattern(&drawn) {
-        return Err(source.at_start(PatternFault::NotFlat { found }.into()));
+        return Err(source.at_value(None, PatternFault::NotFlat { found }.into()));
     }
     let (parts, places): (Vec<Part>, Vec<&RawValue>) = parts(&drawn, &edges, &rows).into_iter().unzip();
+    // faces are found anew, and look up
+    let is_behind = sides_seen(&drawn) == [false, true];
     let line = |part: &Part| {
         let ends = part.ends.map(|v| drawn.coords[v].xy());
-        let Part { letter, angle, auxiliary, .. } = *part;
+        let Part { mut letter, mut angle, auxiliary, .. } = *part;
+        if is_behind {
+            (letter, angle) = (letter.from_behind(), angle.map(|angle| -angle));
+        }
         Line { ends, letter, angle, auxiliary, contour: false, at: 0, flipped: false }
     };
     let lines: Vec<Line> = parts.iter().map(line).collect();

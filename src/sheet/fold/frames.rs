@@ -70,7 +70,7 @@ impl<'a> Frames<'_, 'a> {
     fn resolved(&self, number: usize) -> Result<Values<'a>, SheetError> {
         let last = self.further.len();
         if number > last {
-            return Err(self.source.at_start(Problem::NoFrame { frame: number, last }));
+            return Err(self.source.at_value(None, Problem::NoFrame { frame: number, last }));
         }
         let (mut values, mut at, mut seen) = (Values::default(), number, vec![number]);
         loop {

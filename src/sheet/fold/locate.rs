@@ -18,11 +18,6 @@ impl<'a> Source<'a> {
         self.at_value(Some(value), problem)
     }
 
-    /// Returns the error that the text as a whole has this problem.
-    pub(crate) fn at_start(&self, problem: Problem) -> SheetError {
-        self.at_value(None, problem)
-    }
-
     /// Returns the error that a value has this problem, or the text as a whole where no value is given.
     pub(crate) fn at_value(&self, value: Option<&RawValue>, problem: Problem) -> SheetError {
         let offset = |value: &RawValue| (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);

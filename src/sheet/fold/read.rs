@@ -117,10 +117,9 @@ fn read_vertices<'a>(
     drawn: &mut Drawing,
     rows: &mut Rows<'a>,
 ) -> Result<(), SheetError> {
+    let missing = Problem::Missing { key: "vertices_coords", right: "it should be a list of points" };
+    let value = keys.get("vertices_coords").ok_or_else(|| source.at_value(None, missing))?;
     let right = "a list of points, [[x, y, z], ...]";
-    let missing =
-        || source.at_start(Problem::Missing { key: "vertices_coords", right: "it should be a list of points" });
-    let value = keys.get("vertices_coords").ok_or_else(missing)?;
     rows.vertices = source.typed(value, || "`vertices_coords`".into(), right)?;
     let mut dimension = None;
     for (v, row) in rows.vertices.iter().enumerate() {
@@ -146,19 +145,15 @@ fn read_faces<'a>(
     rows: &mut Rows<'a>,
     edges: &Edges<'a>,
 ) -> Result<(), SheetError> {
-    match keys.get("faces_vertices") {
-        Some(value) => {
-            let right = "a list of faces, [[0, 1, 2], ...]";
-            rows.faces = source.typed(value, || "`faces_vertices`".into(), right)?;
-            drawn.faces = polygons(source, &rows.faces, "face", drawn.coords.len())?;
-            Ok(())
-        }
-        None if edges.ends.is_empty() => Err(source.at_start(Problem::Missing {
-            key: "faces_vertices",
-            right: "it, or at least `edges_vertices`, should list the faces",
-        })),
-        None => Ok(()),
-    }
+    let Some(value) = keys.get("faces_vertices") else {
+        let right = "it, or at least `edges_vertices`, should list the faces";
+        let missing = Problem::Missing { key: "faces_vertices", right };
+        return if edges.ends.is_empty() { Err(source.at_value(None, missing)) } else { Ok(()) };
+    };
+    let right = "a list of faces, [[0, 1, 2], ...]";
+    rows.faces = source.typed(value, || "`faces_vertices`".into(), right)?;
+    drawn.faces = polygons(source, &rows.faces, "face", drawn.coords.len())?;
+    Ok(())
 }
 
 /// Reads a list of vertices for each polygon, which messages call `one` with its number.

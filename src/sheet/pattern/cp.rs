@@ -44,6 +44,12 @@ pub(super) fn number(word: &str) -> Result<f64, PatternFault> {
     word.parse().map_err(|_| PatternFault::value(word, "coordinate", "a number"))
 }
 
+/// Returns the numbers that the words of the two ends of a line say.
+pub(super) fn numbers(words: [&str; 4]) -> Result<[f64; 4], PatternFault> {
+    let [x1, y1, x2, y2] = words.map(number);
+    Ok([x1?, y1?, x2?, y2?])
+}
+
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
     let mut drawn = DrawnLines::default();
@@ -53,19 +59,13 @@ pub(super) fn lines(text: &str) -> Lines {
         let located = |fault: PatternFault| (line_and_column(text, at), fault.into());
         match words[..] {
             [] => {}
-            [type_, ref numbers @ ..] if numbers.len() == 4 => {
-                let mut ends = [0.0; 4];
-                for (end, word) in ends.iter_mut().zip(numbers) {
-                    *end = number(word).map_err(located)?;
-                }
+            [type_, x1, y1, x2, y2] => {
+                let ends = numbers([x1, y1, x2, y2]).map_err(located)?;
                 drawn.push(typed(type_, (&TYPES, RIGHT), ends, at).map_err(located)?);
             }
             _ => {
-                return Err(located(PatternFault::value(
-                    row.trim(),
-                    "line of a crease pattern",
-                    "five numbers, `type x1 y1 x2 y2`",
-                )));
+                let right = "five numbers, `type x1 y1 x2 y2`";
+                return Err(located(PatternFault::value(row.trim(), "line of a crease pattern", right)));
             }
         }
     }

@@ -1,8 +1,10 @@
 //! The flat drawing of a sheet, as files of lines need it.
 
+use std::ops::Neg;
+
 use crate::math::bounds;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{draw, drawn_sides, edges_by_drawn_name};
+use crate::sheet::build::{draw, drawn_sides, edges_by_drawn_name, sides_seen};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};
 
 /// Largest difference in z, relative to the extent, of a sheet that counts as flat.
@@ -28,10 +30,15 @@ pub(super) struct FlatEdge {
 }
 
 /// Returns the drawn edges of a flat sheet in the order of its file; diagonals of polygons only where the file lists
-/// them.
+/// them. They are seen from above: where faces look down mountains are valleys. A crease with a target angle is a mountain
+/// or a valley, whatever its letter.
 pub(super) fn edges(sheet: &Sheet) -> Result<Vec<FlatEdge>, NotFlat> {
     check(sheet)?;
     let drawn = draw(sheet);
+    let [above, below] = sides_seen(&drawn);
+    if above && below {
+        return Err(NotFlat::FoldedFlat);
+    }
     let known = edges_by_drawn_name(sheet);
     let sides = drawn_sides(&drawn).into_iter().map(|(ends, _)| ends.map(Corner::home));
     let list: Vec<[Corner; 2]> =
@@ -42,7 +49,11 @@ pub(super) fn edges(sheet: &Sheet) -> Result<Vec<FlatEdge>, NotFlat> {
         let ends = [a, b].map(|end| sheet.position(end)).map(|x| [x.x, x.y]);
         let is_cut = known[&EdgeKey::new(a, b).0].len() > 1;
         let letter = if is_cut { Assignment::Cut } else { sheet.assignment(edge) };
-        Some(FlatEdge { ends, letter, target: sheet.targets.get(&edge.key).copied() })
+        let target = sheet.targets.get(&edge.key).copied();
+        let (letter, target) = if below { (letter.from_behind(), target.map(f64::neg)) } else { (letter, target) };
+        let has_fold = |target: f64| target != 0.0 && matches!(letter, Assignment::Flat | Assignment::Unassigned);
+        let letter = target.filter(|target| has_fold(*target)).map_or(letter, Assignment::of_side);
+        Some(FlatEdge { ends, letter, target })
     };
     Ok(list.into_iter().filter_map(edge).collect())
 }
@@ -55,10 +66,5 @@ fn check(sheet: &Sheet) -> Result<(), NotFlat> {
     if high.z - low.z > FLAT * (high - low).max() {
         return Err(NotFlat::Raised { low: low.z, high: high.z });
     }
-    let up = |corners: [Corner; 3]| {
-        let [a, b, c] = corners.map(|corner| sheet.position(corner).xy());
-        (b - a).perp(&(c - a)) > 0.0
-    };
-    let is_up = sheet.triangles.iter().filter(|triangle| up(triangle.corners)).count();
-    if is_up == 0 || is_up == sheet.triangles.len() { Ok(()) } else { Err(NotFlat::FoldedFlat) }
+    Ok(())
 }

@@ -44,11 +44,6 @@ fn line(object: Node) -> Result<Line, PatternFault> {
         let property = object.children().find(|node| node.attribute("property") == Some(name))?;
         Some(property.first_element_child().and_then(|node| node.text()).unwrap_or_default().trim())
     };
-    let mut numbers = [0.0; 4];
-    for (number, name) in numbers.iter_mut().zip(["x0", "y0", "x1", "y1"]) {
-        if let Some(word) = given(name) {
-            *number = cp::number(word)?;
-        }
-    }
+    let numbers = cp::numbers(["x0", "y0", "x1", "y1"].map(|name| given(name).unwrap_or("0")))?;
     typed(given("type").unwrap_or("0"), (&TYPES, RIGHT), numbers, object.range().start)
 }

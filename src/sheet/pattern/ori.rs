@@ -60,15 +60,13 @@ pub(super) fn lines(text: &str) -> Lines {
 }
 
 fn line(segment: &Segment, at: usize) -> Result<Line, PatternFault> {
-    let mut numbers = Vec::with_capacity(4);
-    for point in [&segment.a, &segment.b] {
-        let (x, y) =
-            point.split_once(',').ok_or_else(|| PatternFault::value(point, "point", "two numbers, `-200.0,200.0`"))?;
-        numbers.extend([cp::number(x.trim())?, cp::number(y.trim())?]);
-    }
+    let right = "two numbers, `-200.0,200.0`";
+    let [a, b] = [&segment.a, &segment.b]
+        .map(|point| point.split_once(',').ok_or_else(|| PatternFault::value(point, "point", right)));
+    let ((x1, y1), (x2, y2)) = (a?, b?);
+    let ends = cp::numbers([x1, y1, x2, y2].map(str::trim))?;
     let number = segment.color.rsplit_once('_').map_or("", |(_, number)| number);
     let is_colour = number.parse::<usize>().is_ok_and(|number| number > 3);
     let found = if is_colour { "3" } else { number };
-    let ends = [numbers[0], numbers[1], numbers[2], numbers[3]];
     typed(found, (&TYPES, RIGHT), ends, at).map_err(|_| PatternFault::value(&segment.color, "colour of a line", RIGHT))
 }

@@ -193,14 +193,10 @@ impl Around {
             _ if aspect.contains("slice") => [x.max(y); 2],
             _ => [x.min(y); 2],
         };
-        let part = |low, high| {
-            if aspect.contains(low) {
-                0.0
-            } else if aspect.contains(high) {
-                1.0
-            } else {
-                0.5
-            }
+        let part = |low, high| match [low, high].map(|word| aspect.contains(word)) {
+            [true, _] => 0.0,
+            [_, true] => 1.0,
+            _ => 0.5,
         };
         let rest = [(size[0] - x * view.w) * part("xMin", "xMax"), (size[1] - y * view.h) * part("YMin", "YMax")];
         self.transform *= Affine::new([x, 0.0, 0.0, y, rest[0] - x * view.x, rest[1] - y * view.y]);
@@ -218,11 +214,8 @@ impl Around {
             return Ok(Self { style, units, ..*self });
         };
         if let Some(origin) = properties.get("transform-origin").filter(|origin| !is_origin(origin)) {
-            return Err(PatternFault::value(
-                origin,
-                "origin of a transform that is read",
-                "`0 0`, and the shift a part of `transform`",
-            ));
+            let right = "`0 0`, and the shift a part of `transform`";
+            return Err(PatternFault::value(origin, "origin of a transform that is read", right));
         }
         let wrong = |_| PatternFault::value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like");
         let Transform { a, b, c, d, e, f } = text.parse().map_err(wrong)?;

@@ -110,12 +110,8 @@ fn rectangle(node: Node, units: &Units) -> Result<BezPath, PatternFault> {
         return Ok(BezPath::new());
     }
     let rect = Rect::from_origin_size(units.point(node, "x", "y")?, size);
-    let mut radii = Vec::new();
-    for name in ["rx", "ry"] {
-        if !matches!(node.attribute(name), None | Some("auto")) {
-            radii.push(units.length(node, name)?);
-        }
-    }
+    let given = ["rx", "ry"].into_iter().filter(|name| !matches!(node.attribute(*name), None | Some("auto")));
+    let radii: Vec<f64> = given.map(|name| units.length(node, name)).collect::<Result<_, _>>()?;
     match radii[..] {
         [] => {
             let corners = [(rect.x0, rect.y0), (rect.x1, rect.y0), (rect.x1, rect.y1), (rect.x0, rect.y1)];

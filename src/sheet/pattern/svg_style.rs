@@ -146,10 +146,8 @@ fn opacity(text: &str) -> Result<f64, PatternFault> {
         Some(percent) => percent.trim().parse().map(|number: f64| number / 100.0),
         None => text.parse(),
     };
-    let number = number.ok().filter(|number: &f64| number.is_finite());
-    number
-        .map(|number| number.clamp(0.0, 1.0))
-        .ok_or_else(|| PatternFault::value(text, "opacity", "a number from 0 to 1"))
+    let part = number.ok().filter(|number: &f64| number.is_finite()).map(|number| number.clamp(0.0, 1.0));
+    part.ok_or_else(|| PatternFault::value(text, "opacity", "a number from 0 to 1"))
 }
 
 /// An element whose selectors are matched.

@@ -6,6 +6,7 @@ use super::colour;
 use super::cp::TYPES;
 use super::flat::{NotFlat, edges};
 use super::line::flip;
+use crate::math::bounds;
 use crate::sheet::angle::shortest;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::Sheet;
@@ -18,20 +19,16 @@ use crate::sheet::cell::Sheet;
 /// [`NotFlat`] if the sheet is folded or periodic.
 pub fn write_svg(sheet: &Sheet) -> Result<String, NotFlat> {
     let edges = edges(sheet)?;
-    let ends = || edges.iter().flat_map(|edge| edge.ends);
-    let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for [x, y] in ends() {
-        low = [low[0].min(x), low[1].min(flip(y))];
-        high = [high[0].max(x), high[1].max(flip(y))];
-    }
-    let extent = (high[0] - low[0]).max(high[1] - low[1]);
+    let [low, high] = bounds(&sheet.vertices);
+    let size = high - low;
+    let extent = size.x.max(size.y);
     let margin = 0.02 * extent;
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:?} {:?} {:?} {:?}\">\n",
-        low[0] - margin,
-        low[1] - margin,
-        high[0] - low[0] + 2.0 * margin,
-        high[1] - low[1] + 2.0 * margin,
+        low.x - margin,
+        flip(high.y) - margin,
+        size.x + 2.0 * margin,
+        size.y + 2.0 * margin,
     );
     let _ = writeln!(text, "<title>{}</title>", escaped(&sheet.title));
     let _ = writeln!(text, "<g fill=\"none\" stroke-width=\"{:?}\">", 0.003 * extent);

@@ -48,10 +48,8 @@ pub(super) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
         supported::drawn_lengths(context, "bands")?;
     }
     let springs = if in_state { all_springs(assembly) } else { stiffnesses(file, assembly).is_some() };
-    if !springs {
-        let help = format!("give bars a finite stiffness and facets too, or leave out `{key}`");
-        return Err(file.error_at(span, "bands need an energy of springs", help).into());
-    }
+    let help = format!("give bars a finite stiffness and facets too, or leave out `{key}`");
+    file.error_if(!springs, span, "bands need an energy of springs", help)?;
     let Some(mass) = &file.scene.mass else {
         let Some(density) = &spec.density else { return Ok(()) };
         let help = "give the sheet a mass, mass = { vertex = 1.0 } above [sheet], or leave out `density`";

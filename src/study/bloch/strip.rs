@@ -196,16 +196,9 @@ impl Halves {
 const NEAR: f64 = 0.01;
 
 fn row(modes: &StripModes, place: &'static str, root: &Root) -> StripRow {
-    let found = [modes.zero_modes, modes.self_stresses];
-    StripRow {
-        found,
-        q1: modes.q1,
-        gap: modes.gap,
-        place,
-        measured: None,
-        predicted: root.kappa(),
-        condition: root.condition,
-    }
+    let StripModes { q1, gap, zero_modes, self_stresses, .. } = *modes;
+    let (found, predicted, condition) = ([zero_modes, self_stresses], root.kappa(), root.condition);
+    StripRow { found, q1, gap, place, measured: None, predicted, condition }
 }
 
 /// The roots of modes that decay away from a lower place, or from an upper one.

@@ -26,7 +26,7 @@ pub(super) fn folds(context: &Context<'_>) -> bool {
 }
 
 /// Whether elements of the sheet yield.
-fn yields(context: &Context<'_>) -> bool {
+pub(super) fn yields(context: &Context<'_>) -> bool {
     context.assembly.terms().laws.first_with_memory().is_some()
 }
 

@@ -1,5 +1,6 @@
 //! The table of a path: one row for each state.
 
+use super::drive::yields;
 use super::plot::event_word;
 use crate::analysis::intersections::Marks;
 use crate::analysis::path::{PathBranch, PathPoint, Probe};
@@ -71,9 +72,4 @@ fn row(
 /// The names of pressures, and the volumes that their faces enclose in a state.
 fn volumes<'a>(context: &Context<'a>, coordinates: &'a [f64]) -> impl Iterator<Item = (&'a str, f64)> {
     context.assembly.terms().own.iter().filter_map(|term| term.volume(coordinates))
-}
-
-/// Whether elements yield.
-fn yields(context: &Context<'_>) -> bool {
-    context.assembly.terms().laws.first_with_memory().is_some()
 }

@@ -207,6 +207,54 @@ fn upright_dxf_drawings() {
     }
 }
 
+/// Claim: a flat sheet whose faces look down is written, and cleaned up, as it is seen from above, with mountains for its
+/// valleys; a crease that is to fold by an angle and has the letter of a facet or of a hinge is drawn as the mountain or valley
+/// that it becomes. Source: a mountain seen from the other side is a valley (FOLD 1.2, `edges_assignment`).
+#[test]
+fn what_is_seen_from_above() {
+    let pattern = |face: [[usize; 3]; 2], letter: &str, angle: f64| {
+        format!(
+            "{{\"vertices_coords\": [[0,0],[1,0],[1,1],[0,1]], \"faces_vertices\": {face:?}, \"edges_vertices\": \
+             [[0,1],[1,2],[2,3],[3,0],[0,2]], \"edges_assignment\": [\"B\",\"B\",\"B\",\"B\",\"{letter}\"], \
+             \"edges_foldAngle\": [null,null,null,null,{angle:?}]}}"
+        )
+    };
+    let (above, below) = ([[0, 1, 2], [0, 2, 3]], [[2, 1, 0], [3, 2, 0]]);
+    for (faces, letter, angle, side) in [
+        (above, "M", -60.0, -1.0),
+        (below, "M", -60.0, 1.0),
+        (below, "V", 60.0, -1.0),
+        (above, "F", 60.0, 1.0),
+        (above, "U", -60.0, -1.0),
+        (below, "U", -60.0, 1.0),
+    ] {
+        let folder = Folder::new().with("a.fold", pattern(faces, letter, angle));
+        let letter_of = |name: &str| {
+            let path = folder.file(name);
+            let sheet = match Format::of(&path) {
+                Some(format) => pattern::read(&path, format, &pattern::Cleanup::default()).unwrap(),
+                None => fold::read(&path).unwrap(),
+            };
+            let edge = sheet.edges.iter().find(|edge| edge.wings.iter().all(Option::is_some)).unwrap();
+            let target = sheet.targets.get(&edge.key).copied().unwrap_or_default();
+            (sheet.assignment(edge), target.to_degrees())
+        };
+        let expected = if side > 0.0 { Assignment::Valley } else { Assignment::Mountain };
+        for name in ["b.svg", "b.cp", "b.dxf"] {
+            folder.foldwell(&format!("convert a.fold {name}")).well();
+            let (found, target) = letter_of(name);
+            assert_eq!(found, expected, "{name} of {letter} {faces:?}");
+            assert!(name != "b.svg" || (target - 60.0 * side).abs() < 1e-12, "{letter} {faces:?}: {target}");
+        }
+        folder.foldwell("convert a.fold c.fold --split").well();
+        let (found, target) = letter_of("c.fold");
+        assert!(
+            (target - 60.0 * side).abs() < 1e-12 && (letter == "F" || letter == "U" || found == expected),
+            "{found:?}"
+        );
+    }
+}
+
 /// Claim: M and V on the rim are kept and said to fold nothing; a truss of bars without faces is told what lets it be read,
 /// and is read with that; faults of an ORI file have one place. Source: counted by hand.
 #[test]

@@ -110,17 +110,8 @@ fn subtract(target: MatMut<'_, f64>, left: MatRef<'_, f64>, right: MatRef<'_, f6
     let (mut top, bottom) = target.split_at_row_mut(columns);
     let (above, below) = left.split_at_row(columns);
     let right = right.subrows(0, columns);
-    triangular::matmul(
-        top.rb_mut(),
-        BlockStructure::TriangularLower,
-        accum,
-        above,
-        BlockStructure::Rectangular,
-        right.transpose(),
-        BlockStructure::Rectangular,
-        -1.0,
-        Par::Seq,
-    );
+    let [lower, whole] = [BlockStructure::TriangularLower, BlockStructure::Rectangular];
+    triangular::matmul(top.rb_mut(), lower, accum, above, whole, right.transpose(), whole, -1.0, Par::Seq);
     multiply(bottom, below, right, accum, shared);
 }
 

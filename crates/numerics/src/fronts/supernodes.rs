@@ -22,7 +22,7 @@ pub(super) struct Supernodes<'a> {
     end: &'a [u32],
     /// Starts of the lists of rows below, and the rows.
     starts: &'a [u32],
-    rows: &'a [u32],
+    pub rows: &'a [u32],
     /// The supernode that contains the first row below, or [`NONE`].
     pub parent: Vec<usize>,
     /// Operations of each subtree.
@@ -74,11 +74,6 @@ impl<'a> Supernodes<'a> {
     /// Returns the number of supernodes.
     fn count(&self) -> usize {
         self.begin.len()
-    }
-
-    /// Returns the number of rows below the pivots of all supernodes.
-    pub fn count_of_rows(&self) -> usize {
-        self.rows.len()
     }
 
     /// Returns the rows below the pivots.

@@ -146,7 +146,7 @@ impl Tree {
 
     /// Makes the fronts. Returns their rows, by their places in the order.
     fn lay_out(&mut self, nodes: &Supernodes<'_>, order: &[usize], place_of_column: &[u32]) -> Vec<u32> {
-        let (mut rows, mut pivots, mut stored) = (Vec::with_capacity(nodes.count_of_rows()), 0, 0);
+        let (mut rows, mut pivots, mut stored) = (Vec::with_capacity(nodes.rows.len()), 0, 0);
         let mut size = vec![1; order.len()];
         let mut depth = vec![0; order.len()];
         for &k in order.iter().rev().filter(|k| nodes.parent[**k] != NONE) {

@@ -70,7 +70,7 @@ impl Split {
     fn new(quadrics: &Quadrics, x: &[C]) -> Option<Self> {
         let patch = complement(x);
         let point = Matrix::from_column_slice(x.len(), 1, x);
-        let matrices: Vec<Matrix> = quadrics.matrices().iter().map(|a| a.map(|entry| C::new(entry, 0.0))).collect();
+        let matrices: Vec<Matrix> = quadrics.matrices.iter().map(|a| a.map(|entry| C::new(entry, 0.0))).collect();
         let mut jacobian = Matrix::zeros(matrices.len(), patch.ncols());
         for (mut row, a) in jacobian.row_iter_mut().zip(&matrices) {
             row.copy_from(&((point.transpose() * a * &patch) * C::new(2.0, 0.0)));
@@ -78,12 +78,7 @@ impl Split {
         let svd = SVD::try_new(jacobian, true, true, f64::EPSILON, 1000)?;
         let rank = svd.singular_values.iter().filter(|value| **value > ZERO).count();
         let (left, right) = (svd.u?.columns(0, rank).into_owned(), svd.v_t?.adjoint());
-        let inverse =
-            Matrix::from_fn(
-                rank,
-                rank,
-                |i, j| if i == j { C::new(-1.0 / svd.singular_values[i], 0.0) } else { C::default() },
-            );
+        let inverse = Matrix::from_diagonal(&svd.singular_values.rows(0, rank).map(|value| C::new(-1.0 / value, 0.0)));
         Some(Self {
             forms: matrices.iter().map(|a| patch.transpose() * a * &patch).collect(),
             kernel: right.columns(rank, right.ncols() - rank).into_owned(),

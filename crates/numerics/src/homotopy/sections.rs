@@ -84,7 +84,7 @@ pub(super) fn random_frame(rows: usize, columns: usize, random: &mut ChaCha8Rng)
 
 /// The solutions that are combinations of the columns of a frame.
 pub(super) fn on_linear_space(all: &Quadrics, frame: &DenseMatrix) -> Result<Solutions, HomotopyError> {
-    let restricted: Vec<DenseMatrix> = all.matrices().iter().map(|a| frame.transpose() * a * frame).collect();
+    let restricted: Vec<DenseMatrix> = all.matrices.iter().map(|a| frame.transpose() * a * frame).collect();
     let mut solutions = solve_square(&Quadrics::new(&restricted, frame.ncols())?)?;
     let frame = frame.map(|entry| C::new(entry, 0.0));
     let lifted = |point: &[C]| (&frame * DVector::from_column_slice(point)).as_slice().to_vec();
@@ -100,15 +100,15 @@ fn combined(all: &Quadrics, random: &mut ChaCha8Rng) -> Result<Quadrics, Homotop
     let weights = random_frame(all.count(), all.unknowns - 1, random);
     let combinations: Vec<DenseMatrix> = weights
         .column_iter()
-        .map(|weights| weights.iter().zip(all.matrices()).map(|(weight, matrix)| matrix * *weight).sum())
+        .map(|weights| weights.iter().zip(&all.matrices).map(|(weight, matrix)| matrix * *weight).sum())
         .collect();
     Quadrics::new(&combinations, all.unknowns)
 }
 
 /// The solutions of combinations that are solutions of all quadrics, with their multiplicity there.
 fn kept(all: &Quadrics, combined: Solutions) -> Solutions {
-    let Solutions { isolated, on_continua, paths, repeated } = combined;
-    let mut kept = Solutions { paths, repeated, ..Solutions::default() };
+    let Solutions { isolated, on_continua, paths } = combined;
+    let mut kept = Solutions { paths, ..Solutions::default() };
     for mut solution in isolated.into_iter().filter(|solution| all.residual(&solution.point) <= SOLUTION_RESIDUAL) {
         if let Multiplicity::Isolated(multiplicity) = multiplicity(all, &solution.point, solution.multiplicity) {
             solution.multiplicity = multiplicity;

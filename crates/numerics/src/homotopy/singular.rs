@@ -106,7 +106,7 @@ impl Polar<'_> {
         };
         let matrix: Vec<C> = (0..count * count).map(|place| entry(place / count, place % count)).collect();
         let (mut value, mut gradient) = (C::default(), vec![C::default(); n]);
-        for (k, a) in self.quadrics.matrices().iter().enumerate() {
+        for (k, a) in self.quadrics.matrices.iter().enumerate() {
             let cofactors: Vec<C> = (0..count).map(|column| cofactor(&matrix, count, k, column)).collect();
             if k == 0 {
                 value = cofactors.iter().zip(&matrix).map(|(c, entry)| c * entry).sum();
@@ -185,11 +185,7 @@ fn described(quadrics: &Quadrics, point: Vec<C>, error: f64) -> SingularPoint {
 fn definite(quadrics: &Quadrics, x: &DVector<f64>) -> Option<bool> {
     let (count, n) = (quadrics.count(), quadrics.unknowns);
     let mut jacobian = DenseMatrix::zeros(count + 1, n);
-    quadrics
-        .matrices()
-        .iter()
-        .zip(jacobian.row_iter_mut())
-        .for_each(|(a, mut row)| row.copy_from(&(a * x).transpose()));
+    quadrics.matrices.iter().zip(jacobian.row_iter_mut()).for_each(|(a, mut row)| row.copy_from(&(a * x).transpose()));
     jacobian.row_mut(count).copy_from(&x.transpose());
     let svd = full_svd(&jacobian).ok()?;
     let rank = svd.singular_values.iter().filter(|value| **value > ZERO).count();
@@ -198,7 +194,7 @@ fn definite(quadrics: &Quadrics, x: &DVector<f64>) -> Option<bool> {
     }
     let tangents = svd.v.columns(rank, n - rank);
     let weights = svd.u.column(count);
-    let form: DenseMatrix = quadrics.matrices().iter().zip(weights.iter()).map(|(a, weight)| a * *weight).sum();
+    let form: DenseMatrix = quadrics.matrices.iter().zip(weights.iter()).map(|(a, weight)| a * *weight).sum();
     let values = symmetric_eigenvalues(&(tangents.transpose() * form * tangents)).ok()?;
     let (least, most) = (values.first()?, values.last()?);
     Some(least * most > ZERO * least.abs().max(most.abs()).powi(2))

@@ -28,8 +28,6 @@ pub struct Solutions {
     pub on_continua: Vec<Vec<Complex<f64>>>,
     /// Number of paths, `2^m`: the sum of all multiplicities and of the paths that ended on continua.
     pub paths: usize,
-    /// Number of times that everything was done again before all agreed.
-    pub repeated: u32,
 }
 
 impl Solutions {

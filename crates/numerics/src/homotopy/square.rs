@@ -29,7 +29,7 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
     let paths = 1 << quadrics.count();
     let starts: Vec<Vec<C>> = (0..paths).map(|number| homotopy.start(number)).collect();
     let ends = ends(&homotopy, quadrics, &starts, repeated)?;
-    let mut solutions = Solutions { paths, repeated, ..Solutions::default() };
+    let mut solutions = Solutions { paths, ..Solutions::default() };
     add_simple(&ends, &mut solutions)?;
     add_singular(quadrics, &ends, &mut solutions)?;
     check_pairs(&solutions.isolated)?;
@@ -42,10 +42,8 @@ fn add_simple(ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), Homotop
     let simple: Vec<Simple> = ends.iter().filter_map(simple).collect();
     let same = |a: &Simple, b: &Simple| distance(&a.point, &b.point) <= a.separation.max(b.separation);
     let twice = |(k, one): (usize, &Simple)| simple[..k].iter().any(|other| same(one, other));
-    let paths = parallel::map_with_state(simple.len(), || (), |(), k| twice((k, &simple[k])))
-        .into_iter()
-        .filter(|twice| *twice)
-        .count();
+    let repeated = parallel::map_with_state(simple.len(), || (), |(), k| twice((k, &simple[k])));
+    let paths = repeated.into_iter().filter(|twice| *twice).count();
     if paths > 0 {
         return Err(HomotopyError::Collision { paths });
     }

@@ -12,7 +12,7 @@ pub(super) type C = Complex<f64>;
 #[derive(Clone, Debug)]
 pub(super) struct Quadrics {
     pub unknowns: usize,
-    matrices: Vec<DenseMatrix>,
+    pub matrices: Vec<DenseMatrix>,
 }
 
 /// Values of a homotopy with their derivatives at one place.
@@ -55,10 +55,6 @@ impl Quadrics {
 
     pub fn count(&self) -> usize {
         self.matrices.len()
-    }
-
-    pub fn matrices(&self) -> &[DenseMatrix] {
-        &self.matrices
     }
 
     /// `F` and its derivative, `2 A_k x` in row `k`.

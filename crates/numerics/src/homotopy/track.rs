@@ -42,13 +42,6 @@ pub(super) struct Tracker<'a, H> {
     matrix: Vec<C>,
 }
 
-/// A step that was tried.
-enum Step {
-    /// The point it leads to, and how much of what is allowed it used: 1 is all.
-    Accepted(Vec<C>, f64),
-    Refused,
-}
-
 impl<'a, H: Homotopy> Tracker<'a, H> {
     pub fn new(homotopy: &'a H, care: Care) -> Self {
         let n = homotopy.unknowns();
@@ -63,12 +56,12 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
             let last = length >= 1.0 - done;
             let next = if last { 1.0 } else { done + length };
             match self.step(&x, from + (to - from) * done, from + (to - from) * next) {
-                Step::Accepted(found, _) if last => return Ok(found),
-                Step::Accepted(found, used) => {
+                Some((found, _)) if last => return Ok(found),
+                Some((found, used)) => {
                     (x, done) = (found, next);
                     length *= (0.8 * used.powf(-0.2)).clamp(0.5, 3.0);
                 }
-                Step::Refused => length = 0.4 * (next - done),
+                None => length = 0.4 * (next - done),
             }
             if length < SHORTEST_STEP {
                 return Err(Lost);
@@ -79,10 +72,7 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
 
     /// Goes in one step or not at all.
     pub fn leap(&mut self, x: &[C], from: C, to: C) -> Option<Vec<C>> {
-        match self.step(x, from, to) {
-            Step::Accepted(found, _) => Some(found),
-            Step::Refused => None,
-        }
+        self.step(x, from, to).map(|(found, _)| found)
     }
 
     /// Newton's method at one parameter until rounding is all that is left.
@@ -97,11 +87,12 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
         polished
     }
 
-    fn step(&mut self, x: &[C], from: C, to: C) -> Step {
-        let Some(mut found) = self.predict(x, from, to) else { return Step::Refused };
+    /// The point that a step leads to, and how much of what is allowed it used: 1 is all; `None` if it is refused.
+    fn step(&mut self, x: &[C], from: C, to: C) -> Option<(Vec<C>, f64)> {
+        let mut found = self.predict(x, from, to)?;
         let (mut before, mut used) = (f64::INFINITY, 0.0f64);
         for iteration in 0..5 {
-            let Some(correction) = self.correction(&found, to, x) else { return Step::Refused };
+            let correction = self.correction(&found, to, x)?;
             let size = norm(&correction);
             if iteration == 0 {
                 used = size / self.care.correction;
@@ -110,16 +101,16 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
             }
             let growing = size > ROUNDING && size > 0.5 * before;
             if !(used <= 1.0) || growing {
-                return Step::Refused;
+                return None;
             }
             found.iter_mut().zip(&correction).for_each(|(a, b)| *a += b);
             if iteration > 0 && size <= CORRECTED {
                 normalize(&mut found);
-                return Step::Accepted(found, used);
+                return Some((found, used));
             }
             before = size;
         }
-        Step::Refused
+        None
     }
 
     /// One step of the classical Runge-Kutta method.

@@ -9,7 +9,8 @@ pub const FIXED: u32 = u32::MAX;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cliques {
     starts: Vec<usize>,
-    members: Vec<u32>,
+    /// The members of all cliques, one behind the other.
+    pub(super) members: Vec<u32>,
     splits: Vec<Option<[Range<u32>; 2]>>,
 }
 
@@ -74,10 +75,5 @@ impl Cliques {
     /// Where the members of each clique stand, as [`range`](Self::range), clique by clique.
     pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> {
         self.starts.windows(2).map(|ends| ends[0]..ends[1])
-    }
-
-    /// The members of all cliques, one behind the other.
-    pub(super) fn all_members(&self) -> &[u32] {
-        &self.members
     }
 }

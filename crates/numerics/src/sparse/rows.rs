@@ -15,7 +15,7 @@ pub struct Rows<'a> {
 impl Rows<'_> {
     /// The entries of each row: unknowns and numbers.
     fn entries(&self) -> impl Iterator<Item = impl Iterator<Item = (u32, f64)>> {
-        let members = self.cliques.all_members();
+        let members = &self.cliques.members;
         let pairs =
             |range: Range<usize>| members[range.clone()].iter().copied().zip(self.values[range].iter().copied());
         self.cliques.ranges().map(pairs)

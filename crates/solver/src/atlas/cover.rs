@@ -4,7 +4,8 @@ use super::grid::PointIndex;
 use super::polygon::Polygon;
 use super::seen::{MOST_DISTANCE_PER_RADII, Neighbour, see, separate, turn};
 use super::surface::{AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
-use super::walk::{self, Arrival};
+use super::walk;
+use crate::continuation::Point;
 use crate::implicit::{CorrectedPoint, Corrector};
 use foldwell_numerics::dense::null_space;
 use foldwell_numerics::vector::{add_scaled, norm};
@@ -59,7 +60,6 @@ pub(super) struct Cover<'a, S: Surface> {
     open: HashSet<usize>,
     polygon: Polygon,
     pub oriented: bool,
-    near: Vec<usize>,
     way: Vec<f64>,
 }
 
@@ -87,7 +87,6 @@ impl<'a, S: Surface> Cover<'a, S> {
             open: HashSet::new(),
             polygon: Polygon::new(),
             oriented: true,
-            near: vec![],
             surface,
             options,
         }
@@ -180,12 +179,8 @@ impl<'a, S: Surface> Cover<'a, S> {
     /// Whether a chart would lie so near to an open one that it would end as that did.
     fn tried(&mut self, from: usize, chart: &Chart) -> bool {
         let apart = SAME_PLACE_PER_RADIUS * self.charts[from].radius;
-        let mut near = std::mem::take(&mut self.near);
-        self.grid.near(&chart.x, apart, &mut near);
-        let tried =
-            near.iter().any(|other| self.open.contains(other) && self.apart(&self.charts[*other].x, &chart.x) <= apart);
-        self.near = near;
-        tried
+        let near = self.grid.near(&chart.x, apart);
+        near.iter().any(|other| self.open.contains(other) && self.apart(&self.charts[*other].x, &chart.x) <= apart)
     }
 
     /// Brings a point onto the surface, no further than `reach`, and its frame into the tangents there.
@@ -215,7 +210,8 @@ impl<'a, S: Surface> Cover<'a, S> {
     fn walk(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
         let (from, tolerance) = (&self.charts[number], self.options.tolerance);
         let (radius, start) = (from.radius, from.start);
-        let Arrival { x, frame, residual } = walk::to_rim(self.surface, (from, at), &mut self.corrector, tolerance)?;
+        let (Point { x, residual, .. }, frame) =
+            walk::to_rim(self.surface, (from, at), &mut self.corrector, tolerance)?;
         separate(&from.x, &x, &self.periods, &mut self.way);
         let (first, second) = from.frame.split_at(x.len());
         add_scaled(&mut self.way, -at[0], first);
@@ -280,34 +276,28 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     /// Makes a chart smaller, and looks again at those that counted on it.
     fn shrink(&mut self, number: usize) {
-        let near = self.find_near(number);
-        for &other in &near {
+        for other in self.find_near(number) {
             if !self.queued[other] && self.neighbour(number, other).is_some() {
                 self.enqueue(other);
             }
         }
-        self.near = near;
         self.charts[number].radius *= RADIUS_AFTER_REFUSAL;
         self.shape(number);
     }
 
     /// Cuts the polygon of a chart.
     fn shape(&mut self, number: usize) {
-        let near = self.find_near(number);
         self.polygon.reset(self.charts[number].radius);
-        for &other in near.iter().filter(|other| **other != number) {
+        for other in self.find_near(number).into_iter().filter(|other| *other != number) {
             if let Some(Neighbour { at, radius }) = self.neighbour(number, other) {
                 self.polygon.clip(at, radius, other);
             }
         }
-        self.near = near;
     }
 
     fn find_near(&mut self, number: usize) -> Vec<usize> {
-        let mut near = std::mem::take(&mut self.near);
         let chart = &self.charts[number];
-        self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius), &mut near);
-        near
+        self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius))
     }
 
     /// A chart seen from another, if they are neighbours on the surface; notes where their frames differ in sense.
@@ -320,16 +310,13 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     /// The chart in which the centre of another lies.
     fn covering(&mut self, chart: &Chart) -> Option<usize> {
-        let mut near = std::mem::take(&mut self.near);
-        self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius), &mut near);
+        let near = self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius));
         let covers = |other: &usize, way: &mut [f64]| {
             let other = &self.charts[*other];
             see(other, chart, &self.periods, way)
                 .is_some_and(|(found, _)| found.at[0].hypot(found.at[1]) < other.radius)
         };
-        let covering = near.iter().copied().find(|other| covers(other, &mut self.way));
-        self.near = near;
-        covering
+        near.into_iter().find(|other| covers(other, &mut self.way))
     }
 
     /// The neighbours around a chart, counter-clockwise; `None` where it is open.

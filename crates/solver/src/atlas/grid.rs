@@ -38,10 +38,9 @@ impl PointIndex {
         self.cubes.entry(self.cube(&place)).or_default().push((number, place));
     }
 
-    /// Writes the numbers of all points within `reach`, at most the side of a cube, and of some others.
-    pub fn near(&mut self, x: &[f64], reach: f64, found: &mut Vec<usize>) {
-        found.clear();
-        let place = self.project(x);
+    /// Returns the numbers of all points within `reach`, at most the side of a cube, and of some others.
+    pub fn near(&mut self, x: &[f64], reach: f64) -> Vec<usize> {
+        let (mut found, place) = (Vec::new(), self.project(x));
         let cube = self.cube(&place);
         let close = |other: &[f64; DIRECTIONS]| {
             place.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() <= reach * reach
@@ -52,6 +51,7 @@ impl PointIndex {
                 found.extend(points.iter().filter(|(_, other)| close(other)).map(|(number, _)| number));
             }
         }
+        found
     }
 
     fn cube(&self, place: &[f64; DIRECTIONS]) -> [i32; CUBE] {
@@ -109,9 +109,9 @@ mod tests {
             let value = |point: usize, k: usize| 20.0 * ((point * 7 + k * 13) as f64 * 0.754_877_666).fract() - 10.0;
             let points: Vec<Vec<f64>> = (0..400).map(|p| (0..unknowns).map(|k| value(p, k)).collect()).collect();
             points.iter().enumerate().for_each(|(number, x)| grid.insert(x, number));
-            let (mut found, mut looked, mut pairs) = (Vec::new(), 0, 0);
+            let (mut looked, mut pairs) = (0, 0);
             for x in &points {
-                grid.near(x, 0.4, &mut found);
+                let found = grid.near(x, 0.4);
                 looked += found.len();
                 for (number, y) in points.iter().enumerate() {
                     let away = |k: usize| {

@@ -26,15 +26,11 @@ pub(super) fn triangles(rings: &Rings, distance: &dyn Fn(usize, usize) -> f64) -
 
 /// The triangles that all three charts see.
 fn agreed(rings: &Rings) -> Vec<[usize; 3]> {
-    let mut found = Vec::new();
-    for (chart, ring) in rings.iter().enumerate() {
-        for (a, b) in pairs(ring) {
-            if chart < a && chart < b && follows(&rings[a], b, chart) && follows(&rings[b], chart, a) {
-                found.push([chart, a, b]);
-            }
-        }
-    }
-    found
+    let all = rings.iter().enumerate().flat_map(|(chart, ring)| pairs(ring).map(move |(a, b)| [chart, a, b]));
+    let is_agreed = |&[chart, a, b]: &[usize; 3]| {
+        chart < a && chart < b && follows(&rings[a], b, chart) && follows(&rings[b], chart, a)
+    };
+    all.filter(is_agreed).collect()
 }
 
 /// Neighbours that follow each other.

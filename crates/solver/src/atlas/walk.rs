@@ -6,29 +6,22 @@
 //! over such a crossing.
 
 use super::surface::{Chart, Surface};
-use crate::continuation::{CurveOptions, End, follow};
+use crate::continuation::{CurveOptions, End, Point, follow};
 use crate::implicit::{Corrector, Implicit};
 use foldwell_numerics::DenseMatrix;
 
 /// Most steps to a rim: a few do mostly, and next to singular points they would get shorter without end.
 const MOST_STEPS: usize = 60;
 
-/// A point on the rim.
-pub(super) struct Arrival {
-    pub x: Vec<f64>,
-    /// Two orthonormal tangents, turned as little as possible from those of the chart.
-    pub frame: Vec<f64>,
-    pub residual: f64,
-}
-
-/// Follows the surface from a chart in the direction of a place in its tangent plane, as far as that is; `None` where
-/// it cannot be followed.
+/// Follows the surface from a chart in the direction of a place in its tangent plane, as far as that is. Returns the point
+/// there and two orthonormal tangents, turned as little as possible from those of the chart; `None` where it cannot be
+/// followed.
 pub(super) fn to_rim<S: Surface>(
     surface: &mut S,
     (chart, at): (&Chart, [f64; 2]),
     corrector: &mut Corrector,
     tolerance: f64,
-) -> Option<Arrival> {
+) -> Option<(Point, Vec<f64>)> {
     let length = at[0].hypot(at[1]);
     let [cos, sin] = at.map(|along| along / length);
     let (first, second) = chart.frame.split_at(chart.x.len());
@@ -39,11 +32,11 @@ pub(super) fn to_rim<S: Surface>(
     let mut section = Section::new(surface, chart.x.clone(), across.clone());
     let found = follow(&mut section, chart.x.clone(), along, &options, &mut |_, _, _| {}, &mut |_| true);
     let last = found.points.into_iter().next_back().filter(|_| found.end == End::Length)?;
-    let mut tangents = [last.tangent, across].concat();
+    let mut tangents = [&last.tangent[..], &across].concat();
     corrector.turn(surface, &last.x, &mut tangents)?;
     let (t, n) = tangents.split_at(last.x.len());
     let frame = [turned(cos, -sin, [t, n]), turned(sin, cos, [t, n])].concat();
-    Some(Arrival { x: last.x, frame, residual: last.residual })
+    Some((last, frame))
 }
 
 /// The points of a surface on a hyperplane.

@@ -84,7 +84,10 @@ impl<C: Implicit> Follower<'_, C> {
             }
             if self.points[self.points.len() - 1].arc_length >= options.length {
                 self.events.retain(|event| event.point.arc_length <= options.length);
-                return if self.cut(options.length) { End::Length } else { End::Failed };
+                let Some(point) = self.point_at(options.length) else { return End::Failed };
+                self.points.pop();
+                self.points.push(point);
+                return End::Length;
             }
             if !observe(&self.points[self.points.len() - 1]) {
                 return End::Interrupted;
@@ -209,14 +212,6 @@ impl<C: Implicit> Follower<'_, C> {
             }
         }
         Some(Event { indicator, point: best })
-    }
-
-    /// Makes the trajectory end at this arc length within its last step; false where no point is found there.
-    fn cut(&mut self, length: f64) -> bool {
-        let Some(point) = self.point_at(length) else { return false };
-        let last = self.points.len() - 1;
-        self.points[last] = point;
-        true
     }
 
     /// Arc lengths between which the last step lies.

@@ -25,12 +25,6 @@ pub(super) struct Shift {
     pub(super) patience: usize,
 }
 
-impl Default for Shift {
-    fn default() -> Self {
-        Self { value: 0.0, hold: 0, patience: 1 }
-    }
-}
-
 /// The iteration's state and its workspaces.
 pub(super) struct Newton<'a, P: Problem> {
     pub(super) problem: &'a mut P,
@@ -61,8 +55,8 @@ impl<'a, P: Problem> Newton<'a, P> {
             Ok(tangent) => tangent,
             Err(error) => return Err(NewtonError { failure: error.into(), x, tension, history: vec![] }),
         };
-        let (merit, shift, certified, history) = (f64::NAN, Shift::default(), None, vec![]);
-        let inexact = false;
+        let (merit, certified, history) = (f64::NAN, None, vec![]);
+        let (shift, inexact) = (Shift { value: 0.0, hold: 0, patience: 1 }, false);
         Ok(Self { problem, tangent, x, tension, merit, shift, kind, inexact, certified, restarted, history })
     }
 

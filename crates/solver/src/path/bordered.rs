@@ -13,7 +13,7 @@
 
 use super::problem::{ParametrizedProblem, Rates};
 use crate::corrections::{self, IMPATIENT, NearlySolved, Pair};
-use crate::kkt::stiffness_size;
+use crate::kkt::{divided, multiplied, stiffness_size};
 use crate::linearization::HessianKind;
 use crate::tangent::Tangent;
 use foldwell_numerics::DenseMatrix;
@@ -131,8 +131,7 @@ impl Bordered {
     pub fn rate_errors(&self) -> [f64; 2] {
         let [force, gap] = &self.rates;
         let stiffness = stiffness_size(&self.tangent.at, &self.tangent.compliance);
-        let lengths: Vec<f64> = gap.iter().zip(&self.tangent.at.sizes).map(|(gap, size)| gap / size).collect();
-        let pull = norm_blocked(&lengths) * stiffness + norm_blocked(force);
+        let pull = norm_blocked(&divided(gap, &self.tangent.at.sizes)) * stiffness + norm_blocked(force);
         [RATE_ERROR * self.unit * self.length, RATE_ERROR * self.length * pull / self.unit]
     }
 
@@ -148,15 +147,13 @@ impl Bordered {
     /// relative residual.
     pub fn solve_across(&mut self, force: &[f64], stretch: &[f64], planes: &Planes<'_>) -> (Rates, Vec<f64>, f64) {
         let stiffness = stiffness_size(&self.tangent.at, &self.tangent.compliance);
-        let stretches: Vec<f64> = stretch.iter().zip(&self.tangent.at.sizes).map(|(b, size)| b / size).collect();
         let mut forces = force.to_vec();
         forces.extend(planes.distances.iter().map(|distance| stiffness * distance));
-        let right = Pair(forces, stretches);
+        let right = Pair(forces, divided(stretch, &self.tangent.at.sizes));
         let mut responses = vec![self.response.clone()];
         for pull in planes.pulls {
             let (dx, dt) = self.tangent.system.apply(pull, &vec![0.0; stretch.len()]);
-            let scaled = |rates: Vec<f64>| rates.into_iter().map(|rate| stiffness * rate).collect();
-            responses.push(Pair(scaled(dx), scaled(dt)));
+            responses.push(Pair(scaled(dx, stiffness), scaled(dt, stiffness)));
         }
         let mut equations = Equations { bordered: self, planes, responses, stiffness };
         let found = equations.solve(&right);
@@ -168,8 +165,8 @@ impl Bordered {
         let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, IMPATIENT));
         let Pair(mut x, tension) = refined.found;
         let more = x.split_off(force.len());
-        let tension = tension.iter().zip(&self.tangent.at.sizes).map(|(t, size)| t / size).collect();
-        let pulls = more[1..].iter().map(|pull| stiffness * pull).collect();
+        let tension = divided(&tension, &self.tangent.at.sizes);
+        let pulls = scaled(more[1..].to_vec(), stiffness);
         (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
     }
 
@@ -185,8 +182,7 @@ impl Bordered {
 
     /// Whether all tensions are rounding errors beside the largest force, as where nothing pulls.
     pub fn is_unstressed(&self, tension: &[f64]) -> bool {
-        let forces: Vec<f64> = tension.iter().zip(&self.tangent.at.sizes).map(|(t, size)| t * size).collect();
-        self.pull(&forces) <= NO_FORCE * self.tangent.at.largest_force
+        self.pull(&multiplied(tension, &self.tangent.at.sizes)) <= NO_FORCE * self.tangent.at.largest_force
     }
 
     /// The softest motion in a plane, and across the motions in `others`, by inverse iteration from `guess`: rates whose
@@ -213,10 +209,8 @@ impl Bordered {
     /// The scaled force that rounding of unknowns of this size makes: a last place of them times the largest stiffness
     /// that is not infinite. It is large only where nearly all forces vanish.
     pub fn rounding_force(&self, size: f64) -> f64 {
-        let rows = self.tangent.at.rows();
-        let gradient = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]);
         let finite = self.tangent.compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
-        let stiffest = finite.map(|(row, c)| gradient(row).powi(2) / c);
+        let stiffest = finite.map(|(row, c)| max_abs(self.tangent.at.stiff_gradient(row)).powi(2) / c);
         let stiffest = stiffest.fold(self.tangent.at.pattern().largest_diagonal(&self.tangent.at.hessian), f64::max);
         f64::EPSILON * size * stiffest / self.tangent.at.largest_force
     }
@@ -274,7 +268,7 @@ impl NearlySolved for Equations<'_> {
     fn product(&self, Pair(x, t): &Pair) -> Pair {
         let Bordered { tangent: Tangent { at, compliance, .. }, rates: [force, gap], .. } = &*self.bordered;
         let (dx, more) = x.split_at(force.len());
-        let dt: Vec<f64> = t.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
+        let dt = divided(t, &at.sizes);
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
         let rows = at.rows();
         symmetric_product(at.pattern(), &at.hessian, dx, &mut a);
@@ -294,10 +288,9 @@ impl NearlySolved for Equations<'_> {
 
     fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
         let sizes = self.bordered.tangent.at.sizes.clone();
-        let stretch: Vec<f64> = b.iter().zip(&sizes).map(|(b, size)| b * size).collect();
         let planes = self.planes.planes;
         let (force, distances) = a.split_at(a.len() - planes.len());
-        let (mut dx, mut dt) = self.bordered.tangent.system.apply(force, &stretch);
+        let (mut dx, mut dt) = self.bordered.tangent.system.apply(force, &multiplied(b, &sizes));
         let left = DenseMatrix::from_fn(planes.len(), planes.len(), |row, column| {
             dot(&planes[row].x, &self.responses[column].0) - Self::corner(planes[row], column)
         });
@@ -308,9 +301,8 @@ impl NearlySolved for Equations<'_> {
             add_scaled(&mut dx, -part, by_x);
             add_scaled(&mut dt, -part, by_t);
         }
-        dt.iter_mut().zip(&sizes).for_each(|(t, size)| *t *= size);
         dx.extend(more.iter());
-        Pair(dx, dt)
+        Pair(dx, multiplied(&dt, &sizes))
     }
 
     fn most_slow(&self) -> usize {

@@ -102,12 +102,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// after one step more: a self stress of theirs would be that of the guess.
     fn precise(&mut self, found: Corrected, plane: &Plane) -> Result<Corrected, FactorError> {
         let missing = self.bordered.tangent.at.missing(&found.at.tension, self.problem.compliance());
-        let stretched = self
-            .problem
-            .compliance()
-            .iter()
-            .zip(&found.at.tension)
-            .fold(0.0, |most, (c, t)| f64::max(most, c * t.abs()));
+        let tensions = self.problem.compliance().iter().zip(&found.at.tension);
+        let stretched = tensions.fold(0.0, |most, (c, t)| f64::max(most, c * t.abs()));
         if max_abs(&missing) <= STRETCH_ERROR * stretched || stretched == 0.0 {
             return Ok(found);
         }

@@ -67,19 +67,16 @@ fn least_rate(from: &PathState, to: &PathState) -> Option<f64> {
     })
 }
 
+/// Sign of the parameter's rate at the beginning of a piece of a path, and the change of the number of negative
+/// eigenvalues where it turns; none where it does not.
+type Turn = Option<(f64, i64)>;
+
 /// The number of negative eigenvalues along a piece of a path, less what the extremum of the parameter in it makes.
 /// Other than the number itself, this one does not change where the parameter turns: it is that of the bordered matrix.
-struct Level {
-    /// Sign of the parameter's rate at the beginning, and the change where it turns; none where it does not.
-    turn: Option<(f64, i64)>,
-}
-
-impl Level {
-    fn of(&self, state: &PathState) -> Option<i64> {
-        let count = state.negative_eigenvalues? as i64;
-        let beyond = |(sign, change): (f64, i64)| if state.tangent.parameter * sign < 0.0 { change } else { 0 };
-        Some(count - self.turn.map_or(0, beyond))
-    }
+fn level(state: &PathState, turn: Turn) -> Option<i64> {
+    let count = state.negative_eigenvalues? as i64;
+    let beyond = |(sign, change): (f64, i64)| if state.tangent.parameter * sign < 0.0 { change } else { 0 };
+    Some(count - turn.map_or(0, beyond))
 }
 
 /// The verdict on a supposed branch point by the stiffness of its softest motion across the path, which vanishes at a
@@ -169,7 +166,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// Locates the extrema and branch points between two states of a step, or of a piece of it. Returns whether it stays
     /// on one curve.
     fn own_marks(&mut self, step: Ends<'_>, [from, to]: Ends<'_>, found: &mut Marks) -> Found<bool> {
-        let mut level = Level { turn: None };
+        let mut turn = None;
         let rates = [from, to].map(|state| state.tangent.parameter);
         if turned(rates, [from, to].map(|state| state.rate_errors[0]))
             && let Some(state) = self.locate([from, to], &mut |_, state| state.tangent.parameter)?
@@ -181,7 +178,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 }
                 _ => (state.work_along * rates[1]).signum() as i64,
             };
-            level.turn = Some((rates[0].signum(), change));
+            turn = Some((rates[0].signum(), change));
             found.push((state, PathMark::ParameterTurns));
         }
         let rates = [from, to].map(|state| state.conjugate[1]);
@@ -191,14 +188,14 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         {
             found.push((state, PathMark::ConjugateTurns));
         }
-        self.branch_points(step, [from, to], &level, found)
+        self.branch_points(step, [from, to], turn, found)
     }
 
     /// Locates all states between two of a step at which the level changes. Changes that are nearer to each other than
     /// states that are taken for one are one, of higher multiplicity. Returns whether states are
     /// found where the level changes.
-    fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, level: &Level, found: &mut Marks) -> Found<bool> {
-        let (Some(mut before), Some(last)) = (level.of(ends[0]), level.of(ends[1])) else { return Ok(true) };
+    fn branch_points(&mut self, [from, to]: Ends<'_>, ends: Ends<'_>, turn: Turn, found: &mut Marks) -> Found<bool> {
+        let (Some(mut before), Some(last)) = (level(ends[0], turn), level(ends[1], turn)) else { return Ok(true) };
         if self.problem.has_kinks() {
             return Ok(true); // where stiffness jumps, a change of the level is no zero of it
         }
@@ -209,10 +206,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             if before == last {
                 break;
             }
-            let mut differs = |state: &PathState| level.of(state).is_some_and(|here| here != before);
+            let mut differs = |state: &PathState| level(state, turn).is_some_and(|here| here != before);
             let Some((at, state)) = self.bisect([from, to], [part, end], &mut differs)? else { return Ok(false) };
             let beyond = if at + beside < end { self.between(from, to, at + beside)? } else { None };
-            let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
+            let after = beyond.and_then(|state| level(&state, turn)).unwrap_or(last);
             let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
             let point = match crossing {
                 Crossing::At(at, state) => Some((at, *state)),

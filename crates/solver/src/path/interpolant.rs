@@ -1,6 +1,7 @@
 //! States between two states of a path, and beyond them: cubic Hermite interpolation in arc length.
 
 use super::problem::{PathState, Rates};
+use foldwell_numerics::vector::moved;
 
 /// The cubic between two states.
 pub(super) struct Cubic<'a> {
@@ -47,10 +48,9 @@ impl<'a> Cubic<'a> {
 
     /// The differences from the first state to the second.
     pub fn chord(&self) -> Rates {
-        let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
         Rates {
-            x: minus(&self.to.x, &self.from.x),
-            tension: minus(&self.to.tension, &self.from.tension),
+            x: moved(&self.to.x, -1.0, &self.from.x),
+            tension: moved(&self.to.tension, -1.0, &self.from.tension),
             parameter: self.to.parameter - self.from.parameter,
         }
     }
@@ -63,12 +63,10 @@ impl<'a> Cubic<'a> {
         };
         let half = 0.6f64.sqrt();
         let points = [(0.5 - 0.5 * half, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + 0.5 * half, 5.0 / 18.0)];
-        points
-            .iter()
-            .map(|(part, weight)| {
-                weight * self.conjugate(weights(*part, self.length)) * rate(slopes(*part, self.length))
-            })
-            .sum()
+        let parts = points.map(|(part, weight)| {
+            weight * self.conjugate(weights(part, self.length)) * rate(slopes(part, self.length))
+        });
+        parts.iter().sum()
     }
 }
 

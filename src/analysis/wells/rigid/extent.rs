@@ -19,7 +19,7 @@ impl Extent {
     /// The bounds for creases with these rest angles.
     pub(super) fn new(springs: &Springs) -> Self {
         let beyond = |rest: &f64| [if *rest < -PI { rest - PI } else { -PI }, if *rest > PI { rest + PI } else { PI }];
-        Self { bounds: springs.rest().iter().map(beyond).collect() }
+        Self { bounds: springs.rest.iter().map(beyond).collect() }
     }
 
     /// How far the furthest angle of an edge is beyond its bounds; negative within them.

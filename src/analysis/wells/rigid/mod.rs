@@ -185,14 +185,11 @@ impl Sampled<'_> {
             if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum])
                 && a != b
             {
-                let pass = |(angles, singular): (Vec<f64>, bool)| RigidPass {
-                    joins: [a, b],
-                    energy: springs.energy(&angles),
-                    angles,
-                    singular,
-                };
                 match self.pass(at) {
-                    Some(found) => landscape.passes.push(pass(found)),
+                    Some((angles, singular)) => {
+                        let energy = springs.energy(&angles);
+                        landscape.passes.push(RigidPass { joins: [a, b], energy, angles, singular });
+                    }
                     None => landscape.lost += 1,
                 }
             }

@@ -25,12 +25,8 @@ const ONE: f64 = 1e-7;
 
 /// How the surface is covered that is sampled.
 pub(super) fn options(sampling: &Sampling) -> SurfaceOptions {
-    SurfaceOptions {
-        radius: sampling.step,
-        tolerance: TOLERANCE,
-        max_curvature: sampling.max_curvature,
-        max_points: MOST_POINTS,
-    }
+    let Sampling { step: radius, max_curvature } = *sampling;
+    SurfaceOptions { radius, tolerance: TOLERANCE, max_curvature, max_points: MOST_POINTS }
 }
 
 /// The images of the surface's states that belong to the landscape, as nodes of a net.
