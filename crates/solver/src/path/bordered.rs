@@ -54,10 +54,10 @@ pub(super) struct Bordered {
     /// The problem linearized at the state, and its factorization.
     pub tangent: Tangent,
     rates: [Vec<f64>; 2],
-    /// Length of a change of all unknowns by their natural size.
-    length: f64,
+    /// Length of a change of all unknowns by their natural size: arc lengths are in this unit.
+    pub length: f64,
     /// One unit of length of the parameter.
-    unit: f64,
+    pub unit: f64,
     /// Inertia of the last factorization; `None` where it needed a shift, or has a pivot that may be zero.
     inertia: Option<Inertia>,
     /// Response to the rates by the parameter, by the last factorization.
@@ -217,19 +217,8 @@ impl Bordered {
 
     /// Norm of the forces of these tensions, in units of force, before they balance.
     fn pull(&self, tensions: &[f64]) -> f64 {
-        let rows = self.tangent.at.rows();
-        let largest = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]) / self.tangent.at.sizes[row];
+        let largest = |row: usize| max_abs(self.tangent.at.stiff_gradient(row)) / self.tangent.at.sizes[row];
         tensions.iter().enumerate().map(|(row, t)| (t * largest(row)).powi(2)).sum::<f64>().sqrt()
-    }
-
-    /// Length of a change of all unknowns by their natural size: arc lengths are in this unit.
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-
-    /// The unit of length of the parameter.
-    pub fn unit(&self) -> f64 {
-        self.unit
     }
 }
 

@@ -77,13 +77,13 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.problem.set_parameter(point.parameter);
         self.bordered.linearize(self.problem, &point.x, &point.tension);
         self.bordered.factor()?;
-        let plane = Plane::across(&point.tangent, self.bordered.unit());
+        let plane = Plane::across(&point.tangent, self.bordered.unit);
         let mut found: Vec<Rates> = vec![];
         for guess in guesses(point.x.len()).take(multiplicity) {
             let (null, _) = self.bordered.softest(&guess, &plane, &found);
             found.push(null);
         }
-        let mut across: Vec<Rates> = vec![point.tangent.clone().scaled(1.0 / self.bordered.length())];
+        let mut across: Vec<Rates> = vec![point.tangent.clone().scaled(1.0 / self.bordered.length)];
         for mut null in found {
             for other in &across {
                 let part = self.product(&null, other);
@@ -99,12 +99,10 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// The first state of the branch that leaves along a direction, on the side of this sign.
     fn leave(&mut self, point: &PathState, direction: &Rates, sign: f64) -> Found<Option<PathState>> {
-        let mut plane = Plane::across(direction, self.bordered.unit());
-        plane.x.iter_mut().for_each(|x| *x *= sign);
-        plane.parameter *= sign;
+        let plane = Plane::across(&direction.clone().scaled(sign), self.bordered.unit);
         for halving in 0..MOST_HALVINGS {
             let away = DISTANCE * self.settings.max_step * 0.5f64.powi(halving as i32);
-            let step = sign * away * self.bordered.length();
+            let step = sign * away * self.bordered.length;
             let mut guess = point.place();
             guess.add(step, direction);
             if let Some((mut state, off)) = self.settle(guess, &plane, away)?

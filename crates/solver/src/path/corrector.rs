@@ -72,13 +72,13 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             if residual > REFUSED_RESIDUAL && residuals.length <= ROUNDED_GAPS && !rounded {
                 (step, residual) = self.bordered.solve(&force, &vec![0.0; missing.len()], 0.0, plane);
             }
-            let length = norm_blocked(&step.x).hypot(step.parameter / self.bordered.unit());
-            let small = length <= ROUNDING * larger(max_abs(&at.x), self.bordered.length());
+            let length = norm_blocked(&step.x).hypot(step.parameter / self.bordered.unit);
+            let small = length <= ROUNDING * larger(max_abs(&at.x), self.bordered.length);
             // from one side of a kink to the other steps may become longer
             let contracts = self.problem.may_have_kinks() || length <= SLOWEST_CONTRACTION * last;
             if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || contracts) {
                 // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
-                let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), self.bordered.length());
+                let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), self.bordered.length);
                 let kept = Corrected { at, residuals, off, iterations };
                 let found = (rounded && is_short).then(|| self.bettered(kept, &step));
                 return Ok(found.filter(|found| self.is_sound(found)));
@@ -161,7 +161,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let negative_eigenvalues = self.bordered.negative_eigenvalues()?;
         let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
         let (mut tangent, _) = self.bordered.solve(&forces, &stretches, 1.0, plane);
-        let speed = norm_blocked(&tangent.x).hypot(tangent.parameter / self.bordered.unit()) / self.bordered.length();
+        let speed = norm_blocked(&tangent.x).hypot(tangent.parameter / self.bordered.unit) / self.bordered.length;
         tangent.x.iter_mut().chain(&mut tangent.tension).for_each(|rate| *rate /= speed);
         tangent.parameter /= speed;
         let conjugate = [

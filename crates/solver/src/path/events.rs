@@ -237,7 +237,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let mut around: Vec<[f64; 2]> = vec![];
             for place in [-2.0, -1.0, 1.0, 2.0] {
                 let part = at + place * apart;
-                let plane = Plane::across(&cubic.tangent(part).0, self.bordered.unit());
+                let plane = Plane::across(&cubic.tangent(part).0, self.bordered.unit);
                 if self.between(from, to, part)?.is_none() {
                     return Ok(Crossing::Unknown);
                 }

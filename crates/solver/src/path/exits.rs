@@ -62,18 +62,13 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let chord = Cubic::new(from, to).chord();
         let along = self.product(&off, &chord) / self.product(&chord, &chord);
         guess.add(along, &chord);
-        let found = self.settle(guess, &Plane::across(&chord, self.bordered.unit()), 0.0)?;
+        let found = self.settle(guess, &Plane::across(&chord, self.bordered.unit), 0.0)?;
         Ok(found.is_some_and(|(found, _)| self.are_same(&found, state)))
-    }
-
-    /// Whether a state is beside the way between two others, and nearer to it than they are to each other.
-    pub fn is_near(&self, between: Ends<'_>, state: &PathState) -> bool {
-        self.beside(between, state).is_some()
     }
 
     /// The interpolant between two states beside another one, and what leads from it to that; `None` where the other
     /// state is not beside the way, farther from it than the two from each other, or written in another way.
-    fn beside(&self, [from, to]: Ends<'_>, state: &PathState) -> Option<(Rates, Rates)> {
+    pub fn beside(&self, [from, to]: Ends<'_>, state: &PathState) -> Option<(Rates, Rates)> {
         if [from, to].iter().any(|end| end.choice != state.choice) {
             return None;
         }
@@ -96,6 +91,6 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Size of a change in arc length.
     pub(super) fn size(&self, change: &Rates) -> f64 {
-        norm_blocked(&change.x).hypot(change.parameter / self.bordered.unit()) / self.bordered.length()
+        norm_blocked(&change.x).hypot(change.parameter / self.bordered.unit) / self.bordered.length
     }
 }

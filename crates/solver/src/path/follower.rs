@@ -4,6 +4,7 @@ use super::bordered::{Bordered, Plane};
 use super::interpolant::Cubic;
 use super::outcome::{Found, PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
+use crate::newton::Start;
 use foldwell_numerics::vector::dot;
 
 /// Length of the first step relative to the longest one, and the shortest one relative to it.
@@ -54,13 +55,15 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         self.largest[1] = self.largest[1].max(way * state.conjugate[0].abs());
     }
 
-    /// The first state, at the problem's parameter, with the tangent towards larger (`1.0`) or smaller parameters.
-    pub fn begin(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Found<PathState> {
+    /// The first state, at the problem's parameter, with the tangent towards the target.
+    pub fn begin(&mut self, Start { x, tension }: Start) -> Found<PathState> {
+        let tension = tension.unwrap_or_else(|| vec![0.0; self.problem.layout().stiff.len()]);
+        let sign = if self.settings.target < self.origin { -1.0 } else { 1.0 };
         let plane = Plane::of_parameter(x.len(), sign);
-        let guess = Rates { x, tension, parameter: self.problem.parameter() };
+        let guess = Rates { x, tension, parameter: self.origin };
         let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
         self.problem.accept(&mut state.x);
-        let stands = state.tangent.parameter.abs() <= STANDING * self.bordered.unit() * self.bordered.length();
+        let stands = state.tangent.parameter.abs() <= STANDING * self.bordered.unit * self.bordered.length;
         if stands && !self.leads(&state, sign)? {
             state = state.scaled(-1.0);
         }
@@ -104,7 +107,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         length: f64,
     ) -> Found<Option<(PathState, f64)>> {
         let mut length = length.min(self.settings.max_step);
-        let unit_of_length = self.bordered.length();
+        let unit_of_length = self.bordered.length;
         // a cubic through states on both sides of a kink says nothing of what lies beyond
         let is_smooth = |before: &&PathState| self.cosine(&before.tangent, &last.tangent) >= LEAST_TANGENT_COSINE;
         let before = before.filter(is_smooth);
@@ -137,7 +140,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// The plane across a direction; at a kink, where the parameter may turn back at once while the unknowns go on, across
     /// the direction of the unknowns.
     fn plane(&self, direction: &Rates, at_kink: bool) -> Plane {
-        let plane = Plane::across(direction, self.bordered.unit());
+        let plane = Plane::across(direction, self.bordered.unit);
         if at_kink { Plane { parameter: 0.0, ..plane } } else { plane }
     }
 
@@ -153,7 +156,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
 
     /// Product of two changes, the parameter's part in units of length.
     pub fn product(&self, a: &Rates, b: &Rates) -> f64 {
-        let unit = self.bordered.unit();
+        let unit = self.bordered.unit;
         dot(&a.x, &b.x) + a.parameter * b.parameter / (unit * unit)
     }
 

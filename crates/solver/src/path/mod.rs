@@ -62,10 +62,8 @@ pub fn follow_path<P: ParametrizedProblem>(
     observer: &mut dyn PathObserver<P>,
     record: PathRecord,
 ) -> Result<Vec<Branch>, PathError> {
-    let tension = start.tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
-    let sign = if settings.target < problem.parameter() { -1.0 } else { 1.0 };
     let mut run = Run::new(problem, settings, watch, observer, record)?;
-    run.main_branch(start.x, tension, sign)?;
+    run.main_branch(start)?;
     run.other_branches()?;
     Ok(run.branches)
 }

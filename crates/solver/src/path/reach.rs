@@ -17,11 +17,9 @@ pub fn reach<P: ParametrizedProblem>(
     settings: &PathSettings,
     observe: &mut dyn FnMut(&P, &PathState) -> bool,
 ) -> Result<(PathState, bool), PathError> {
-    let tension = start.tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
     let target = settings.target;
-    let sign = if target < problem.parameter() { -1.0 } else { 1.0 };
     let mut follower = Follower::new(problem, settings.clone())?;
-    let mut last = follower.begin(start.x, tension, sign)?;
+    let mut last = follower.begin(start)?;
     let (mut before, mut length) = (None, follower.first_step());
     for _ in 0..settings.steps {
         if let Some(rewritten) = follower.chosen_anew(&last)? {

@@ -93,11 +93,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         point: &PathState,
         nulls: &[Rates; 2],
     ) -> Found<Option<(usize, Vec<PathState>)>> {
-        let unit = self.bordered.unit();
+        let unit = self.bordered.unit;
         let planes = [0, 1].map(|k| Plane { x: nulls[k].x.clone(), parameter: nulls[k].parameter / unit });
         let (mut rung, mut narrow, mut wide) = (0, -NARROWER_RINGS - 1, WIDER_RINGS + 1);
         while narrow + 1 < wide {
-            let radius = FIRST_RADIUS * WIDER.powi(rung) * self.bordered.length();
+            let radius = FIRST_RADIUS * WIDER.powi(rung) * self.bordered.length;
             let ring = Ring { point, nulls, planes: planes.clone(), radius };
             match self.passing(&ring)? {
                 Passing::Known(number, firsts) => return Ok(Some((number, firsts))),
@@ -169,7 +169,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 return Ok(Some(OnRing { angle, at, pull: pull / largest, residual }));
             }
             self.bordered.factor()?;
-            let unit = self.bordered.unit();
+            let unit = self.bordered.unit;
             let mut off = at.x.clone();
             add_scaled(&mut off, -1.0, &ring.point.x);
             let way = (at.parameter - ring.point.parameter) / unit;
@@ -199,8 +199,8 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let [one, other] = ring.nulls;
             let mut radial = one.clone().scaled(cos);
             radial.add(sin, other);
-            let plane = Plane::across(&radial, self.bordered.unit());
-            let away = ring.radius / self.bordered.length();
+            let plane = Plane::across(&radial, self.bordered.unit);
+            let away = ring.radius / self.bordered.length;
             found.extend(self.settle(zero.at, &plane, away)?.filter(|(_, off)| *off <= NEAR * ring.radius));
         }
         Ok(found.into_iter().map(|(state, _)| state).collect())

@@ -8,6 +8,7 @@ use super::outcome::{Branch, BranchEnd, Found, MarkedState, PathError, PathMark,
 use super::problem::{Ends, ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
 use super::work::Step;
+use crate::newton::Start;
 use crate::tension;
 use std::collections::BTreeMap;
 
@@ -49,9 +50,9 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         Ok(Self { follower, watch, observer, record, branches, points, exits })
     }
 
-    /// Follows the branch from a start towards larger (`1.0`) or smaller parameters.
-    pub fn main_branch(&mut self, x: Vec<f64>, tension: Vec<f64>, sign: f64) -> Found<()> {
-        let state = self.follower.begin(x, tension, sign)?;
+    /// Follows the branch from a start towards the target.
+    pub fn main_branch(&mut self, start: Start) -> Found<()> {
+        let state = self.follower.begin(start)?;
         let first = self.marked(state, None, 0.0);
         self.branch(vec![first], None)
     }
@@ -261,7 +262,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let states: Vec<&PathState> = ordinary.map(|marked| &marked.state).collect();
         let passed: Vec<[PathState; 2]> = states[..states.len().saturating_sub(1)]
             .windows(2)
-            .filter(|pair| between(pair) && self.follower.is_near([pair[0], pair[1]], state))
+            .filter(|pair| between(pair) && self.follower.beside([pair[0], pair[1]], state).is_some())
             .map(|pair| [pair[0].clone(), pair[1].clone()])
             .collect();
         for [from, to] in &passed {
