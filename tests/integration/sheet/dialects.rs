@@ -8,6 +8,9 @@ use foldwell::sheet::{Assignment, Sheet, SheetError, fold};
 /// A square with sides of length 100 and its diagonal.
 const SQUARE: &str = r##"<rect width="100" height="100" stroke="#000"/><path d="M 0 0 L 100 100" stroke="#f00"/>"##;
 
+/// The place in space of a point of a drawing.
+type View = fn(i32, i32) -> [i32; 3];
+
 fn svg(inner: &str) -> Result<Sheet, SheetError> {
     let foreign = r#"xmlns="http://www.w3.org/2000/svg" xmlns:i="urn:i""#;
     pattern::parse(&format!("<svg {foreign}>{inner}</svg>"), "a", Format::Svg)
@@ -195,7 +198,7 @@ fn upright_dxf_drawings() {
         (points, letters.map(count))
     };
     let top = shape(&drawing(|x, y| [x, y, 5], [0, 0, 1], false));
-    let views: [(fn(i32, i32) -> [i32; 3], _, _); 4] = [
+    let views: [(View, _, _); 4] = [
         (|x, y| [x, 5, y], [0, -1, 0], false),
         (|x, y| [x, 5, y], [0, 1, 0], true),
         (|x, y| [5, x, y], [1, 0, 0], false),
@@ -225,6 +228,10 @@ fn letters_of_rims_and_bars_without_faces() {
     assert_eq!([Assignment::Mountain, Assignment::Valley].map(letter), [2, 1]);
     folder.foldwell("info truss.fold").refused("`faces_vertices`, which cannot be rebuilt for it, or [] for a truss");
     assert!(folder.foldwell("info listed.fold").well().all().contains("bars without faces     6"));
+    let empty = rim.replace("\"edges_vertices", "\"faces_vertices\": [], \"edges_vertices");
+    folder.write("empty.fold", empty);
+    let said = folder.foldwell("info empty.fold").well().all();
+    assert!(said.contains("leave it out to have the faces found") && !said.contains("of the rim"), "{said}");
     folder.foldwell("info a.ori").refused("a.ori:2:1: not an ORI file of Oriedita, which is JSON: invalid type: ");
     assert!(!folder.foldwell("info a.ori").all().contains(" at line "));
 }
