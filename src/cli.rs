@@ -51,7 +51,8 @@ enum Command {
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<Setting>,
         /// Number of threads [default: as many as the machine has]
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        #[arg(long, value_name = "N", allow_negative_numbers = true)]
+        #[arg(value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
         /// Keep the studies that an interrupted run finished, of a sweep the points
         #[arg(long)]
@@ -60,7 +61,7 @@ enum Command {
         #[arg(long, value_name = "I/N")]
         shard: Option<Shard>,
         /// Frame of the scene's FOLD file [default: that of the scene, or the first with a mesh]
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", allow_negative_numbers = true)]
         frame: Option<usize>,
         /// Say nothing but errors
         #[arg(long)]
@@ -78,7 +79,7 @@ enum Command {
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<Setting>,
         /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", allow_negative_numbers = true)]
         frame: Option<usize>,
         /// Print JSON
         #[arg(long)]
@@ -112,11 +113,11 @@ enum Command {
         /// The file to write
         to: PathBuf,
         /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", allow_negative_numbers = true)]
         frame: Option<usize>,
         /// Merge vertices of a flat crease pattern within this distance, in units of the file [default: 1e-4 of the
         /// extent, or more where lines end beside each other otherwise]
-        #[arg(long, value_name = "TOL")]
+        #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
         merge: Option<f64>,
         /// Split edges of a flat crease pattern where they cross or touch
         #[arg(long)]
@@ -124,11 +125,12 @@ enum Command {
         /// Unfold a developable sheet into the plane: the crease pattern of a folded state
         #[arg(long, conflicts_with_all = ["merge", "split"])]
         flatten: bool,
-        /// Join pieces where they touch: vertices at one place become one
+        /// Join pieces where they touch: vertices at one place, within 1e-9 of the extent, become one
         #[arg(long, conflicts_with_all = ["merge", "split", "flatten"])]
         weld: bool,
         /// Write the solid that the sheet is with this thickness, in units of the file, for printers
-        #[arg(long, value_name = "T", conflicts_with_all = ["merge", "split", "flatten", "weld"])]
+        #[arg(long, value_name = "T", allow_negative_numbers = true)]
+        #[arg(conflicts_with_all = ["merge", "split", "flatten", "weld"])]
         thickness: Option<f64>,
     },
     /// Write a page of the studies in the folder of a run, to be looked at in a browser, and print its path
@@ -147,13 +149,15 @@ enum Command {
         #[arg(short, value_name = "FILE")]
         o: Option<PathBuf>,
         /// Frames in a second
-        #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=50))]
+        #[arg(long, default_value_t = 12, allow_negative_numbers = true)]
+        #[arg(value_parser = clap::value_parser!(u16).range(1..=50))]
         fps: u16,
         /// Width in pixels
-        #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u16).range(64..=4096))]
+        #[arg(long, default_value_t = 640, allow_negative_numbers = true)]
+        #[arg(value_parser = clap::value_parser!(u16).range(64..=4096))]
         size: u16,
         /// Number of the branch [default: the first]
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", allow_negative_numbers = true)]
         branch: Option<i64>,
     },
     /// Print the JSON schema of a scene, or of the summary that a run or a sweep writes

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -75,18 +76,39 @@ def integers(values: ArrayLike, name: str, form: str) -> NDArray[np.int64]:
     return found.astype(np.int64)
 
 
-def polygons(faces: Iterable[Iterable[int]]) -> list[list[int]]:
-    """Returns faces as lists of vertex numbers.
+def polygons(lists: Iterable[Iterable[int]], name: str = "faces", form: str = "vertex numbers such as (0, 1, 2)") -> list[list[int]]:
+    """Returns faces, or other lists of whole numbers, as lists; `form` says in messages what each is.
 
     Raises:
-        ValueError: a face is no list of whole numbers.
+        TypeError: there are no lists.
+        ValueError: one is no list of whole numbers.
     """
+    if not isinstance(lists, Iterable):
+        raise TypeError(f"{name} is {lists!r}, expected lists of {form}")
     found = []
-    for number, face in enumerate(faces):
+    for number, each in enumerate(lists):
         try:
-            found.append([operator.index(vertex) for vertex in face])
+            found.append([operator.index(entry) for entry in each])
         except TypeError as error:
-            raise ValueError(f"faces[{number}] is {face!r}, expected a list of vertex numbers such as (0, 1, 2)") from error
+            raise ValueError(f"{name}[{number}] is {each!r}, expected a list of {form}") from error
+    return found
+
+
+def whole(number: Any, name: str, least: int) -> int | None:
+    """Returns a whole number; None if none is given.
+
+    Raises:
+        TypeError: it is no whole number.
+        ValueError: it is below `least`.
+    """
+    if number is None:
+        return None
+    try:
+        found = operator.index(number)
+    except TypeError as error:
+        raise TypeError(f"{name} is {number!r}, expected a whole number") from error
+    if found < least:
+        raise ValueError(f"{name} is {found}, expected {least} or more")
     return found
 
 

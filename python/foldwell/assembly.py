@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import vector
+from .arrays import polygons, vector
 from .sheet import Sheet
 from .state import State
 from .terms import Called, Energy
@@ -85,7 +86,7 @@ class Assembly:
             creases: Stiffness of the creases: torque per radian and per length. Forms as for `bars`.
             rest: Rest angles of the creases in radians: a number, "drawn", "flat", "assigned", "target", a dict by letters
                 (`{"M": -1.0, "V": 1.0}`), a mode (`{"mode": [k11, k22, k12], "amplitude": a}`), or an array. Left out: drawn.
-            fraction: Factor on the rest angles "assigned", "target" and by letters, from 0 to 1.
+            fraction: Factor on the rest angles "assigned", "target" and by letters, from -1 (folded to the other side) to 1 (folded).
             facets: Stiffness of the diagonals of polygons, or a model with the stiffness of `material`: "N5B8" gives quadrilaterals a
                 vertex where their diagonals cross. Left out: rigid, or as `material` has it.
             facet_rest: Rest angles of the facets, as `rest`.
@@ -246,6 +247,8 @@ class Assembly:
 
         Raises:
             SceneError: the assembly is no patch, has a term of this name, or lacks a vertex.
+            ValueError, TypeError: the name has other signs than letters, digits, `_` and `-`, vertices are no such numbers, or the
+                energy is no function.
 
         Example:
             >>> import foldwell as fw
@@ -257,10 +260,18 @@ class Assembly:
             >>> fw.relax(held.with_term("pull", [[0]], pull)).converged
             True
         """
-        given = np.asarray(vertices)
-        if given.ndim != 2 or given.dtype.kind not in "iu" or given.size == 0 or given.min() < 0:
-            raise ValueError(f"vertices has shape {given.shape}, expected rows of vertex numbers")
-        return Assembly(self._inner.with_term(name, given.tolist(), Called(name, energy)))
+        if not re.fullmatch("[A-Za-z0-9_-]+", name):
+            raise ValueError(f"name is {name!r}, expected letters, digits, `_` and `-`")
+        if not callable(energy):
+            raise TypeError(f"energy is {energy!r}, expected a function of the positions of the vertices of an element")
+        elements = polygons(vertices, "vertices", "vertex numbers such as [0, 12]")  # type: ignore[arg-type]
+        if not elements:
+            raise ValueError("vertices is empty, expected a list of vertex numbers for each element")
+        for number, element in enumerate(elements):
+            if min(element, default=-1) < 0 or len(set(element)) < len(element) or len(element) != len(elements[0]):
+                expected = "different numbers, 0 or more, as many as in vertices[0]"
+                raise ValueError(f"vertices[{number}] is {element}, expected {expected}")
+        return Assembly(self._inner.with_term(name, elements, Called(name, energy)))
 
     @property
     def sheet(self) -> Sheet:
@@ -294,7 +305,7 @@ class Assembly:
 
     @cached_property
     def start(self) -> NDArray[np.float64]:
-        """The unknowns `x` of the drawn state.
+        """The unknowns `x` of the drawn state; the array cannot be written, `start.copy()` can.
 
         The unknowns are the coordinates of the vertices, `x.reshape(-1, 3)` on a patch without pins and parts; those that pins hold
         are left out. A torus with free lattice and a screw have unknowns of the lattice after them.
@@ -317,7 +328,7 @@ class Assembly:
             (48,)
         """
         coordinates = getattr(result, "coordinates", result)
-        return self._forms.unknowns_at(np.ascontiguousarray(coordinates, dtype=np.float64))
+        return self._forms.unknowns_at(vector(coordinates, "coordinates", np.size(coordinates)))
 
     def state(self, x: ArrayLike) -> State:
         """Returns the state with these unknowns: positions, angles, strains, forces and energies.
@@ -331,7 +342,9 @@ class Assembly:
         return State(self._forms.state_at(self._x(x)))
 
     def energy(self, x: ArrayLike) -> float:
-        """Returns the energy of the springs minus the work of the loads. Rigid elements have none: see `constraints`.
+        """Returns the energy of the springs, for elements that yield with what they dissipate on the way from the drawn state to `x`,
+        minus each force of a load times the unknown that it pushes: differences between states have the work of the loads in them.
+        Rigid elements have no energy: see `constraints`.
 
         Fold angles continue from those of the drawn state, so that the energy is smooth while no angle goes further than pi from it.
 
@@ -477,6 +490,9 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     if not isinstance(sheet, Sheet):
         raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
     given = {name: value for name, value in given.items() if value is not None}
+    for name in ("laws", "yields"):
+        if not isinstance(given.get(name, {}), Mapping):
+            raise TypeError(f"{name} is {given[name]!r}, expected a dict by terms such as {{\"creases\": {{..}}}}")
     energy: dict[str, Any] = {term: {"stiffness": given[term]} for term in ("bars", "creases", "facets") if term in given}
     if isinstance(given.get("facets"), str) and given["facets"] != "mesh":
         energy["facets"] = {"model": given["facets"]}
@@ -502,5 +518,6 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
 
 
 def _locks(locks: Mapping[Any, Any] | Iterable[EdgeName]) -> list[dict[str, Any]]:
-    pairs = locks.items() if isinstance(locks, Mapping) else ((crease, None) for crease in locks)
-    return [{"crease": list(crease), "angle": angle} for crease, angle in pairs]
+    creases = polygons(locks, "locks", "the numbers of a crease such as (0, 1, 0, 0)")
+    angles = locks.values() if isinstance(locks, Mapping) else [None] * len(creases)
+    return [{"crease": crease, "angle": angle} for crease, angle in zip(creases, angles, strict=True)]

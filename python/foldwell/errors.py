@@ -54,7 +54,7 @@ class SceneError(FoldwellError, ValueError):
         ...     fw.Assembly.patch(fw.generate("miura"), bars=-1.0)
         ... except fw.SceneError as error:
         ...     print(error.help)
-        expected a positive number or `foldwell.RIGID` (exactly rigid)
+        expected a positive number or `foldwell.RIGID` (exactly rigid), 1e-300 at least
     """
 
 

@@ -75,6 +75,8 @@ def draw_result(result: Result, ax: Axes | None) -> Axes:
     """Draws a result; see `Result.plot`."""
     table = result.table
     known = [(x, y) for x, y in CURVES.get(result.kind, []) if x in table and np.isfinite(table.get(y, np.nan)).any()]
+    if not known and result._inner.coordinates is None and not result.states:
+        raise ValueError(f"this study of kind {result.kind} has neither curves nor states to plot; its numbers are in `tables`")
     if not known:
         return result._shown().plot(ax)
     import matplotlib.pyplot as plt

@@ -18,7 +18,10 @@ def listener(progress: Progress) -> Iterator[Callback | None]:
     if progress is None or progress is False:
         yield None
     elif progress is True:
-        from tqdm.auto import tqdm
+        try:
+            from tqdm.auto import tqdm
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError("progress=True needs tqdm: pip install tqdm", name="tqdm") from error
 
         with tqdm(unit=" steps") as bar:
             yield lambda study, step, of, residual: _move(bar, study, step, of, residual)
@@ -29,9 +32,9 @@ def listener(progress: Progress) -> Iterator[Callback | None]:
 
 
 def _move(bar: Any, study: str, step: int, of: int | None, residual: float | None) -> None:
-    if bar.desc != f"{study}: " or bar.total != of:
+    if bar.desc != study or bar.total != of:
         bar.reset(of)
-        bar.set_description(study, refresh=False)
+        bar.set_description_str(study, refresh=False)
     if residual is not None:
         bar.set_postfix_str(f"residual {residual:.1e}", refresh=False)
     bar.update(step - bar.n)

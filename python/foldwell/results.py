@@ -27,6 +27,13 @@ Column = NDArray[Any]
 FOLD = re.compile(r"fold(_-?\d+){4}")
 
 
+class Table(dict[str, Column]):
+    """The columns of a table by their names."""
+
+    def __missing__(self, column: str) -> Column:
+        raise KeyError(f"{column}: there is no such column; there are {', '.join(self)}")
+
+
 class Result:
     """The answer of a study.
 
@@ -73,13 +80,13 @@ class Result:
 
         Numbers that were not computed are NaN.
         """
-        return {name: {column: np.asarray(values) for column, values in table.items()} for name, table in self._inner.tables()}
+        return {name: Table({column: np.asarray(values) for column, values in table.items()}) for name, table in self._inner.tables()}
 
     @property
     def table(self) -> dict[str, Column]:
         """The table `NAME.csv` of the study; the first of its tables if it has none of that name, empty if it has none at all."""
         named = self.tables.get(f"{self.name}.csv")
-        return named if named is not None else next(iter(self.tables.values()), {})
+        return named if named is not None else next(iter(self.tables.values()), Table())
 
     @cached_property
     def states(self) -> list[State]:
@@ -142,7 +149,8 @@ class Result:
             angles = np.stack([self.table[name] for name in folds], axis=1)
             data["fold_angle"] = (("row", "edge"), angles, described("fold_angle"))
         if self.kind != "trace" and "arc_length" in data:
-            data["arc_length"][2].pop("units")  # that of a path is a number: of its unknowns in mean edges and the part of its way
+            # that of a path is a number: of its unknowns in mean edges and the part of its way
+            data["arc_length"] = (*data["arc_length"][:2], {"long_name": "arc length of the path"})
         for name, (_, _, attributes) in data.items():
             if named := self._unit(name):
                 attributes["units"] = named

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _foldwell
+from .arrays import whole
 from .progress import Progress, listener
 from .results import Result, Run
 
@@ -51,7 +52,7 @@ def run(
     given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
     folder = None if out is None else Path(out)
     with listener(progress) as callback:
-        place, options = (Path(base), dict(set or {})), (folder, threads, resume)
+        place, options = (Path(base), dict(set or {})), (folder, whole(threads, "threads", 1), resume)
         text, answers, interrupted = _foldwell.run_scene(given, place, options, callback)
     summary = json.loads(text)
     return Run(summary, [Result(answer, {}, summary.get("units")) for answer in answers], interrupted)
@@ -70,12 +71,12 @@ def convert(source: str | os.PathLike[str], target: str | os.PathLike[str], *, f
         >>> fw.Sheet.read("crane.obj").vertices.shape == fw.Sheet.read("meshes/crane.fold").vertices.shape
         True
     """
-    for note in _foldwell.convert(Path(source), Path(target), frame):
+    for note in _foldwell.convert(Path(source), Path(target), whole(frame, "frame", 0)):
         warnings.warn(note, stacklevel=2)
 
 
 def schema(of: str = "scene") -> dict[str, Any]:
-    """Returns the JSON schema of a scene ("scene") or of a summary ("summary").
+    """Returns the JSON schema of a scene ("scene"), of a summary ("summary") or of the summary of a sweep ("sweep").
 
     Example:
         >>> import foldwell as fw

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import integers, matrix, of_edges, polygons
+from .arrays import integers, matrix, of_edges, polygons, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,13 +59,16 @@ class Sheet:
 
         Raises:
             SheetError: the file cannot be read or draws no sheet; the message names the place.
-            ValueError: the open file is closed, or `merge` is given for an open file.
+            ValueError, TypeError: the open file is closed, `merge` is given for an open file, or there is neither path nor file.
 
         Example:
             >>> import foldwell as fw
             >>> fw.Sheet.read("meshes/crane.fold").lattice is None
             True
         """
+        frame = whole(frame, "frame", 0)
+        if not (os.fspath(source) if isinstance(source, (str, os.PathLike)) else hasattr(source, "read")):
+            raise TypeError(f"source is {source!r}, expected a path or an open text file")
         if isinstance(source, (str, os.PathLike)):
             return cls(_foldwell.Sheet.read(Path(source), frame, merge))
         if merge is not None:

@@ -60,7 +60,7 @@ class State:
 
     @property
     def self_intersecting(self) -> NDArray[np.uint8]:
-        """1 for triangles that pass through others, shape (f,); all 0 unless the study has `check=["self_intersection"]`."""
+        """1 for triangles that pass through others, shape (f,); all 0 unless the study has `check=["self-intersection"]`."""
         return self._inner.self_intersecting
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import integers
+from .arrays import integers, whole
 from .assembly import Assembly
 from .errors import DidNotConverge
 from .progress import Progress, listener
@@ -412,8 +412,8 @@ def compute(
         keys: Its keys; those with the value None are left out.
         start: The state where it starts, for kinds that have one.
         name: Name of the study; left out: its kind.
-        draw: What is kept to be drawn: "vtk" for states and maps, "svg" for a drawing, "html" for a page.
-        check: What is checked at every state: "self_intersection".
+        draw: What is kept to be drawn, a list: "vtk" for states and maps, "svg" for a drawing, "html" for a page.
+        check: What is checked at every state: `["self-intersection"]`.
         threads: Number of threads; left out: as many as there are processors. Numbers do not depend on it.
         progress: True for a bar by tqdm, or a function `progress(study, step, of, residual)` that is called after every step; if it
             returns False, the study stops.
@@ -436,10 +436,13 @@ def compute(
     if not isinstance(assembly, Assembly):
         hint = ", made of the sheet: Assembly.patch(sheet, bars=..., creases=...)" if isinstance(assembly, Sheet) else ""
         raise TypeError(f"assembly is a {type(assembly).__name__}, expected a foldwell.Assembly{hint}")
+    for words, given in (("draw", draw), ("check", check)):
+        if isinstance(given, str):
+            raise TypeError(f"{words} is {given!r}, expected a list such as [{given!r}]")
     study = {"name": name or kind, "kind": kind, "draw": list(draw), "check": list(check), **keys}
     earlier: list[tuple[Mapping[str, Any], _foldwell.Answer]] = []
     if isinstance(start, Result):
-        before = {**start._study, "name": "start" if start.name == study["name"] else start.name}
+        before = {**start._study, "name": f"{start.name}-start" if start.name == study["name"] else start.name}
         before.pop("start", None)  # it is computed already
         earlier.append((before, start._inner))
         study["start"] = before["name"]
@@ -448,7 +451,7 @@ def compute(
     names = [(str(before["name"]), answer) for before, answer in earlier]
     with listener(progress) as callback:
         studies = {"study": [before for before, _ in earlier] + [study]}
-        _, answers, _ = assembly._inner.compute(studies, names, threads, callback)
+        _, answers, _ = assembly._inner.compute(studies, names, whole(threads, "threads", 1), callback)
     result = Result(answers[0], study, assembly._inner.units)
     if must_converge and not result.converged:
         raise DidNotConverge(f"{result.name}: {result.summary.get('reason', 'no answer')}", result)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _foldwell
+from .arrays import whole
 from .errors import FoldwellError
 from .names import unit
 from .progress import Callback, Progress, listener
@@ -77,6 +78,7 @@ def sweep(
         >>> data.status.values.tolist()
         ['converged', 'converged']
     """
+    threads = whole(threads, "threads", 1)
     given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
     wanted = {f"sweep.{json.dumps(key)}": values for key, values in (axes or {}).items()}
     points = _foldwell.Sweep(given, Path(base).absolute(), {**(set or {}), **wanted, **({"sweep.zip": True} if zip else {})})
@@ -112,6 +114,8 @@ def open_sweep(folder: str | os.PathLike[str]) -> Dataset:
         >>> fw.open_sweep("creases").sizes["point"]
         2
     """
+    if not (Path(folder) / "sweep.csv").is_file():
+        raise FileNotFoundError(f"{folder}: not the folder of a sweep, it has no sweep.csv")
     return _of_folder(Path(folder), [])
 
 

@@ -25,7 +25,12 @@ class Called:
         self._energy = energy
 
     def __call__(self, points: list[list[float]]) -> tuple[float, Floats, Floats]:
-        value, gradient, hessian = self._energy(np.array(points))
+        found = self._energy(np.array(points))
+        try:
+            value, gradient, hessian = found
+        except (TypeError, ValueError) as error:
+            kind = type(found).__name__
+            raise TypeError(f"the function of {self._name} returned a {kind}, expected energy, gradient and Hessian") from error
         size = 3 * len(points)
         return float(value), self._vector(gradient, "gradient", size), self._vector(hessian, "Hessian", size * size)
 

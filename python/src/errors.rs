@@ -26,7 +26,10 @@ pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
         _ if error.exit_status() == 3 => "OutputError",
         _ => "SceneError",
     };
-    let help = error.help().map(|help| help.to_string());
+    let mut help = error.help().map(|help| help.to_string());
+    if matches!(error, RunError::Pattern(_)) {
+        help = help.map(|help| in_python(&help));
+    }
     let RunError::Scene(SceneError::At { text, line, key, message, .. }) = error else {
         return exception(py, class, (error.to_string(), help, None, None));
     };
@@ -64,9 +67,38 @@ pub(crate) fn argument(key: &str) -> String {
     }
 }
 
-/// Returns a message about a scene in the words of Python: a list of tables by its name, `inf` by that of the package.
+/// Words of messages about scenes, and those of Python.
+const WORDS: [(&str, &str); 13] = [
+    (" in a scene and 2,2 after `--key` of `foldwell new`", ""),
+    ("`foldwell new PATTERN --help`", "`foldwell.pattern_help`"),
+    ("[[", "`"),
+    ("]]", "`"),
+    ("[sweep]", "`sweep`"),
+    ("[material]", "`material`"),
+    ("`inf`", "`foldwell.RIGID`"),
+    ("{ file = \"k.csv\" }", "an array"),
+    ("{ file = \"angles.csv\" }", "an array"),
+    ("{ file = \"lengths.csv\" }", "an array"),
+    (" in quotes", ""),
+    ("a list [..]", "a list"),
+    ("a table", "a dict"),
+];
+
+/// Returns a message about a scene in the words of Python: `{ key = value }` becomes `{ "key": value }`.
 fn in_python(text: &str) -> String {
-    text.replace("[[", "`").replace("]]", "`").replace("`inf`", "`foldwell.RIGID`")
+    let text = WORDS.iter().fold(text.to_owned(), |text, (scene, python)| text.replace(scene, python));
+    let mut parts = text.split(" = ");
+    let mut written = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let is_inside = written.matches('{').count() > written.matches('}').count();
+        let key = written.rfind([' ', '`']).map_or(0, |at| at + 1);
+        written = match is_inside {
+            _ if written.ends_with('"') => format!("{written}: {part}"),
+            true => format!("{}\"{}\": {part}", &written[..key], &written[key..]),
+            false => format!("{written}={part}"),
+        };
+    }
+    written
 }
 
 /// Returns the `SceneError` about something that was given, with a hint.

@@ -9,7 +9,7 @@ use foldwell::model::{Bars, Gauge, Hinges, Model, RestLengths, Terms};
 use foldwell::numerics::sparse::FIXED;
 use foldwell::solver::{HessianKind, Linearization, Problem};
 use foldwell::{Picture, RIGID};
-use numpy::PyReadonlyArray1;
+use numpy::{PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -72,7 +72,12 @@ impl Forms {
 
     /// Returns the linearization at `x` and the tensions of the stiff measures, which are zero in rigid ones.
     fn linearized(&self, py: Python<'_>, x: &[f64]) -> PyResult<(Linearization, Vec<f64>)> {
-        self.evaluated(py, || self.linearization(x))
+        let (at, tension) = self.evaluated(py, || self.linearization(x))?;
+        if at.force(&tension).iter().any(|force| force.is_nan()) {
+            let message = "at this x an edge has no length or a face no area: the energy has no derivatives there";
+            return Err(PyValueError::new_err(message));
+        }
+        Ok((at, tension))
     }
 
     fn linearization(&self, x: &[f64]) -> (Linearization, Vec<f64>) {
@@ -124,7 +129,9 @@ impl Forms {
     /// The unknowns of the drawn state.
     #[getter]
     fn start<'py>(&self, py: Python<'py>) -> Array1<'py, f64> {
-        vector(py, self.model.start())
+        let start = vector(py, self.model.start());
+        start.readwrite().make_nonwriteable();
+        start
     }
 
     /// Returns the unknowns of a state, given all coordinates.
@@ -140,7 +147,7 @@ impl Forms {
     /// Returns the state with these unknowns: positions and fold angles.
     fn state_at(&self, py: Python<'_>, x: PyReadonlyArray1<'_, f64>) -> PyResult<State> {
         let x = self.unknowns(&x)?;
-        let tension = self.linearized(py, x)?.1;
+        let tension = self.evaluated(py, || self.linearization(x))?.1;
         let state = self.evaluated(py, || foldwell::analysis::state::State::new(&self.model, x, &tension))?;
         let state = state.with_angles(self.assembly.fold_angles_at(&self.model.coordinates(x)));
         Ok(State { picture: Picture::new(&self.assembly, &state) })

@@ -101,12 +101,13 @@ pub(crate) fn pattern_help(name: &str) -> PyResult<&'static str> {
     Pattern::help(name).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// Returns the JSON schema of scenes or summaries.
+/// Returns the JSON schema of scenes, or of summaries of runs or sweeps.
 #[pyfunction]
 pub(crate) fn schema(of: &str) -> PyResult<String> {
     match of {
         "scene" => Ok(foldwell::scene::schema().to_string()),
         "summary" => Ok(run::schema::schema().to_string()),
-        _ => Err(PyValueError::new_err("schemas are those of `scene` and `summary`")),
+        "sweep" => Ok(run::schema::of_sweep().to_string()),
+        _ => Err(PyValueError::new_err("schemas are those of `scene`, `summary` and `sweep`")),
     }
 }

@@ -25,7 +25,7 @@ type Rows<'py> = PyReadonlyArray2<'py, f64>;
 
 /// Returns the exception for a letter that FOLD does not have.
 fn no_letter(py: Python<'_>, letter: &str) -> PyErr {
-    let help = "letters are \"B\", \"M\", \"V\", \"F\", \"U\", \"C\" and \"J\"";
+    let help = "letters are the capitals \"B\", \"M\", \"V\", \"F\", \"U\", \"C\" and \"J\"";
     refused(py, format!("`{letter}` is no letter of an edge"), help)
 }
 

@@ -149,7 +149,13 @@ impl Reader {
             return Ok(Value::Array(list.collect::<PyResult<_>>()?));
         }
         let kind = given.get_type().name()?;
-        let message = format!("{path}: a {kind} is no value of a scene; give a bool, number, str, path, list or dict");
+        let law = match path.ends_with(".law") && given.is_callable() {
+            true => {
+                "a law is {\"kind\": \"formula\", ..} or {\"kind\": \"table\", ..}, other functions are terms: `with_term`"
+            }
+            false => "give a bool, number, str, path, list or dict",
+        };
+        let message = format!("{path}: a {kind} is no value of a scene; {law}");
         Err(PyTypeError::new_err(message))
     }
 }

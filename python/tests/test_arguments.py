@@ -140,6 +140,18 @@ PINS = [{"vertex": 0}, {"vertex": 1, "axis": "x"}]
         (lambda sheet: fw.relax(fw.Assembly.patch(sheet, bars=1.0), tolerance=-1.0), "^tolerance: "),
         (lambda sheet: fw.path(fw.Assembly.patch(sheet, bars=1.0, creases=1.0)), "(?s)a path follows a drive.*add a `drive`"),
         (lambda sheet: fw.modes(fw.Assembly.patch(sheet, bars=1.0), check=["self_intersektion"]), "(?s)^check.0: .*did you mean"),
+        (lambda sheet: fw.modes(fw.Assembly.patch(sheet, bars=1.0), draw="vtk"), r"draw is 'vtk', expected a list such as \['vtk'\]"),
+        (lambda sheet: fw.Assembly.patch(sheet, 3, bars=1.0), "(?s)^cells: .*expected a list$"),
+        (lambda sheet: fw.Assembly.patch(sheet, creases="stiff"), r'(?s)^creases: .*\{ "M": 1.0, "V": 2.0, .. \} or an array$'),
+        (lambda sheet: fw.Assembly.patch(sheet, bars=1.0, laws=3), "laws is 3, expected a dict by terms"),
+        (lambda sheet: fw.Assembly.patch(sheet, bars=1.0, locks=5), "locks is 5, expected lists of the numbers of a crease"),
+        (lambda sheet: fw.Assembly.patch(sheet, creases=1.0, laws={"creases": len}), "a law is .*formula.*table.*with_term"),
+        (lambda sheet: fw.Sheet.read(3), "source is 3, expected a path or an open text file"),
+        (lambda sheet: fw.Sheet.read(""), "source is '', expected a path"),
+        (lambda sheet: fw.generate("miura", a=-1), r"(?s)`a` is -1; .*foldwell\.pattern_help"),
+        (lambda sheet: fw.sweep({"sheet": {"generate": {"pattern": "miura"}}}), "the scene has no `sweep`"),
+        (lambda sheet: fw.modes(fw.Assembly.patch(sheet, bars=1.0), eigenvalues=10**9), "too many for a model of 12 coordinates"),
+        (lambda sheet: fw.relax(fw.Assembly.patch(sheet, (2, 2))), "there is no energy to relax"),
     ],
 )
 def test_messages_are_in_the_words_of_python(miura, call, words):
@@ -148,6 +160,18 @@ def test_messages_are_in_the_words_of_python(miura, call, words):
         call(miura)
     said = str(caught.value)
     assert not re.search(r"\[\[|:\d+:\d+|`foldwell |--\w|\bset-up\b", said), said
+
+
+def test_numbers_that_count_something_are_checked(miura):
+    """Numbers of threads and frames are refused by name where they are negative, zero threads or no whole numbers."""
+    soft, scene = fw.Assembly.patch(miura, bars=1.0), {"sheet": {"generate": {"pattern": "miura"}}}
+    for threads, error, words in [(-1, ValueError, "threads is -1, expected 1 or more"), (0, ValueError, "threads is 0"), (1.5, TypeError, "threads is 1.5")]:
+        for work in (lambda n: fw.relax(soft, threads=n), lambda n: fw.run(scene, threads=n), lambda n: fw.sweep(scene, threads=n)):
+            with pytest.raises(error, match=words):
+                work(threads)
+    for work in (lambda: fw.Sheet.read("meshes/crane.fold", frame=-1), lambda: fw.convert("meshes/crane.fold", "a.obj", frame=-1)):
+        with pytest.raises(ValueError, match="frame is -1, expected 0 or more"):
+            work()
 
 
 def test_the_package_shows_its_names_only():

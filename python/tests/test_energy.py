@@ -169,6 +169,20 @@ def test_wrong_unknowns_are_refused(soft, x, error, words):
             function(x(soft.start))
 
 
+def test_the_start_stays_and_collapsed_positions_are_refused(soft):
+    """The drawn unknowns cannot be changed in place; where edges have no length there are no derivatives; NaN is refused."""
+    with pytest.raises(ValueError, match="read-only"):
+        x = soft.start
+        x += 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        soft._inner.forms().start[0] = 1.0
+    for work in (soft.gradient, soft.hessian):
+        with pytest.raises(ValueError, match="an edge has no length or a face no area"):
+            work(0.0 * soft.start)
+    with pytest.raises(ValueError, match=r"coordinates\[0\] is not finite"):
+        soft.unknowns(np.full(len(soft.start), np.nan))
+
+
 def test_other_types_of_numbers_are_converted(soft):
     x = np.round(soft.start, 3).astype(np.float32)
     assert soft.energy(x) == soft.energy(x.astype(float)) == soft.energy(list(map(float, x)))

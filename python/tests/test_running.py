@@ -61,6 +61,12 @@ def test_a_bar_is_shown_when_asked(soft, capsys):
     assert capsys.readouterr().err == ""
 
 
+def test_a_bar_without_tqdm_is_refused_by_name(soft, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    with pytest.raises(ModuleNotFoundError, match="progress=True needs tqdm: pip install tqdm"):
+        fw.relax(soft, progress=True)
+
+
 def test_other_threads_go_on(soft):
     """While a study runs, a thread of Python counts."""
     count, done = [0], threading.Event()

@@ -208,6 +208,20 @@ def test_tables_go_to_xarray():
     assert "fold_angle" not in fw.modes(fw.Assembly.patch(star, bars=1.0, creases=1.0), eigenvalues=3).to_xarray()
 
 
+def test_what_a_result_lacks_is_said(miura, soft):
+    """Names of columns, plots of studies without curves and states; a start may have the name of the study that follows it."""
+    first = fw.relax(soft, name="start")
+    assert fw.relax(soft, start=first, name="start").summary["iterations"] == 0
+    with pytest.raises(KeyError, match="foo: there is no such column; there are .*energy_total"):
+        first.table["foo"]
+    waves = fw.bloch(fw.Assembly.torus(fw.Sheet.read("meshes/open-star.fold")), grid=(8, 8), q1=[0.5])
+    with pytest.raises(ValueError, match="this study of kind bloch has neither curves nor states to plot"):
+        waves.plot()
+    folded = fw.fold(fw.Assembly.patch(miura, (2, 2), bars=1e3, creases=1.0, rest=0.9))
+    assert folded.to_xarray().arc_length.attrs == {"long_name": "arc length of the path"}
+    assert fw.schema("sweep")["title"] == "foldwell sweep"
+
+
 def test_numbers_of_plots_are_those_of_pins(miura):
     texts = {text.get_text() for text in miura.plot(numbers=True).texts}
     assert {"0", "1", "2", "3", "0 (1, 0)", "0 (0, 1)"} <= texts

@@ -174,12 +174,17 @@ def test_points_that_fail_are_listed(tmp_path):
     assert all(bool(why) == (word != "converged") for word, why in zip(data.status.values.ravel(), data.reason.values.ravel(), strict=True))
 
 
+def test_a_folder_of_no_sweep_is_said(tmp_path):
+    with pytest.raises(FileNotFoundError, match="not the folder of a sweep, it has no sweep.csv"):
+        fw.open_sweep(tmp_path)
+
+
 def test_mistakes_are_said_before_anything_is_computed(tmp_path):
     for axes, words in [
         ({"energy.bars.stiffnes": [1.0, 2.0]}, "unknown key `stiffnes`"),
         ({"energy.bars.stiffness": [1.0, -2.0]}, "point 1"),
         ({"energy.bars.stiffness": []}, "sweep|values"),
-        (None, "no \\[sweep\\]"),
+        (None, "no `sweep`"),
     ]:
         with pytest.raises(fw.SceneError, match=words):
             fw.sweep(SCENE, axes, out=tmp_path / "none")

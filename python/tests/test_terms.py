@@ -90,11 +90,20 @@ def test_what_is_wrong_with_it_is_said(soft, magnets, miura):
         ("creases", [[0, 1]], "already"),
         ("far", [[0, 99]], "names vertex 99"),
         ("many", [list(range(7))], "1 to 6"),
-        ("flat", [0, 1], "rows of vertex numbers"),
-        ("before", [[0, -1]], "rows of vertex numbers"),
+        ("flat", [0, 1], r"vertices\[0\] is 0, expected a list of vertex numbers"),
+        ("halves", [[0.0, 1.0]], r"vertices\[0\] is \[0.0, 1.0\], expected a list of vertex numbers"),
+        ("ragged", [[0, 1], [2]], r"vertices\[1\] is \[2\], expected different numbers, .* as many as"),
+        ("twice", [[4, 4]], "expected different numbers"),
+        ("none", [], "vertices is empty"),
+        ("a b", [[0, 1]], "name is 'a b', expected letters"),
+        ("before", [[0, -1]], r"vertices\[0\] is \[0, -1\], expected different numbers, 0 or more"),
     ]:
         with pytest.raises(ValueError, match=words):
             magnets.with_term(name, vertices, poles)
+    with pytest.raises(TypeError, match="energy is 3, expected a function"):
+        soft.with_term("number", [[0, 1]], 3)
+    with pytest.raises(TypeError, match="the function of one returned a float, expected energy, gradient and Hessian"):
+        soft.with_term("one", [[0, 1]], lambda points: 1.0)
     with pytest.raises(fw.SceneError, match="patches"):
         fw.Assembly.torus(miura, bars=1.0).with_term("magnets", [[0, 1]], poles)
     with pytest.raises(fw.SceneError, match="studies of kind landscape do not know the term `magnets`"):

@@ -35,6 +35,8 @@ pub(super) enum Failure {
         second.display(), out.display()
     )]
     SameFolder { first: PathBuf, second: PathBuf, out: PathBuf },
+    #[error("the folder of this run would be {}, which is a file; name another one with --out", .0.display())]
+    NoFolder(PathBuf),
     #[error("standard output: {0}")]
     StandardOutput(io::Error),
     #[error("no thread can be had for the work: {0}")]
@@ -46,7 +48,7 @@ impl Failure {
     pub(super) fn exit_status(&self) -> u8 {
         match self {
             Self::Run(error) => error.exit_status(),
-            Self::Parameters(_) | Self::StandardInput(_) | Self::SameFolder { .. } => WRONG_INPUT,
+            Self::Parameters(_) | Self::StandardInput(_) | Self::SameFolder { .. } | Self::NoFolder(_) => WRONG_INPUT,
             Self::StandardOutput(_) | Self::Thread(_) => BROKEN_PLACE,
         }
     }

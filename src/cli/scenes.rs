@@ -25,6 +25,9 @@ pub(super) fn read(
     let mut scenes = Vec::new();
     for path in paths {
         let out = folder(path, options.out.as_deref(), paths.len() > 1);
+        if options.out.is_none() && out.is_file() {
+            return Err(Failure::NoFolder(out));
+        }
         if let Some(first) = folders.insert(out.clone(), path) {
             return Err(Failure::SameFolder { first: first.clone(), second: path.clone(), out });
         }

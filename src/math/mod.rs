@@ -51,6 +51,13 @@ pub(crate) fn lower_triangle(size: usize) -> impl Iterator<Item = (usize, usize)
     (0..size).flat_map(|row| (0..=row).map(move |column| (row, column)))
 }
 
+/// Returns a number as messages show it, with up to eight significant digits.
+pub(crate) fn short(value: f64) -> String {
+    let rounded = format!("{value:.7e}").parse().unwrap_or(value);
+    let plain = rounded == 0.0 || (1e-4..1e15).contains(&rounded.abs());
+    if plain { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
 /// A point or vector in the plane.
 pub(crate) type Vec2 = nalgebra::Vector2<f64>;
 

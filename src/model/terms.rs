@@ -178,13 +178,14 @@ impl Terms {
         self.own.iter().any(|term| term.name() == MEMBRANE)
     }
 
-    /// Whether there is any bar, crease, facet, lock or load. Pins and mass give no energy.
+    /// Whether there is any bar, crease, facet that is not rigid, lock or load. Rigid facets, pins and mass give no
+    /// energy.
     pub fn has_energy(&self) -> bool {
         let Self { bars, creases, facets, locks, loads, pins: _, guides: _, parts: _, mass: _, laws: _, own } = self;
         !own.is_empty()
             || bars.is_some()
             || creases.is_some()
-            || facets.is_some()
+            || facets.as_ref().is_some_and(|facets| !facets.stiffness.is_rigid())
             || !locks.is_empty()
             || !loads.is_empty()
     }

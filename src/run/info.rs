@@ -5,12 +5,16 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::math::short;
 use crate::model::{Assembly, Hinges, Stiffness};
 use crate::output::table::{Table, Value};
 use crate::sheet::{EdgeKind, Info, Sheet, TiledEdge};
 
 /// Largest difference of a rest angle from the drawn angle, in radians, that counts as none.
 const SAME_ANGLE_RAD: f64 = 1e-9;
+
+/// Largest difference of two stiffnesses, relative to them, that is rounding.
+const SAME_STIFFNESS: f64 = 1e-12;
 
 /// Counts and measures of a sheet, and what a scene sets on it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -86,7 +90,7 @@ impl ElementCounts {
         soft.sort_by(f64::total_cmp);
         let (softest, stiffest) = (soft.first().copied(), soft.last().copied());
         let rigid = all.len() - soft.len();
-        soft.dedup();
+        soft.dedup_by(|next, one| *next - *one <= SAME_STIFFNESS * *one);
         Self { elements: all.len(), rigid, stiffnesses: soft.len(), softest, stiffest, rest_not_drawn: 0 }
     }
 }
@@ -117,9 +121,9 @@ impl fmt::Display for ElementCounts {
         write!(f, "{elements}")?;
         match (softest, stiffest) {
             (Some(softest), Some(stiffest)) if stiffnesses > &1 => {
-                write!(f, ", {stiffnesses} stiffnesses from {softest:?} to {stiffest:?}")?;
+                write!(f, ", {stiffnesses} stiffnesses from {} to {}", short(*softest), short(*stiffest))?;
             }
-            (Some(softest), _) => write!(f, ", stiffness {softest:?}")?,
+            (Some(softest), _) => write!(f, ", stiffness {}", short(*softest))?,
             _ => {}
         }
         match rigid {

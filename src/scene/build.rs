@@ -74,11 +74,7 @@ pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> 
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {
-        let path = file.resolve(mesh);
-        return mesh_of(file, &path).map_err(|error| match error {
-            SceneError::Mesh(_) if !path.exists() => file.no_file(mesh.span(), &path),
-            error => error,
-        });
+        return mesh_of(file, &file.resolve(mesh)).map_err(|error| file.placed(error));
     }
     let Some(table) = &spec.generate else {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));

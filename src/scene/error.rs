@@ -60,7 +60,7 @@ pub enum TableFault {
     Whole { field: String, column: &'static str },
     #[error("`{field}` in column `{column}` is not a finite number")]
     Number { field: String, column: &'static str },
-    #[error("`{field}` in column `{column}` is not a positive number or `inf` (exactly rigid)")]
+    #[error("`{field}` in column `{column}` is not a positive number or `inf` (exactly rigid), 1e-300 at least")]
     Stiffness { field: String, column: &'static str },
     /// A field that should be a length is not one.
     #[error("`{field}` in column `{column}` is not a finite number above 0")]

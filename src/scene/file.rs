@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::SceneError;
-use super::schema::{common_study_keys, kinds, kinds_with_key};
+use super::schema::{common_study_keys, is_key_of_scene, kinds, kinds_with_key};
 use super::setting::{Setting, apply};
 use super::spec::Scene;
 use crate::sheet::SheetError;
@@ -122,9 +122,15 @@ impl SceneFile {
         if wrong { Err(self.error_at(span, message, help)) } else { Ok(()) }
     }
 
-    /// Returns the error of a file that is not there, with the name of a file beside it that may be meant.
-    pub(super) fn no_file(&self, span: Range<usize>, path: &Path) -> SceneError {
-        let beside = fs::read_dir(Path::new(".").join(path.parent().unwrap_or(path))).into_iter().flatten().flatten();
+    /// Returns the error of a file that is not there, with the name of a file beside it that may be meant, or that is a
+    /// folder.
+    fn no_file(&self, span: Range<usize>, path: &Path) -> SceneError {
+        let here = Path::new(".").join(path);
+        if here.is_dir() {
+            let message = format!("{} is a folder", here.display());
+            return self.error_at(span, message, "a file is expected; paths are relative to the folder of the scene");
+        }
+        let beside = fs::read_dir(here.parent().unwrap_or(&here)).into_iter().flatten().flatten();
         let beside: Vec<String> = beside.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let question = did_you_mean(&name, beside.iter().map(String::as_str));
@@ -135,13 +141,19 @@ impl SceneFile {
     /// Returns an error about a file that is not there with the place in the scene that names it.
     pub(super) fn placed(&self, error: SceneError) -> SceneError {
         let path = match &error {
-            SceneError::Read { path, .. } | SceneError::Mesh(SheetError::Read { path, .. }) if !path.exists() => path,
+            SceneError::Read { path, .. } | SceneError::Mesh(SheetError::Read { path, .. }) => path,
             _ => return error,
         };
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let ends_a_text = |at: &usize| self.text()[at + name.len()..].starts_with(['"', '\'']);
-        match self.text().match_indices(&*name).map(|(at, _)| at).find(ends_a_text) {
-            Some(at) => self.no_file(at..at + name.len(), path),
+        if path.exists() && !path.is_dir() {
+            return error;
+        }
+        let names_it = |(at, quote): (usize, &str)| {
+            let text = &self.text()[at + 1..];
+            let length = text.find(quote)?;
+            (self.resolve(Path::new(&text[..length])) == *path).then_some(at..at + length + 2)
+        };
+        match self.text().match_indices(['"', '\'']).find_map(names_it) {
+            Some(span) => self.no_file(span, path),
             None => error,
         }
     }
@@ -254,6 +266,9 @@ fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneE
     let (span, question) = (fault.span().unwrap_or(0..0), did_you_mean_of(fault.message()));
     let (wrong, right) = in_words(fault.message());
     let named = text.inner().get(span.clone()).unwrap_or_default();
+    if let Some(help) = slip(text.inner(), &span) {
+        return error_at(text, span, "this is no TOML".into(), Some(help.into()));
+    }
     if wrong == "duplicate key" {
         let help = "each key, and each table in brackets, is given once";
         return error_at(text, span.clone(), format!("`{named}` is given a second time"), Some(help.into()));
@@ -274,6 +289,25 @@ fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneE
     error_at(text, span, wrong, right.map(|right| format!("{question}expected {right}")))
 }
 
+/// Returns the advice about a slip that makes what stands at a place, or ends there, no TOML: a comma in a number, or
+/// quotes that word processors make.
+fn slip(text: &str, span: &Range<usize>) -> Option<&'static str> {
+    let is_digit = |c: char| c.is_ascii_digit();
+    let line = text.get(..span.start)?.lines().next_back()?;
+    let before = line.trim_end().trim_end_matches(is_digit);
+    let (number, after) = match before.strip_suffix(',') {
+        Some(number) => (number, &line[before.len()..]),
+        None => (line, text.get(span.start..)?.strip_prefix(',').unwrap_or_default()),
+    };
+    if text.get(span.clone())?.contains(['\u{201c}', '\u{201d}', '\u{201e}', '\u{2018}', '\u{2019}']) {
+        Some("these are curly quotes; write straight ones, \"")
+    } else if number.ends_with(is_digit) && after.starts_with(is_digit) && !line.contains('[') {
+        Some("a number has a decimal point, 1.5; a comma ends it")
+    } else {
+        None
+    }
+}
+
 fn quoted_after(text: &str, start: &str) -> Option<String> {
     Some(text.strip_prefix(start)?.strip_prefix('`')?.split_once('`')?.0.to_owned())
 }
@@ -284,6 +318,7 @@ fn unknown_key_help(key: &str, right: Option<String>) -> String {
         format!("the keys here are {}", right.trim_start_matches("one of "))
     });
     match kinds_with_key(key).as_slice() {
+        [] if is_key_of_scene(key) => format!("`{key}` belongs to the scene itself, above its first table; {here}"),
         [] => here,
         kinds => format!("`{key}` is a key of studies of kind {}; {here}", kinds.join(", ")),
     }

@@ -9,7 +9,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 use super::error::{SceneError, TableFault};
-use super::values::directed_edge;
+use super::values::{LEAST_STIFFNESS, directed_edge};
 use crate::sheet::EdgeKey;
 
 /// The quantity in the last column of a table.
@@ -50,7 +50,7 @@ impl Column {
                 Some([message, help]) => Err(TableFault::Turns { message, help }),
                 None => Ok(number),
             },
-            Self::Stiffness if !(number > 0.0) => Err(TableFault::Stiffness { field: field(), column }),
+            Self::Stiffness if !(number >= LEAST_STIFFNESS) => Err(TableFault::Stiffness { field: field(), column }),
             Self::Length if !(number > 0.0 && number.is_finite()) => Err(TableFault::Length { field: field(), column }),
             Self::Rate | Self::Stiffness | Self::Length => Ok(number),
         }

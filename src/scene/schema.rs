@@ -1,6 +1,6 @@
 //! The JSON schema of a scene, generated from the types that read it, so that both always agree.
 
-use schemars::{Schema, SchemaGenerator, schema_for};
+use schemars::{JsonSchema, Schema, SchemaGenerator, schema_for};
 use serde_json::Value;
 
 use super::spec::{Scene, StudyKind};
@@ -26,6 +26,11 @@ pub(super) fn kinds_with_key(key: &str) -> Vec<&'static str> {
     with_key.map(|(kind, _)| *kind).collect()
 }
 
+/// Whether a key stands in no table of a scene.
+pub(super) fn is_key_of_scene(key: &str) -> bool {
+    keys(Scene::json_schema).iter().any(|known| known == key)
+}
+
 fn keys(schema: fn(&mut SchemaGenerator) -> Schema) -> Vec<String> {
     let schema = schema(&mut SchemaGenerator::default());
     let properties = schema.get("properties").and_then(Value::as_object);
@@ -36,7 +41,6 @@ fn keys(schema: fn(&mut SchemaGenerator) -> Schema) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::scene::spec::StudySpec;
-    use schemars::JsonSchema;
 
     fn properties(schema: &Value) -> Vec<&str> {
         schema["properties"].as_object().unwrap().keys().map(String::as_str).collect()

@@ -8,11 +8,15 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
+use crate::math::short;
 use crate::sheet::{Corner, EdgeKey, Seam};
 
 fn counted(count: &usize) -> String {
     if *count == 1 { "1 value".into() } else { format!("{count} values") }
 }
+
+/// Smallest stiffness: the reciprocals of spring constants, which are this over a length, are numbers too.
+pub(super) const LEAST_STIFFNESS: f64 = 1e-300;
 
 /// The reasons for which a value of a scene is refused.
 #[derive(Debug, Error)]
@@ -20,7 +24,7 @@ fn counted(count: &usize) -> String {
 pub enum ValueError {
     #[error("the list has {count}, expected {1} values", count = counted(.0))]
     Length(usize, usize),
-    #[error("the stiffness is {0}, expected a positive number or `inf` (exactly rigid)")]
+    #[error("the stiffness is {}, expected a positive number or `inf` (exactly rigid), 1e-300 at least", short(*.0))]
     Stiffness(f64),
     #[error("the number is {0}, expected a finite number")]
     NotFinite(f64),
@@ -109,8 +113,8 @@ pub(super) use numbers;
 
 numbers! { ValueError:
     /// Stiffness of a term: a positive number, infinity included.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    Stiffness, |number| *number > 0.0, Stiffness;
+    #[schemars(extend("minimum" = LEAST_STIFFNESS))]
+    Stiffness, |number| *number >= LEAST_STIFFNESS, Stiffness;
 
     /// A finite number.
     Finite, |number| number.is_finite(), NotFinite;

@@ -176,7 +176,7 @@ pub enum Problem {
     Upright(DrawnEdge),
     #[error(
         "edge {edge} of the list, {ends}, belongs to edges inside a face that are not joined to the others; give \
-         `faces_vertices`, which cannot be rebuilt for them, or join them"
+         `faces_vertices`, which cannot be rebuilt for them, or join them by edges that do not fold, J"
     )]
     Nested { edge: usize, ends: DrawnEdge },
     #[error(

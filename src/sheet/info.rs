@@ -1,6 +1,6 @@
 //! Counts and measures of a sheet, available before anything is computed with it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use serde::Serialize;
@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::assignment::Assignment;
 use super::build::coincident;
 use super::cell::{Corner, EdgeKind, Sheet};
-use crate::math::Vec3;
+use crate::math::{Vec3, short};
 
 /// Largest angle defect, in radians, of a sheet that is called developable.
 const DEVELOPABLE: f64 = 1e-9;
@@ -55,6 +55,8 @@ pub struct Info {
     pub joints: usize,
     /// Number of edges of one face that cuts have made, two for each cut edge.
     pub cut: usize,
+    /// Number of edges of each letter of FOLD: that of the file, or what the drawing shows.
+    pub letters: BTreeMap<&'static str, usize>,
     /// Number of triangles.
     pub faces: usize,
     /// Number of polygons.
@@ -113,6 +115,8 @@ impl Info {
         let lengths = || sheet.edges.iter().map(|edge| sheet.length(edge.key));
         let defect = angle_defects(sheet).fold(0.0, |largest: f64, (_, defect)| largest.max(defect.abs()));
         let thin = thin_triangles(sheet);
+        let mut letters = BTreeMap::new();
+        sheet.edges.iter().for_each(|edge| *letters.entry(sheet.assignment(edge).letter()).or_default() += 1);
         Self {
             title: sheet.title.clone(),
             periodic: sheet.is_repeated(),
@@ -124,6 +128,7 @@ impl Info {
             bars_alone,
             joints: sheet.edges.iter().filter(|edge| edge.key.round == 1).count(),
             cut: sheet.edges.iter().filter(|edge| sheet.assignment(edge) == Assignment::Cut).count(),
+            letters,
             faces: sheet.triangles.len(),
             polygons: sheet.polygons.len(),
             pieces: pieces(sheet).len(),
@@ -218,10 +223,12 @@ impl fmt::Display for Info {
         let thinnest = thinnest.collect::<Vec<_>>().join(", ");
         let (thin, more) = (self.thin_triangles, if self.thin_triangles > self.thinnest.len() { ", .." } else { "" });
         let (against, touching) = (self.drawn_against_targets, self.touching_vertices);
+        let letters = self.letters.iter().map(|(letter, count)| format!("{count} {letter}")).collect::<Vec<_>>();
         // the name of each line, whether it is written, and what it says
         let lines = [
             ("vertices", true, self.vertices.to_string()),
             ("edges", true, format!("{} ({creases} creases, {facets} facets, {boundary} boundary{cut})", self.edges)),
+            ("letters", true, letters.join(", ")),
             ("bars without faces", *bars_alone > 0, bars_alone.to_string()),
             ("joints", *joints > 0, format!("{joints} edges of more than two faces")),
             ("triangles", true, format!("{faces} (of {polygons} polygons)")),
@@ -229,7 +236,7 @@ impl fmt::Display for Info {
             ("Euler characteristic", true, self.euler_characteristic.to_string()),
             ("Maxwell count", true, format!("{}{further_counts}", self.maxwell_count)),
             ("developable", true, format!("{developable}, largest angle defect {:.3e} rad", self.largest_angle_defect)),
-            ("edge lengths", true, format!("{:.6} to {:.6}", self.shortest_edge, self.longest_edge)),
+            ("edge lengths", true, format!("{} to {}", short(self.shortest_edge), short(self.longest_edge))),
             ("worst triangle", true, format!("quality {:.4} (1: equilateral)", self.worst_triangle_quality)),
             ("thin triangles", thin > 0, format!("{thin} of quality under {THIN_QUALITY:?}: {thinnest}{more}")),
             ("target angles", self.target_angles > 0, targets_said(self.target_angles)),
@@ -252,7 +259,11 @@ pub(crate) fn remarks(sheet: &Sheet) -> Vec<String> {
     let rims = sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary);
     let letters = rims.filter_map(|edge| sheet.assignments.get(&edge.key));
     let folding = letters.filter(|letter| matches!(letter, Assignment::Mountain | Assignment::Valley)).count();
-    if folding > 0 {
+    if folding > 0 && sheet.triangles.is_empty() {
+        said.push(
+            "`faces_vertices` is empty, so that there are bars only; leave it out to have the faces found".into(),
+        );
+    } else if folding > 0 {
         said.push(format!("{folding} edges of the rim have the letter M or V; an edge of one face does not fold"));
     }
     said

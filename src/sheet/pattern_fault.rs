@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::assignment::Assignment;
+use crate::math::short;
 
 /// A line of a crease pattern as messages name it: by the coordinates of its ends, in the file's own directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +11,7 @@ pub struct LineName(pub [[f64; 2]; 2]);
 
 impl fmt::Display for LineName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let number = |x: f64| if x.abs() < 1e15 { format!("{x}") } else { format!("{x:e}") };
-        let [[x1, y1], [x2, y2]] = self.0.map(|end| end.map(number));
+        let [[x1, y1], [x2, y2]] = self.0.map(|end| end.map(short));
         write!(f, "from ({x1}, {y1}) to ({x2}, {y2})")
     }
 }
@@ -58,14 +58,16 @@ pub enum PatternFault {
     NoRim { line: LineName },
     #[error(
         "the line {line}, or a part of it, has the same face on both sides or the outside on both; a line should bound a face \
-         on one side at least and end at other lines"
+         on one side at least and end at other lines: join the ends of a slit to others by lines that do not fold (cyan in SVG, \
+         J in FOLD), and leave out what lies beside the sheet, or draw it grey"
     )]
     Loose { line: LineName },
     #[error("the line {line}: {problem}")]
     Line { line: LineName, problem: String },
     #[error(
-        "the line {line} belongs to an outline inside a face that does not touch the other lines; join it to them, or draw it \
-         beside the sheet, where it is a piece of its own"
+        "the line {line} belongs to an outline inside a face that does not touch the other lines; join it to them by \
+         two lines or more that do not fold (cyan in SVG, J in FOLD), or draw it beside the sheet, where it is a \
+         piece of its own"
     )]
     Nested { line: LineName },
     #[error(

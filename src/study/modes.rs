@@ -24,8 +24,11 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
     }
     let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
     let unknowns = drawn.coordinates.len().saturating_sub(drawn.held.len() + terms.pinned());
-    let wanted = (**count).min(unknowns);
-    let Err(error) = decomposed_dense(unknowns, wanted, unknowns) else { return Ok(()) };
+    if **count > unknowns {
+        let message = format!("{} eigenvalues are too many for a model of {unknowns} coordinates", **count);
+        return Err(context.file.error_at(count.span(), message, format!("ask for at most {unknowns}")).into());
+    }
+    let Err(error) = decomposed_dense(unknowns, **count, unknowns) else { return Ok(()) };
     let help = format!("ask for at most {SPARSE_EIGENVALUES}, or take fewer cells");
     Err(context.file.error_at(count.span(), error.to_string(), help).into())
 }

@@ -6,7 +6,7 @@ use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, continued};
 use crate::model::law::Stored;
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{SymmetricEigen, symmetric_eigen};
+use crate::numerics::dense::symmetric_eigen;
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -360,8 +360,9 @@ fn positive_part(lower: &[f64], order: usize, factor: f64) -> Vec<f64> {
     for ((row, column), value) in lower_triangle(order).zip(lower) {
         hessian[(row, column)] = *value;
     }
-    let Ok(SymmetricEigen { values, vectors }) = symmetric_eigen(&hessian) else { return vec![0.0; lower.len()] };
-    let kept: Vec<usize> = (0..order).filter(|k| values[*k] * factor > 0.0).collect();
-    let entry = |(row, column)| kept.iter().map(|&k| values[k] * vectors[(row, k)] * vectors[(column, k)]).sum();
+    let Ok(found) = symmetric_eigen(&hessian) else { return vec![0.0; lower.len()] };
+    let kept: Vec<usize> = (0..order).filter(|k| found.values[*k] * factor > 0.0).collect();
+    let part = |k: usize, row, column| found.values[k] * found.vectors[(row, k)] * found.vectors[(column, k)];
+    let entry = |(row, column)| kept.iter().map(|&k| part(k, row, column)).sum();
     lower_triangle(order).map(entry).collect()
 }

@@ -22,8 +22,8 @@ pub struct CreasesSpec {
     pub stiffness: Option<Located<StiffnessSpec>>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
-    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
-    /// letters.
+    /// Factor on the rest angles, from -1 (folded to the other side) by way of 0 (flat) to 1 (folded): of
+    /// `rest = "target"`, `"assigned"` or a table by letters.
     pub fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
     pub law: Option<Located<LawForm<HingeLawSpec>>>,
@@ -53,8 +53,8 @@ struct FacetsSpec {
     stiffness: Option<Located<StiffnessSpec>>,
     /// Rest angles; left out: as drawn.
     rest: Option<Located<RestSpec>>,
-    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by
-    /// letters.
+    /// Factor on the rest angles, from -1 (folded to the other side) by way of 0 (flat) to 1 (folded): of
+    /// `rest = "target"`, `"assigned"` or a table by letters.
     fraction: Option<Located<Fraction>>,
     /// How the torque grows with the angle; left out: linearly.
     law: Option<Located<LawForm<HingeLawSpec>>>,

@@ -60,7 +60,7 @@ fn angles<'a>(
 fn assignments(source: &Source, keys: &Values, count: usize) -> Result<Vec<Assignment>, SheetError> {
     let rows = per_edge(source, keys, ("edges_assignment", "a list of letters"), count)?;
     let read = |(e, row): (usize, &&RawValue)| {
-        let right = "one of \"B\", \"M\", \"V\", \"F\", \"U\", \"C\", \"J\"";
+        let right = "one of the capital letters \"B\", \"M\", \"V\", \"F\", \"U\", \"C\", \"J\"";
         let what = || format!("the assignment of edge {e} of the list");
         let letter: Option<String> = serde_json::from_str(row.get()).ok();
         letter.and_then(|letter| Assignment::from_letter(&letter)).ok_or_else(|| source.mistyped(row, what(), right))

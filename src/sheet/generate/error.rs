@@ -2,7 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::math::short;
 use crate::sheet::error::Defect;
+
+/// Advice about parameters that are no angles.
+const RANGES: &str = "the page of the pattern has the ranges: `foldwell new PATTERN --help`";
 
 /// The reason why a pattern has no sheet for its parameters.
 #[derive(Debug, thiserror::Error)]
@@ -10,11 +14,14 @@ use crate::sheet::error::Defect;
 pub enum GenerateError {
     #[error("{message}")]
     Unknown { message: String, help: String },
-    #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
+    #[error(
+        "`{name}` is {}; it should be {} {} and below {}", short(*value), if *closed { "at least" } else { "above" },
+        short(*low), short(*high)
+    )]
     Number { name: &'static str, value: f64, low: f64, closed: bool, high: f64 },
     #[error(
-        "`{name}` is {value} rad; it should be {} {} and below {}{}", if *closed { "at least" } else { "above" },
-        short(*low), short(*high),
+        "`{name}` is {} rad; it should be {} {} and below {}{}", short(*value),
+        if *closed { "at least" } else { "above" }, short(*low), short(*high),
         perhaps_degrees(*value, *high)
     )]
     Angle {
@@ -47,15 +54,10 @@ impl GenerateError {
     pub fn help(&self) -> String {
         match self {
             Self::Unknown { help, .. } => help.clone(),
-            _ => "angles are radians, or written as \"60 deg\"".to_owned(),
+            Self::Angle { .. } | Self::NoFold { .. } => "angles are radians, or written as \"60 deg\"".to_owned(),
+            _ => RANGES.to_owned(),
         }
     }
-}
-
-/// Returns a number with up to six decimals.
-fn short(value: f64) -> String {
-    let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Returns a question, if an angle that is too large would be in its range as a number of degrees.

@@ -279,7 +279,7 @@ fn bad_parameters() {
         (r#"{"pattern": "eggbox", "fold": 0.1}"#, "`fold` is 0.1 rad; it should be above 0.5235"),
         (
             r#"{"pattern": "four-parallelogram", "fold": 0.3}"#,
-            "`fold` is 0.3 rad; it should be above 0.392699 and below 1.4",
+            "`fold` is 0.3 rad; it should be above 0.39269908 and below 1.4",
         ),
         (r#"{"pattern": "four-parallelogram", "fold": -0.3}"#, "`fold` is -0.3 rad; it should be above -1.4"),
         (

@@ -7,7 +7,7 @@
 
 use kurbo::Affine;
 use roxmltree::{Document, Node};
-use svgtypes::{Color, Transform, ViewBox};
+use svgtypes::{Paint, Transform, ViewBox};
 
 use super::colour;
 use super::line::{DrawnLines, Line, Lines, Misread, flip};
@@ -75,7 +75,10 @@ impl<'d, 'input> Drawing<'d, 'input> {
             let right = "there should be at most 1,000,000 of them, clones included, and at most 200 in each other";
             return Err(located(PatternFault::Element { element: "too many elements".into(), right }));
         }
-        let properties = self.rules.properties(node);
+        let mut properties = self.rules.properties(node);
+        if let Some(colour) = properties.get("stroke").and_then(|paint| self.swatch(paint)) {
+            properties.insert("stroke", colour);
+        }
         let mut here = around.with(&properties).map_err(located)?;
         here.room = UNKNOWN;
         let is_foreign = node.tag_name().namespace() != document.root_element().tag_name().namespace();
@@ -116,11 +119,26 @@ impl<'d, 'input> Drawing<'d, 'input> {
         })
     }
 
+    /// Returns the colour of a gradient whose stops have one, as programs write swatches; `None` for another paint.
+    fn swatch(&self, paint: &str) -> Option<&'d str> {
+        let Ok(Paint::FuncIRI(id, _)) = Paint::from_str(paint) else { return None };
+        let gradient = self.document.descendants().find(|node| node.attribute("id") == Some(id))?;
+        let linked = std::iter::successors(Some(gradient), |node| self.original(*node).ok()).take(DEEPEST);
+        let stops = |node: Node<'d, 'input>| node.children().filter(|child| child.tag_name().name() == "stop");
+        let stops: Vec<Properties> = linked.map(stops).find_map(|stops| {
+            let own: Vec<Properties> = stops.map(|stop| self.rules.properties(stop)).collect();
+            (!own.is_empty()).then_some(own)
+        })?;
+        let colour = |own: &Properties<'d>| own.get("stop-color").copied().unwrap_or("black");
+        let is_opaque = |own: &Properties| own.get("stop-opacity").is_none_or(|opacity| opacity.parse() == Ok(1.0));
+        let first = colour(&stops[0]);
+        let one = stops.iter().all(|own| colour(own) == first && is_opaque(own));
+        one.then_some(first)
+    }
+
     fn shape(&mut self, node: Node, here: &Around) -> Result<(), PatternFault> {
-        let Some(colour) = here.style.stroke.filter(|colour| here.style.visible && here.style.wide && colour.alpha > 0)
-        else {
-            return Ok(());
-        };
+        let is_seen = |(_, alpha): &(_, f64)| here.style.visible && here.style.wide && *alpha > 0.0;
+        let Some((colour, alpha)) = here.style.stroke.filter(is_seen) else { return Ok(()) };
         let Some(outline) = outline(node, &here.units)? else { return Ok(()) };
         let rgb = [colour.red, colour.green, colour.blue];
         let [red, green, blue] = rgb;
@@ -129,7 +147,7 @@ impl<'d, 'input> Drawing<'d, 'input> {
         let auxiliary = colour::is_grey(rgb);
         self.grey += usize::from(auxiliary);
         let letter = colour::letter(rgb).or(auxiliary.then_some(Assignment::Flat)).ok_or_else(wrong)?;
-        let angle = angle(letter, here.style.opacity * here.style.stroke_opacity, colour);
+        let angle = angle(letter, here.style.opacity * here.style.stroke_opacity * alpha);
         let ends = [Vec2::zeros(); 2];
         let line = Line { ends, letter, angle, auxiliary, contour: false, at: node.range().start, flipped: true };
         self.outlines.push(Outline { path: here.placed() * outline, line, named: false });
@@ -143,8 +161,8 @@ fn is_origin(text: &str) -> bool {
 }
 
 /// Returns the target angle in degrees of a line of this opacity.
-fn angle(letter: Assignment, opacity: f64, colour: Color) -> Option<f64> {
-    let folded = opacity * f64::from(colour.alpha) / 255.0 * 180.0;
+fn angle(letter: Assignment, opacity: f64) -> Option<f64> {
+    let folded = opacity * 180.0;
     match letter {
         Assignment::Mountain => Some(flip(folded)),
         Assignment::Valley => Some(folded),

@@ -11,17 +11,30 @@ use super::xml;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// The properties that are used here.
-const USED: [&str; 8] =
-    ["stroke", "stroke-opacity", "opacity", "display", "visibility", "color", "transform", "transform-origin"];
+const USED: [&str; 10] = [
+    "stroke",
+    "stroke-opacity",
+    "opacity",
+    "display",
+    "visibility",
+    "color",
+    "transform",
+    "transform-origin",
+    "stop-color",
+    "stop-opacity",
+];
 
 /// Properties of sizes. A rule whose selectors cannot be read may have them: what it leaves out is a size, no line.
 const SIZES: [&str; 2] = ["stroke-width", "font-size"];
 
+/// A colour and its opacity, from 0 to 1.
+type Ink = (Color, f64);
+
 /// How elements are drawn, as far as a crease pattern needs it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
-    /// Colour of the stroke; `None` for shapes without one.
-    pub stroke: Option<Color>,
+    /// Colour of the stroke and its opacity, from 0 to 1; `None` for shapes without one.
+    pub stroke: Option<Ink>,
     /// Whether the stroke has a width.
     pub wide: bool,
     /// Opacity of the stroke alone, from 0 to 1.
@@ -32,12 +45,13 @@ pub(super) struct Style {
     pub visible: bool,
     /// Whether the element and those in it are drawn at all.
     pub displayed: bool,
-    color: Color,
+    /// The colour `currentColor`, and its opacity.
+    color: Ink,
 }
 
 impl Default for Style {
     fn default() -> Self {
-        let (opacity, color) = (1.0, Color::black());
+        let (opacity, color) = (1.0, (Color::black(), 1.0));
         Self { stroke: None, wide: true, stroke_opacity: opacity, opacity, visible: true, displayed: true, color }
     }
 }
@@ -107,8 +121,8 @@ impl Style {
         let given = |name: &str| properties.get(name).copied().filter(|value| *value != "inherit");
         let mut style = *self;
         if let Some(text) = given("color") {
-            style.color =
-                text.parse().map_err(|_| PatternFault::value(text, "colour", "`#f00`, `red` or `rgb(255, 0, 0)`"))?;
+            let wrong = |_| PatternFault::value(text, "colour", "`#f00`, `red` or `rgb(255, 0, 0)`");
+            style.color = text.parse().map(|color| (color, alpha(text, color))).map_err(wrong)?;
         }
         if let Some(text) = given("stroke") {
             style.stroke = stroke(text, style.color, self.stroke)?;
@@ -130,15 +144,23 @@ impl Style {
     }
 }
 
-fn stroke(text: &str, color: Color, inherited: Option<Color>) -> Result<Option<Color>, PatternFault> {
-    let right = "a colour, `#f00`, `red` or `rgb(255, 0, 0)`, or `none`";
+fn stroke(text: &str, color: Ink, inherited: Option<Ink>) -> Result<Option<Ink>, PatternFault> {
+    let right = "a colour, `#f00`, `red` or `rgb(255, 0, 0)`, a gradient of one colour, or `none`";
     match Paint::from_str(text) {
         Ok(Paint::None) => Ok(None),
         Ok(Paint::Inherit) => Ok(inherited),
         Ok(Paint::CurrentColor) => Ok(Some(color)),
-        Ok(Paint::Color(color)) => Ok(Some(color)),
+        Ok(Paint::Color(color)) => Ok(Some((color, alpha(text, color)))),
         _ => Err(PatternFault::value(text, "colour of a stroke", right)),
     }
+}
+
+/// Returns the opacity that the text of a colour gives it, which the colour itself has in steps of 1/255.
+fn alpha(text: &str, color: Color) -> f64 {
+    let last =
+        text.trim_end().strip_suffix(')').and_then(|text| text.rsplit([',', '/', ' ']).find(|part| !part.is_empty()));
+    let written = last.filter(|_| color.alpha < 255).and_then(|last| opacity(last).ok());
+    written.unwrap_or(f64::from(color.alpha) / 255.0)
 }
 
 fn opacity(text: &str) -> Result<f64, PatternFault> {

@@ -31,6 +31,28 @@ fn wrong_words_are_wrong_input() {
     }
 }
 
+/// Claim: negative numbers after options are read as their values and refused by the range that is right; so are lists
+/// of a pattern with another sign than a comma, and the name of a scene as that of the folder.
+#[test]
+fn wrong_values_of_options_are_refused() {
+    let text = "sheet = { generate = { pattern = \"miura\" } }\nenergy = { creases = { stiffness = 1.0 } }\n\
+                study = [{ name = \"a\", kind = \"relax\" }]\n";
+    let folder = Folder::new().with("noending", text);
+    folder.foldwell("new miura -o m.fold").well();
+    for (words, said) in [
+        ("run noending --threads -1", "-1 is not in 1..=65535"),
+        ("info m.fold --frame -1", "invalid value '-1' for '--frame <N>'"),
+        ("convert m.fold m.stl --thickness -1", "the thickness is -1, expected a number above 0"),
+        ("convert m.fold n.fold --merge -1", "merge"),
+        ("film a --branch -1", "a: not the folder of a run"),
+        ("new miura-patch --cells 2x2 -o a.fold", "two numbers, [2, 2] in a scene and 2,2 after"),
+        ("run noending", "the folder of this run would be noending, which is a file; name another one with --out"),
+    ] {
+        folder.foldwell(words).refused(said);
+    }
+    assert_eq!(folder.names().len(), 2);
+}
+
 /// Claim: a slip in a command, a pattern, a parameter, a key, a word of a scene or a name is answered by the word that
 /// is meant. Source: slips that users made.
 #[test]

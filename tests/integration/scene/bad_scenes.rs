@@ -97,6 +97,11 @@ const FAULTS: &[Fault] = &[
     fault(2, "[sheet", "2:7", "unclosed table", "expected `]`"),
     fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
     fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "`title` is given a second time", "each key, and each table in brackets, is given once"),
+    fault(7, "bars = { stiffness = 1,5 }", "7:26", "this is no TOML", "a number has a decimal point, 1.5; a comma ends it"),
+    fault(7, "bars = { stiffness = 1,5, rest = \"drawn\" }", "7:25", "this is no TOML", "a number has a decimal point, 1.5; a comma ends it"),
+    fault(7, "bars.stiffness = 1,5", "7:19", "this is no TOML", "a number has a decimal point, 1.5; a comma ends it"),
+    fault(4, "domain = \u{201c}patch\u{201d}", "4:10", "this is no TOML", "these are curly quotes; write straight ones, \""),
+    fault(24, "title = \"a\"", "24:1", "unknown key `title`", "`title` belongs to the scene itself, above its first table; the keys here are `start`, `tolerance`, `method`, `keep_every`"),
     fault(7, "bars = { stiffness = 2020-01-01 }", "7:22", "the value is a date", "expected a number, or a text in quotes"),
     fault(8, "creases = { stiffness = 1.0, law = { kind = \"bilinear\", ratio = 0.1, at = 30 } }", "8:36", "the angle 30 is beyond pi", "angles are radians; did you mean \"30 deg\", 0.523599 rad?"),
     fault(8, "creases = { stiffness = 1.0, law = { M = { kind = \"bilinear\", ratio = 0.1, at = [-90, inf] } } }", "8:36", "the angle -90 is beyond pi", "angles are radians; did you mean \"-90 deg\", -1.570796 rad?"),
@@ -125,9 +130,10 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6]\nlattice = \"free\"", "6:11", "`lattice` is given for a patch", "it belongs to domain = \"torus\"; leave it out otherwise"),
     fault(4, "domain = \"screw\"", "14:10", "a load on a screw domain", "loads, pins and springs need domain = \"patch\""),
     // the energy
-    fault(7, "bars = { stiffness = 0 }", "7:22", "the stiffness is 0", "expected a positive number or `inf` (exactly rigid)"),
-    fault(7, "bars = { stiffness = -3.0 }", "7:22", "the stiffness is -3", "expected a positive number or `inf` (exactly rigid)"),
-    fault(7, "bars = { stiffness = nan }", "7:22", "the stiffness is NaN", "expected a positive number or `inf` (exactly rigid)"),
+    fault(7, "bars = { stiffness = 0 }", "7:22", "the stiffness is 0", "expected a positive number or `inf` (exactly rigid), 1e-300 at least"),
+    fault(7, "bars = { stiffness = -3.0 }", "7:22", "the stiffness is -3", "expected a positive number or `inf` (exactly rigid), 1e-300 at least"),
+    fault(7, "bars = { stiffness = 1e-320 }", "7:22", "the stiffness is 1e-320", "expected a positive number or `inf` (exactly rigid), 1e-300 at least"),
+    fault(7, "bars = { stiffness = nan }", "7:22", "the stiffness is NaN", "expected a positive number or `inf` (exactly rigid), 1e-300 at least"),
     fault(7, "bars = { stiffness = \"soft\" }", "7:22", "the value is \"soft\"", "expected a number, `inf`, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }"),
     fault(7, "bars = { stifness = 1 }", "7:10", "unknown key `stifness`", "did you mean `stiffness`? the keys here are `stiffness`, `rest`, `law`, `yield`"),
     fault(7, "bars = {}", "7:8", "missing key `stiffness`", "`stiffness` has to be given here, or follow from [material], for creases with `crease_length`"),
@@ -138,7 +144,7 @@ const FAULTS: &[Fault] = &[
     fault(9, "facets = \"N5B9\"", "9:10", "unknown word `N5B9`", "did you mean `N5B8`? expected `N4B5` or `N5B8`"),
     fault(9, "facets = 3", "9:10", "the value is `3`", "expected \"N4B5\", \"N5B8\" or a table { model, stiffness, rest, fraction, law }"),
     fault(6, "[units]\nlong = \"mm\"\n[energy]", "7:1", "unknown key `long`", "the keys here are `length` or `force`"),
-    fault(7, "bars = 1000", "7:8", "the value is `1000`", "expected a table"),
+    fault(7, "bars = 1000", "7:8", "the value is `1000`", "expected a table, { stiffness = 1.0, .. }"),
     fault(8, "creases = { stiffness = 1.0, rest = \"folded\" }", "8:37", "the value is \"folded\"", "expected \"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
     fault(8, "creases = { stiffness = 1.0, rest = inf }", "8:37", "the number is inf", "expected a finite number"),
     fault(8, "creases = { stiffness = 1.0, rest = true }", "8:37", "the value is `true`", "expected \"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
@@ -322,7 +328,8 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"sheet.vtu\"", "2:8", "a mesh of a scene is no .vtu file", "convert it to a .fold file; a state to start from is `start`"),
     misfit("[sheet]\nmesh = \"finte.fold\"", "2:8", "there is no file ", "did you mean `finite.fold`? paths are relative to the folder of the scene"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "angles are radians, or written as \"60 deg\""),
-    misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", ""),
+    misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", "the page of the pattern has the ranges"),
+    misfit("[sheet]\ngenerate = { pattern = \"miura\", a = 1e300 }", "2:12", "`a` is 1e300; it should be above 0 and below 1000000", "the page of the pattern has the ranges"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", hight = 1 }", "2:12", "`miura` has no parameter `hight`", "expected one of `a`, `b`, `sector`, `fold`"),
     misfit("[sheet]\ngenerate = { pattern = \"crane\" }", "2:12", "there is no pattern `crane`", "there are `miura`, `miura-patch`, "),
     misfit("[sheet]\ngenerate = { fold = 0.1 }", "2:12", "the table names no pattern: `pattern` is missing", "there are `miura`, "),
@@ -430,8 +437,12 @@ fn faults_of_named_files_name_the_file() {
     let mesh = |name: &str| format!("[sheet]\nmesh = \"{name}\"\n");
     let cases = [
         (mesh("none.fold"), "FOLDER/scene.toml:2:8: there is no file FOLDER/none.fold"),
+        (mesh(""), "FOLDER/scene.toml:2:8: FOLDER/ is a folder"),
+        (mesh("."), "FOLDER/scene.toml:2:8: FOLDER/. is a folder"),
         (mesh("torn.fold"), "FOLDER/torn.fold:"),
-        (rest("none.csv"), "FOLDER/scene.toml:4:45: there is no file FOLDER/none.csv"),
+        (rest(""), "FOLDER/scene.toml:4:44: FOLDER/ is a folder"),
+        (rest("."), "FOLDER/scene.toml:4:44: FOLDER/. is a folder"),
+        (rest("none.csv"), "FOLDER/scene.toml:4:44: there is no file FOLDER/none.csv"),
         (rest("strange.csv"), "FOLDER/strange.csv:3: the sheet has no crease [0, 1, 5, 0]"),
         (rest("far.csv"), "FOLDER/far.csv:2: there is no crease [0, 1, 0, 0] in cell [7, 7]"),
         (rest("rates.csv"), "FOLDER/rates.csv:1: the header is `i,j,n1,n2,rate`, expected `i,j,n1,n2,angle`"),
@@ -456,6 +467,14 @@ fn studies_that_cannot_be_done() {
     };
     let cases = [
         (scene("", "kind = \"relax\""), "scene.toml:7:8: there is no energy to relax"),
+        (
+            scene("", "kind = \"relax\"").replace("mesh = \"star.fold\"", "generate = { pattern = \"miura\" }"),
+            "no energy to relax",
+        ),
+        (
+            scene(creases, "kind = \"modes\"\neigenvalues = 13"),
+            "8:15: 13 eigenvalues are too many for a model of 12 coordinates",
+        ),
         (
             scene(creases, "kind = \"surface\""),
             "scene.toml:7:8: a surface of folded states is drawn in the space of lattice strains",

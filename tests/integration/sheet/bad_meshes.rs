@@ -86,6 +86,7 @@ fn wrong_texts_and_types() {
         (square(&["\"foldwell:holes\": [0, 1]"]), 12, "opening 0 is `0`; it should be a list of vertex numbers"),
         (square(&["\"edges_vertices\": [[0, 1, 2]]"]), 12, "edge 0 of the list is `[0, 1, 2]`; it should be a pair"),
         (square(&["\"edges_vertices\": [[0, 1]]", "\"edges_assignment\": [\"X\"]"]), 13, "assignment of edge 0"),
+        (square(&["\"edges_vertices\": [[0, 1]]", "\"edges_assignment\": [\"b\"]"]), 13, "one of the capital letters"),
         (square(&["\"edges_vertices\": [[0, 1]]", "\"edges_assignment\": []"]), 13, "`edges_assignment` has 0 entries"),
         (square(&["\"edges_vertices\": [[0, 1]]", "\"edges_foldAngle\": [\"90\"]"]), 13, "the fold angle of edge 0"),
     ];

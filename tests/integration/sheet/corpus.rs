@@ -430,16 +430,35 @@ fn other_drawings_are_refused_by_name() {
         ),
         (
             Svg,
-            on_square("<rect x=\"3\" y=\"3\" width=\"2\" height=\"2\" stroke=\"red\"/>"),
-            "belongs to an outline inside a face that does not touch the other lines",
-        ),
-        (
-            Svg,
             on_square("<line x2=\"10\" stroke=\"red\"/>"),
             "(0, 0) to (10, 0) and from (0, 0) to (10, 0) lie on each other",
         ),
     ];
     refuse(table);
+}
+
+/// Claim: slits and outlines inside a face are refused with the lines that join them; coordinates have eight digits.
+#[test]
+fn what_is_not_joined_is_told_how() {
+    let on_square = |shape: &str| {
+        let square = "<rect width=\"10\" height=\"10\" stroke=\"black\"/>";
+        format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{square}\n{shape}\n</svg>")
+    };
+    let table = [
+        (
+            "<rect x=\"3\" y=\"3\" width=\"2\" height=\"2\" stroke=\"red\"/>",
+            "does not touch the other lines; join it to them by two lines or more that do not fold (cyan in SVG",
+        ),
+        (
+            "<line x1=\"3\" y1=\"2.123456789012\" x2=\"7\" y2=\"5\" stroke=\"lime\"/>",
+            ":3:1: the line from (3, 2.1234568) to (7, 5)",
+        ),
+        (
+            "<path d=\"M1 5H3H7\" stroke=\"lime\"/>",
+            "join the ends of a slit to others by lines that do not fold (cyan in SVG",
+        ),
+    ];
+    refuse(table.map(|(shape, words)| (Format::Svg, on_square(shape), words)));
 }
 
 /// Claim: files of ORIPA that cannot be read are refused in the same way.

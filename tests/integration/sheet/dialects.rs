@@ -274,6 +274,10 @@ fn letters_of_rims_and_bars_without_faces() {
     assert_eq!([Assignment::Mountain, Assignment::Valley].map(letter), [2, 1]);
     folder.foldwell("info truss.fold").refused("`faces_vertices`, which cannot be rebuilt for it, or [] for a truss");
     assert!(folder.foldwell("info listed.fold").well().all().contains("bars without faces     6"));
+    let empty = rim.replace("\"edges_vertices", "\"faces_vertices\": [], \"edges_vertices");
+    folder.write("empty.fold", empty);
+    let said = folder.foldwell("info empty.fold").well().all();
+    assert!(said.contains("leave it out to have the faces found") && !said.contains("of the rim"), "{said}");
     folder.foldwell("info a.ori").refused("a.ori:2:1: not an ORI file of Oriedita, which is JSON: invalid type: ");
     assert!(!folder.foldwell("info a.ori").all().contains(" at line "));
 }

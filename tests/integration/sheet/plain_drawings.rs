@@ -2,7 +2,7 @@
 
 use crate::common::Numbers;
 use foldwell::sheet::pattern::{self, Format};
-use foldwell::sheet::{Assignment, Sheet, fold};
+use foldwell::sheet::{Assignment, Info, Sheet, fold};
 
 /// A line between two points of a grid, and its layer.
 type Drawn = ([[usize; 2]; 2], &'static str);
@@ -55,6 +55,51 @@ fn lines_without_a_letter_are_creases() {
     let sheet = pattern::parse(&dxf(&named), "a", Format::Dxf).unwrap();
     let found = [Assignment::Unassigned, Assignment::Cut].map(|letter| letters(&sheet, letter));
     assert_eq!((sheet.polygons.len(), found), (9, [6, 12]), "three strips of three squares");
+}
+
+/// Claim: a gradient of one colour is that colour, also by way of another that it names, and one of two colours is
+/// refused; the opacity that a colour is written with is exact. Source: half a turn is 180 degrees.
+#[test]
+fn swatches_and_opacities_are_read() {
+    let drawing = |stops: &str, paint: &str| {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"><defs>\
+             <linearGradient id=\"h\">{stops}</linearGradient><linearGradient id=\"g\" xlink:href=\"#h\"/>\
+             <linearGradient id=\"round\" xlink:href=\"#round\"/></defs>\
+             <rect width=\"9\" height=\"9\" stroke=\"black\"/><path d=\"M0 0L9 9\" stroke=\"{paint}\"/></svg>"
+        )
+    };
+    let stop = |colour: &str| format!("<stop style=\"stop-color:{colour};stop-opacity:1\"/>");
+    let read = |stops: &str, paint: &str| pattern::parse(&drawing(stops, paint), "a", Format::Svg);
+    let target = |paint: &str| {
+        let sheet = read(&(stop("#f00") + &stop("#f00")), paint).unwrap();
+        let crease = sheet.edges.iter().find(|edge| sheet.assignment(edge) == Assignment::Mountain);
+        sheet.targets[&crease.expect("a mountain").key].to_degrees()
+    };
+    for (paint, degrees) in [
+        ("url(#g)", -180.0),
+        ("rgba(255, 0, 0, 0.5)", -90.0),
+        ("rgba(255, 0, 0, 0.125)", -22.5),
+        ("hsl(0 100% 50% / 0.25)", -45.0),
+        ("#ff000033", -36.0),
+    ] {
+        assert!((target(paint) - degrees).abs() < 1e-12, "{paint}: {}", target(paint));
+    }
+    for (stops, paint) in
+        [(stop("red") + &stop("blue"), "url(#g)"), (String::new(), "url(#round)"), (stop("red"), "url(#k)")]
+    {
+        let fault = read(&stops, paint).unwrap_err().to_string();
+        assert!(fault.contains("is no colour of a stroke") && fault.contains("a gradient of one colour"), "{fault}");
+    }
+}
+
+/// Claim: `info` counts edges by letters, and lengths have their digits in drawings of any size.
+#[test]
+fn letters_and_lengths_are_said() {
+    let cp = "1 0 0 1e-7 0\n1 1e-7 0 1e-7 1e-7\n1 1e-7 1e-7 0 1e-7\n1 0 1e-7 0 0\n2 0 0 1e-7 1e-7\n";
+    let said = Info::new(&pattern::parse(cp, "a", Format::Cp).unwrap()).to_string();
+    assert!(said.contains("\nletters                4 B, 1 M\n"), "{said}");
+    assert!(said.contains("\nedge lengths           1e-7 to 1.4142136e-7\n"), "{said}");
 }
 
 /// Claim: colours count as soon as one line has that of a crease: black lines between two faces are then refused in SVG.
