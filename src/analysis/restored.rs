@@ -53,11 +53,13 @@ pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
     };
     let scales = model.compliance().iter().zip(model.gap_scale());
     let measures = gaps.iter().zip(scales).zip(known.into_iter().zip(by_law));
-    let agreed = |((gap, (c, scale)), (known, law)): ((&f64, (&f64, &f64)), (f64, f64))| {
-        let agrees = (gap - c * known).abs() <= AGREES * scale || *c == 0.0;
-        if known.is_finite() && agrees { known } else { law }
-    };
-    measures.map(agreed).collect()
+    let agrees = |gap: f64, c: f64, scale: f64, t: f64| (gap - c * t).abs() <= AGREES * scale || c == 0.0;
+    let agreed = measures.map(
+        |((gap, (c, scale)), (known, law))| {
+            if known.is_finite() && agrees(*gap, *c, *scale, known) { known } else { law }
+        },
+    );
+    agreed.collect()
 }
 
 /// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in

@@ -44,7 +44,7 @@ impl Assignment {
     }
 
     /// Returns the letter that the edge has from the other side of the sheet.
-    pub(crate) fn from_behind(self) -> Self {
+    pub(crate) fn seen_from_behind(self) -> Self {
         match self {
             Self::Mountain => Self::Valley,
             Self::Valley => Self::Mountain,

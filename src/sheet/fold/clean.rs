@@ -45,7 +45,7 @@ pub(super) fn sheet(
         let ends = part.ends.map(|v| drawn.coords[v].xy());
         let Part { mut letter, mut angle, auxiliary, .. } = *part;
         if is_behind {
-            (letter, angle) = (letter.from_behind(), angle.map(|angle| -angle));
+            (letter, angle) = (letter.seen_from_behind(), angle.map(|angle| -angle));
         }
         Line { ends, letter, angle, auxiliary, contour: false, at: 0, flipped: false }
     };

@@ -50,7 +50,7 @@ pub(super) fn edges(sheet: &Sheet) -> Result<Vec<FlatEdge>, NotFlat> {
         let is_cut = known[&EdgeKey::new(a, b).0].len() > 1;
         let letter = if is_cut { Assignment::Cut } else { sheet.assignment(edge) };
         let target = sheet.targets.get(&edge.key).copied();
-        let (letter, target) = if below { (letter.from_behind(), target.map(f64::neg)) } else { (letter, target) };
+        let (letter, target) = if below { (letter.seen_from_behind(), target.map(f64::neg)) } else { (letter, target) };
         let has_fold = |target: f64| target != 0.0 && matches!(letter, Assignment::Flat | Assignment::Unassigned);
         let letter = target.filter(|target| has_fold(*target)).map_or(letter, Assignment::of_side);
         Some(FlatEdge { ends, letter, target })
