@@ -23,7 +23,7 @@ use crate::sheet::{Corner, Sheet};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mass {
-    /// This mass at every vertex.
+    /// This mass at every vertex that is on an edge.
     Vertex(f64),
     /// This mass per area: every triangle of the drawn state gives a third of its mass to each corner. A vertex without
     /// triangles has none.
@@ -51,7 +51,12 @@ impl Mass {
     pub(super) fn of_tiling(self, drawn: &Drawn, tiling: &Tiling) -> Vec<f64> {
         let triangles = tiling.triangles.iter().map(|triangle| triangle.corners);
         let point = |site: Site| drawn.domain.point(&drawn.coordinates, site);
-        self.lumped(tiling.positions.len(), triangles.map(|sites| (sites.map(|site| site.vertex), sites.map(point))))
+        let count = tiling.positions.len();
+        let masses = self.lumped(count, triangles.map(|sites| (sites.map(|site| site.vertex), sites.map(point))));
+        // the centre of a polygon that reaches over the rim of a patch is on no edge: the patch has lost it
+        let mut has_edges = vec![false; count];
+        tiling.edges.iter().flat_map(|edge| edge.ends).for_each(|site| has_edges[site.vertex] = true);
+        masses.into_iter().zip(has_edges).map(|(mass, has_edges)| if has_edges { mass } else { 0.0 }).collect()
     }
 
     /// Returns the mass at every vertex, given the vertices of the triangles and their places.

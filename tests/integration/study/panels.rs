@@ -295,6 +295,19 @@ fn scenes_with_panels_run() {
     }
 }
 
+/// Claim: the centres of polygons that a patch has lost at its rim have no mass, as they are on no edge: with a mass at each
+/// vertex, three of them pinned, the sheet hangs by its weight. Source: counted edges.
+#[test]
+fn lost_centres_weigh_nothing() {
+    let rest = format!(
+        "{MATERIAL}[energy]\nfacets = \"N5B8\"\n[[pin]]\nvertices = [0, 1, 2]\n[[load]]\nweight = [0.0, 0.0, -1e-5]\n\
+         [[study]]\nname = \"a\"\nkind = \"relax\"\n"
+    );
+    let sheet = "generate = { pattern = \"miura\", fold = 0.5 }\ncells = [2, 2]";
+    let ran = Scene::new(&format!("mass = {{ vertex = 0.01 }}\n[sheet]\n{sheet}\n{rest}")).converged();
+    assert!(ran.json()[0]["energy"]["total"].as_f64().is_some_and(|energy| energy > 0.0));
+}
+
 /// Claim: numbers of faces in a scene are those of the mesh: a box is blown up alike by the pressure on all faces and
 /// on the list of all; without the fifth it is open along a side of that one, and there is no seventh. Source: the
 /// mesh.
