@@ -397,3 +397,24 @@ fn curves_of_cad_programs_are_creases() {
     let rational = parse(&spline("2")).unwrap_err().to_string();
     assert!(rational.contains("this SPLINE") && rational.contains("equal weights"), "{rational}");
 }
+
+/// Claim: walls that are thinner than asked for, beside vertices whose moved faces have no common point, are said; those of a
+/// drum, whose sharpest corner is 2.5 half thicknesses from its vertex, are as thick as asked for; layers that lie on each
+/// other have no room. Source: distances of corners from the planes of faces.
+#[test]
+fn walls_of_solids() {
+    for (name, said) in
+        [("helical-tube", Some("walls are as thin as 0.56 of it")), ("drum", None), ("open-star", Some("as thin as"))]
+    {
+        let folder = Folder::new().with("a.fold", fs::read(mesh_folder().join(format!("{name}.fold"))).unwrap());
+        let all = folder.foldwell("convert a.fold a.ply --thickness 0.01").well().all();
+        assert_eq!(all.contains("the thickness is not kept everywhere"), said.is_some(), "{name}: {all}");
+        assert!(said.is_none_or(|said| all.contains(said)), "{name}: {all}");
+    }
+    let folded = r#"{"vertices_coords": [[0,0,0],[1,0,0],[0,1,0],[1,0,0]], "faces_vertices": [[0,1,2],[0,2,3]],
+        "edges_vertices": [[0,2]], "edges_assignment": ["M"], "frame_classes": ["foldedForm"]}"#;
+    let folder = Folder::new().with("a.fold", folded);
+    folder
+        .foldwell("convert a.fold a.stl --thickness 0.1")
+        .refused("layers of a sheet that is folded flat have no room");
+}

@@ -266,3 +266,18 @@ fn settings_that_mean_nothing_are_said() {
     let ran = scene.replaced("[energy]", "cells = [2, 2]\n[energy]").converged();
     assert!(ran.report.summary.notes.iter().any(|note| note.contains("`cells` has no effect")));
 }
+
+/// Claim: the picture of the last state has the loads times their factor there, and none where the factor is 0. Source: the
+/// force of the scene, 1.
+#[test]
+fn loads_are_drawn_as_large_as_they_are() {
+    let text = "[energy]\nbars = { stiffness = 1.0 }\n[[pin]]\nvertices = [0, 2]\n[[pin]]\nvertex = 1\naxes = \"xy\"\n\
+                [[load]]\nvertex = 1\nforce = [0.0, 0.0, -1.0]\n[[drive]]\nname = \"weight\"\nload = true\nto = ";
+    for (to, said) in [("0.005", Some("load, at most 0.005")), ("[0.005, 0.0]", None)] {
+        let study = "\n[[study]]\nname = \"a\"\nkind = \"path\"\ndraw = [\"svg\"]\n";
+        let ran = Scene::on("generate = { pattern = \"truss\" }", &format!("{text}{to}{study}")).converged();
+        let picture = ran.out.text("a.svg");
+        assert_eq!(picture.contains("load, at most"), said.is_some(), "{to}");
+        assert!(said.is_none_or(|said| picture.contains(said)), "{to}");
+    }
+}
