@@ -240,6 +240,7 @@ pub(crate) fn power(z: [Complex<f64>; 2], [n1, n2]: [i32; 2]) -> Complex<f64> {
 mod tests {
     use super::*;
     use crate::kinematics::{Embedding, Placement};
+    use crate::sheet::build::{Drawing, build};
     use crate::sheet::generate;
     use crate::sheet::generate::{Pattern, Random};
 
@@ -277,6 +278,23 @@ mod tests {
                 let error = (matrix[(k, column)] - expected).norm();
                 assert!(error <= 1e-8, "{error:e}");
             }
+        }
+    }
+
+    /// Claim: at real wavenumbers the row of every bar has the size 1, also where the terms of a bar between copies of one
+    /// vertex cancel. Tolerance: rounding of a direction.
+    #[test]
+    fn rows_have_the_size_of_their_terms() {
+        let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.7, 0.0], [0.0, 1.7, 0.0], [1.0, 0.8, 0.5]];
+        let coords = corners.map(Vec3::from).to_vec();
+        let (faces, lattice) = ([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], Some([coords[1], coords[3]]));
+        let faces = faces.map(|face| face.to_vec()).to_vec();
+        let sheet = build(&Drawing { coords, faces, lattice, ..Drawing::default() }).unwrap();
+        let rigidity = Rigidity::of_sheet(&sheet, false).unwrap();
+        let copies = |row: &Row| row.terms[0].0.vertex == row.terms[1].0.vertex;
+        assert!(rigidity.rows.iter().any(copies));
+        for z in [[Complex::ONE; 2], [Complex::new(0.6, 0.8), Complex::ONE]] {
+            assert!(rigidity.scales(z).iter().all(|scale| (scale - 1.0).abs() <= 1e-14));
         }
     }
 
