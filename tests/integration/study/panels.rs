@@ -304,7 +304,7 @@ fn lost_centres_weigh_nothing() {
          [[study]]\nname = \"a\"\nkind = \"relax\"\n"
     );
     let sheet = "generate = { pattern = \"miura\", fold = 0.5 }\ncells = [2, 2]";
-    let ran = Scene::new(&format!("mass = {{ vertex = 0.01 }}\n[sheet]\n{sheet}\n{rest}")).converged();
+    let ran = Scene::new(format!("mass = {{ vertex = 0.01 }}\n[sheet]\n{sheet}\n{rest}")).converged();
     assert!(ran.json()[0]["energy"]["total"].as_f64().is_some_and(|energy| energy > 0.0));
 }
 

@@ -170,7 +170,8 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         if !is_one_curve && length > SAME_STATE {
             self.follower.problem.set_reference(&reference);
             let known = before.into_iter().chain([last]).cloned().collect();
-            return self.step(number, &Way { known, watched: way.watched.clone(), length: SHRINK * length });
+            return self
+                .step(number, &Way { known, watched: way.watched.clone(), length: SHRINK * length.min(way.length) });
         }
         let (mut states, mut from) = (vec![], last.clone());
         if self.meets(number, &mut states, &mut from, marks)? {
