@@ -5,6 +5,8 @@ mod point;
 mod seen;
 mod snap;
 mod stops;
+#[cfg(test)]
+mod tests;
 
 use super::relax::relax_model;
 use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gauge, Model};
@@ -77,11 +79,24 @@ pub(crate) fn resume_path(
     drive: &Drive,
     start: Option<Configuration>,
     options: &PathOptions,
+    record: PathRecord,
+    callbacks: PathCallbacks<'_>,
+) -> Result<Vec<PathBranch>, PathFailure> {
+    let (driven, first) = begin(assembly.model(Gauge::Held), drive, start, options)?;
+    if driven.stays_straight(&first) {
+        return Err(DriveError::StaysStraight.into());
+    }
+    follow_from(assembly, (driven, first), options, record, callbacks)
+}
+
+/// Follows the equilibria of a driven model from the first one, stretch by stretch where it snaps.
+fn follow_from(
+    assembly: &Assembly,
+    (mut driven, mut first): (DrivenModel, Start),
+    options: &PathOptions,
     mut record: PathRecord,
     callbacks: PathCallbacks<'_>,
 ) -> Result<Vec<PathBranch>, PathFailure> {
-    let model = assembly.model(Gauge::Held);
-    let (mut driven, mut first) = begin(model, drive, start, options)?;
     let then = options.then.iter().map(|value| driven.parameter_at(*value));
     let ways = [driven.parameter(), driven.target()].into_iter().chain(then).collect();
     let mut seen = Seen::new(ways, callbacks);
@@ -144,9 +159,6 @@ fn begin(
         (x, relaxed.configuration.tension.unwrap_or_default())
     };
     let x = driven.about_best_axis(x, &tension);
-    if driven.stays_straight(&x, &tension) {
-        return Err(DriveError::StaysStraight.into());
-    }
     Ok((driven, Start { x, tension: Some(tension) }))
 }
 

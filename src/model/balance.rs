@@ -8,6 +8,7 @@ use super::element::Local;
 use super::own_term::OwnTerm;
 use super::problem::Gauge;
 use crate::math::Vec3;
+use crate::numerics::random::numbers;
 use nalgebra::SVector;
 
 /// Largest component of the sum of the loads on a piece, relative to the largest of any load, that counts as balanced.
@@ -18,7 +19,9 @@ const SAME_DIRECTION: f64 = 1e-9;
 /// may round to single precision.
 const OWN_BALANCED: f64 = 1e-5;
 /// How far vertices are moved, in mean edges, to ask for forces: a symmetric state may hide some.
-const MOVED: f64 = 0.1;
+const MOVED: f64 = 0.05;
+/// Seed of the directions in which they are moved.
+const SEED: u64 = 1;
 
 /// A motion of a piece as a whole, or what acts along it: a translation, then a rotation.
 type Motion = SVector<f64, 6>;
@@ -64,17 +67,15 @@ impl Assembly {
         }
         let supports = self.supports(driven);
         let pieces = self.model(Gauge::Held).vertices_of_pieces();
-        let scattered = |k: usize| (k as f64 * 0.618_033_988_749_895).fract() - 0.5;
-        let moved = |(k, x): (usize, &f64)| x + MOVED * self.mean_edge() * scattered(k);
-        let x: Vec<f64> = self.drawn().coordinates.iter().enumerate().map(moved).collect();
-        for own in self.terms().own.iter().filter(|own| !own.is_load()) {
-            for k in 0..own.elements.len() {
-                let first = own.elements.sites(k)[0].vertex;
-                let empty = Vec::new();
-                let piece = pieces.iter().find(|piece| piece.binary_search(&first).is_ok()).unwrap_or(&empty);
-                if let Some(motion) = self.changes_along(own, k, &x, (piece, &supports)) {
-                    return Err(AssemblyError::Moving { term: own.name().to_owned(), motion });
-                }
+        let far = MOVED * self.mean_edge();
+        let x: Vec<f64> =
+            self.drawn().coordinates.iter().zip(numbers(SEED)).map(|(x, number)| x + far * number).collect();
+        let own = self.terms().own.iter().filter(|own| !own.is_load());
+        for (own, k) in own.flat_map(|own| (0..own.elements.len()).map(move |k| (own, k))) {
+            let is_on = |piece: &&Vec<usize>| piece.binary_search(&own.elements.sites(k)[0].vertex).is_ok();
+            let piece = pieces.iter().find(is_on).map_or(&[][..], Vec::as_slice);
+            if let Some(motion) = self.changes_along(own, k, &x, (piece, &supports)) {
+                return Err(AssemblyError::Moving { term: own.name().to_owned(), motion });
             }
         }
         Ok(())

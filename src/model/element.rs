@@ -68,6 +68,13 @@ pub(super) struct Head {
     pub stored: Vec<Stored>,
 }
 
+impl Head {
+    /// Whether the energy of each element is a multiple of its value.
+    pub fn is_energy(&self) -> bool {
+        matches!(self.stored.first(), Some(Stored::Value))
+    }
+}
+
 /// A term: a list of elements with a measure `M` of `N` points, which have `D = 3 N` coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Term<M, const N: usize, const D: usize> {
@@ -294,17 +301,16 @@ impl<'a> Element<'a> {
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
     pub(super) fn metric(&self) -> f64 {
-        if self.is_beyond_spring() || self.is_load() || self.is_value() { 0.0 } else { self.spring.stiffness }
+        if self.is_beyond_spring() || self.is_load() || self.term.head().is_energy() {
+            0.0
+        } else {
+            self.spring.stiffness
+        }
     }
 
     /// Whether it stores what a law has beyond a spring, which is another element.
     pub(crate) fn is_beyond_spring(&self) -> bool {
         matches!(self.stored(), Stored::BeyondSpring(_))
-    }
-
-    /// Whether its energy is a multiple of its value.
-    pub(super) fn is_value(&self) -> bool {
-        matches!(self.stored(), Stored::Value)
     }
 
     /// Whether it is a load, whose potential is no energy of the sheet.

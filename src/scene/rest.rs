@@ -91,18 +91,22 @@ impl Written for RestSpec {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "RestByLetter")]
-#[allow(non_snake_case)] // the letters as a scene writes them
 struct RestTable {
     /// Mountains; 0 or negative.
-    M: Option<Angle>,
+    #[serde(rename = "M")]
+    mountain: Option<Angle>,
     /// Valleys; 0 or positive.
-    V: Option<Angle>,
+    #[serde(rename = "V")]
+    valley: Option<Angle>,
     /// Creases that are flat; 0 when left out.
-    F: Option<Angle>,
+    #[serde(rename = "F")]
+    flat: Option<Angle>,
     /// Creases of which nothing is said; 0 when left out.
-    U: Option<Angle>,
+    #[serde(rename = "U")]
+    unassigned: Option<Angle>,
     /// Diagonals of polygons; 0 when left out.
-    J: Option<Angle>,
+    #[serde(rename = "J")]
+    join: Option<Angle>,
     /// A folding mode; not together with letters.
     #[schemars(skip)]
     mode: Option<Located<Mode>>,
@@ -134,11 +138,11 @@ impl RestTable {
 
     fn letters(&self) -> BTreeMap<Assignment, Angle> {
         let given = [
-            (Assignment::Mountain, self.M),
-            (Assignment::Valley, self.V),
-            (Assignment::Flat, self.F),
-            (Assignment::Unassigned, self.U),
-            (Assignment::Join, self.J),
+            (Assignment::Mountain, self.mountain),
+            (Assignment::Valley, self.valley),
+            (Assignment::Flat, self.flat),
+            (Assignment::Unassigned, self.unassigned),
+            (Assignment::Join, self.join),
         ];
         given.into_iter().filter_map(|(letter, angle)| Some((letter, angle?))).collect()
     }

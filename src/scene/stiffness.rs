@@ -29,39 +29,39 @@ pub enum StiffnessSpec {
 
 /// `{ M = 1.0, V = 2.0, .. }`: a stiffness for each letter of `edges_assignment`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "UPPERCASE", deny_unknown_fields)]
 #[schemars(rename = "StiffnessByLetter")]
-#[allow(non_snake_case)] // the letters as a scene writes them
 struct Letters {
     /// Mountains.
-    M: Option<Located<Stiffness>>,
+    m: Option<Located<Stiffness>>,
     /// Valleys.
-    V: Option<Located<Stiffness>>,
+    v: Option<Located<Stiffness>>,
     /// Creases that are flat; diagonals of polygons where `J` is not given.
-    F: Option<Located<Stiffness>>,
+    f: Option<Located<Stiffness>>,
     /// Creases of which nothing is said.
-    U: Option<Located<Stiffness>>,
+    u: Option<Located<Stiffness>>,
     /// Bars on the rim.
-    B: Option<Located<Stiffness>>,
+    b: Option<Located<Stiffness>>,
     /// Bars along cuts; where it is not given, `B` counts.
-    C: Option<Located<Stiffness>>,
+    c: Option<Located<Stiffness>>,
     /// Diagonals of polygons.
-    J: Option<Located<Stiffness>>,
+    j: Option<Located<Stiffness>>,
     /// A table with a row per element; not together with letters.
     #[schemars(skip)]
+    #[serde(rename = "file")]
     file: Option<Located<PathBuf>>,
 }
 
 impl Letters {
     fn into_spec(self) -> Result<StiffnessSpec, &'static str> {
         let given = [
-            (Assignment::Mountain, self.M),
-            (Assignment::Valley, self.V),
-            (Assignment::Flat, self.F),
-            (Assignment::Unassigned, self.U),
-            (Assignment::Boundary, self.B),
-            (Assignment::Cut, self.C),
-            (Assignment::Join, self.J),
+            (Assignment::Mountain, self.m),
+            (Assignment::Valley, self.v),
+            (Assignment::Flat, self.f),
+            (Assignment::Unassigned, self.u),
+            (Assignment::Boundary, self.b),
+            (Assignment::Cut, self.c),
+            (Assignment::Join, self.j),
         ];
         let letters: BTreeMap<Assignment, f64> =
             given.into_iter().filter_map(|(letter, stiffness)| Some((letter, stiffness?.0))).collect();

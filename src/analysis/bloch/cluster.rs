@@ -153,18 +153,16 @@ impl Steps {
     /// where these are not apart by more than their rounding.
     fn roots(&self, rigidity: &Rigidity, z: [Complex<f64>; 2], a: usize) -> Option<Vec<Root>> {
         if self.all.iter().all(|step| step.norm() <= self.rounding()) {
-            return Some(vec![
-                Root { z: z[a], condition: self.condition, multiplicity: self.all.len() };
-                self.all.len()
-            ]);
+            let root = Root { z: z[a], condition: self.condition, multiplicity: self.all.len() };
+            return Some(vec![root; self.all.len()]);
         }
         let mut search = Search::new(rigidity);
-        let mut near = |step: &Complex<f64>| {
+        let near = |step: &Complex<f64>| {
             let mut at = z;
             at[a] *= step.exp();
             search.root(at, a)
         };
-        let roots: Vec<Root> = self.all.iter().map(&mut near).collect::<Option<_>>()?;
+        let roots: Vec<Root> = self.all.iter().map(near).collect::<Option<_>>()?;
         clusters(&roots).is_empty().then_some(roots)
     }
 }

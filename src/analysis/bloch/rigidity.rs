@@ -135,8 +135,9 @@ impl Rigidity {
         self.sum_of(|shift| power(z, shift))
     }
 
-    /// One over the size of each row of `R(z1, z2)`, which is that of its largest term: at a root all terms of a row may
-    /// cancel, as those of a bar between copies of one vertex do where `z = 1`.
+    /// Factors that give the rows of `R(z1, z2)` one size: one for each row, the reciprocal of the magnitude of its largest
+    /// term. Sizes of the rows themselves would hide roots, at which all terms of a row may cancel, as those of a bar
+    /// between copies of one vertex do where `z = 1`.
     pub(crate) fn scales(&self, z: [Complex<f64>; 2]) -> Vec<f64> {
         let size = |(corner, direction): &(Corner, Vec3)| power(z, corner.shift).norm() * direction.norm();
         self.rows.iter().map(|row| row.terms.iter().map(size).fold(0.0, f64::max).recip()).collect()

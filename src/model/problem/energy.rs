@@ -4,7 +4,6 @@ use super::{Equations, Model, POSE};
 use crate::math::lower_triangle;
 use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, continued};
-use crate::model::law::Stored;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::symmetric_eigen;
 use crate::numerics::parallel;
@@ -240,9 +239,9 @@ impl Model {
     ) {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
-            let is_value = matches!(term.head().stored.first(), Some(Stored::Value));
+            let is_energy = term.head().is_energy();
             let size = match term.head().kind {
-                kind if kind.is_load() || is_value => f64::INFINITY,
+                kind if kind.is_load() || is_energy => f64::INFINITY,
                 _ if term.head().is_angle => 1.0,
                 _ => self.equations.mean_edge,
             };
@@ -254,7 +253,7 @@ impl Model {
                 out.largest_force = out.largest_force.max(largest * force.abs().max(stiffness * LEAST_ANGLE));
                 out.rest_stiffness = out.rest_stiffness.max(stiffness * largest * largest);
                 // a measure that is an energy has no stiffness but that of its own curvature
-                let positive = (is_value && !full).then(|| positive_part(&local.hessian, local.gradient.len(), force));
+                let positive = (is_energy && !full).then(|| positive_part(&local.hessian, local.gradient.len(), force));
                 let (gradient, hessian) = (&local.gradient, positive.as_ref().unwrap_or(&local.hessian));
                 let secant = force / (local.value - element.spring.rest);
                 let least = LEAST_STIFFNESS * stiffness;
@@ -263,7 +262,7 @@ impl Model {
                 let excess = second - metric;
                 out.add_soft(first + k, &SoftElement { stiffness: metric, excess, force, size, gradient, hessian });
             };
-            parallel::compute_and_consume(term.len(), self.locals((first, term), all, full || is_value), add);
+            parallel::compute_and_consume(term.len(), self.locals((first, term), all, full || is_energy), add);
         }
     }
 

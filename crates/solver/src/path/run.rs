@@ -170,8 +170,9 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         if !is_one_curve && length > SAME_STATE {
             self.follower.problem.set_reference(&reference);
             let known = before.into_iter().chain([last]).cloned().collect();
-            return self
-                .step(number, &Way { known, watched: way.watched.clone(), length: SHRINK * length.min(way.length) });
+            // states may be farther apart than the step was long
+            let length = SHRINK * length.min(way.length);
+            return self.step(number, &Way { known, watched: way.watched.clone(), length });
         }
         let (mut states, mut from) = (vec![], last.clone());
         if self.meets(number, &mut states, &mut from, marks)? {

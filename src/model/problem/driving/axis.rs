@@ -10,7 +10,7 @@ use crate::model::axis::{UNCORRECTED, decrease_along_step, direction_of_highest_
 use crate::model::domain::STRAIGHT;
 use crate::numerics::vector::{max_abs, moved};
 use crate::solver::path::ParametrizedProblem;
-use crate::solver::{HessianKind, Problem, Tangent};
+use crate::solver::{HessianKind, Problem, Start, Tangent};
 
 /// Shift of the Hessian, which holds the direction of the axis and motions that cost no energy.
 const SHIFT: f64 = 1e-9;
@@ -39,11 +39,12 @@ impl DrivenModel {
 
     /// Whether a straight screw stays straight while it is driven, held so by measures that are rigid beside the driven one:
     /// then its axis has no direction, and no path leads on.
-    pub(crate) fn stays_straight(&self, x: &[f64], tension: &[f64]) -> bool {
+    pub(crate) fn stays_straight(&self, Start { x, tension }: &Start) -> bool {
         let (model, edge) = (&self.model, self.model.equations.mean_edge);
         let curvature = |x: &[f64]| model.equations.domain.turns(&model.coordinates(x)).map(|turns| turns.kappa * edge);
         let rigid = self.compliance().iter().filter(|compliance| **compliance == 0.0).count();
         let Some(from) = curvature(x).filter(|kappa| rigid > 1 && kappa.abs() <= STRAIGHT) else { return false };
+        let tension = tension.as_deref().unwrap_or_default();
         let Some((mut tangent, [force, stretch])) = self.responding(x, tension) else { return false };
         let step = tangent.solve(&force, &stretch, UNCORRECTED).dx;
         let part = SHORT * edge / max_abs(&step);
