@@ -8,7 +8,8 @@ use std::sync::Arc;
 /// The part of the soft Hessian that a linearization contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HessianKind {
-    /// The term `k g g^T` of each soft element alone: positive semidefinite.
+    /// The term `k g g^T` of each soft element alone, positive semidefinite; and the whole Hessian of elements that have
+    /// no stiffness `k`, which are energies by themselves.
     GaussNewton,
     /// The whole Hessian.
     Full,

@@ -1,11 +1,8 @@
 //! The model as the problem that the solver minimises: energies, gaps and their derivatives, summed over the terms.
 
 use super::{Equations, Model, POSE};
-use crate::math::lower_triangle;
 use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, continued};
-use crate::numerics::DenseMatrix;
-use crate::numerics::dense::symmetric_eigen;
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
 use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
@@ -239,6 +236,7 @@ impl Model {
     ) {
         for (first, term) in numbered(&self.equations.soft, 0) {
             let most = self.most_arm(term);
+            // an energy that is its own measure has no stiffness but that of its Hessian
             let is_energy = term.head().is_energy();
             let size = match term.head().kind {
                 kind if kind.is_load() || is_energy => f64::INFINITY,
@@ -252,9 +250,7 @@ impl Model {
                 let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * force.abs().max(stiffness * LEAST_ANGLE));
                 out.rest_stiffness = out.rest_stiffness.max(stiffness * largest * largest);
-                // a measure that is an energy has no stiffness but that of its own curvature
-                let positive = (is_energy && !full).then(|| positive_part(&local.hessian, local.gradient.len(), force));
-                let (gradient, hessian) = (&local.gradient, positive.as_ref().unwrap_or(&local.hessian));
+                let (gradient, hessian) = (&local.gradient, &local.hessian);
                 let secant = force / (local.value - element.spring.rest);
                 let least = LEAST_STIFFNESS * stiffness;
                 let second = if (0.0..least).contains(&second) { least } else { second };
@@ -350,18 +346,4 @@ impl Model {
             }
         }
     }
-}
-
-/// The lower triangle of a Hessian of this order without the curvatures that its factor makes negative; zeros where it is
-/// not finite.
-fn positive_part(lower: &[f64], order: usize, factor: f64) -> Vec<f64> {
-    let mut hessian = DenseMatrix::zeros(order, order);
-    for ((row, column), value) in lower_triangle(order).zip(lower) {
-        hessian[(row, column)] = *value;
-    }
-    let Ok(found) = symmetric_eigen(&hessian) else { return vec![0.0; lower.len()] };
-    let kept: Vec<usize> = (0..order).filter(|k| found.values[*k] * factor > 0.0).collect();
-    let part = |k: usize, row, column| found.values[k] * found.vectors[(row, k)] * found.vectors[(column, k)];
-    let entry = |(row, column)| kept.iter().map(|&k| part(k, row, column)).sum();
-    lower_triangle(order).map(entry).collect()
 }
