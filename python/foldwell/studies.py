@@ -35,8 +35,8 @@ def relax(
 
     Args:
         assembly: The sheet and its energy.
-        start: The state where it starts: the result of a study of the same assembly, also with other stiffnesses and rest angles, a
-            .vtu file, or `{"random": amplitude, "seed": n}`. Left out: as drawn.
+        start: The state where it starts: the result of a study of the same assembly, also with other stiffnesses, rest angles and
+            locks, a .vtu file, or `{"random": amplitude, "seed": n}`. Left out: as drawn.
         tolerance: Bound on both scaled residuals.
         method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
         keep_every: Steps between the states on the way that are kept; left out: none are.
@@ -440,18 +440,16 @@ def compute(
         if isinstance(given, str):
             raise TypeError(f"{words} is {given!r}, expected a list such as [{given!r}]")
     study = {"name": name or kind, "kind": kind, "draw": list(draw), "check": list(check), **keys}
-    earlier: list[tuple[Mapping[str, Any], _foldwell.Answer]] = []
+    earlier: list[tuple[str, _foldwell.Answer]] = []
     if isinstance(start, Result):
-        before = {**start._study, "name": f"{start.name}-start" if start.name == study["name"] else start.name}
-        before.pop("start", None)  # it is computed already
-        earlier.append((before, start._inner))
-        study["start"] = before["name"]
+        study["start"] = f"{start.name}-start" if start.name == study["name"] else start.name
+        earlier.append((study["start"], start._inner))
     elif start is not None:
         study["start"] = start
-    names = [(str(before["name"]), answer) for before, answer in earlier]
+    # of an earlier study its state is all that is asked for
+    studies = {"study": [{"name": name, "kind": "relax"} for name, _ in earlier] + [study]}
     with listener(progress) as callback:
-        studies = {"study": [before for before, _ in earlier] + [study]}
-        _, answers, _ = assembly._inner.compute(studies, names, whole(threads, "threads", 1), callback)
+        _, answers, _ = assembly._inner.compute(studies, earlier, whole(threads, "threads", 1), callback)
     result = Result(answers[0], study, assembly._inner.units)
     if must_converge and not result.converged:
         raise DidNotConverge(f"{result.name}: {result.summary.get('reason', 'no answer')}", result)

@@ -15,7 +15,7 @@ use foldwell::scene::{Arrays, SceneFile, build, parse};
 use foldwell::study::PreviousAnswers;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 use toml::{Table, Value};
 
@@ -108,20 +108,26 @@ impl Assembly {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(String, Vec<Answer>, bool)> {
         let (py, this) = (slf.py(), slf.get());
+        let mut states = HashMap::new();
+        for (name, answer) in &earlier {
+            let Answer { saved, assembly, .. } = answer.get();
+            let Some(saved) = saved else {
+                let help = "studies that find an equilibrium or follow a path end in one";
+                return Err(refused(py, "the start is a study that ended in no state".to_owned(), help));
+            };
+            if !has_same_coordinates(&assembly.get().assembly, &this.assembly) {
+                let help = "vertices, edges, cells and boundary conditions are the same; stiffnesses, rest angles and locks may \
+                            be others";
+                return Err(refused(py, "the start is a state of another assembly".to_owned(), help));
+            }
+            states.insert(name.clone(), saved.carried(&assembly.get().assembly, &this.assembly));
+        }
+        let earlier = PreviousAnswers { states, ..PreviousAnswers::default() };
         let (studies, arrays) = scene_of(studies, argument)?;
         let mut scene = this.scene.clone();
         scene.extend(studies);
         let file = parse(&text(&scene)?, this.path.with_file_name(ARGUMENTS));
         let file = file.map_err(|error| raise(py, &error.into()))?.with_arrays(arrays);
-        if earlier
-            .iter()
-            .any(|(_, answer)| !has_same_coordinates(&answer.get().assembly.get().assembly, &this.assembly))
-        {
-            let help = "vertices, edges, cells and boundary conditions are the same; stiffnesses and rest angles may be others";
-            return Err(refused(py, "the start is a state of another assembly".to_owned(), help));
-        }
-        let states = earlier.iter().filter_map(|(name, answer)| Some((name.clone(), answer.get().saved.clone()?)));
-        let earlier = PreviousAnswers { states: states.collect(), ..PreviousAnswers::default() };
         let assembly = this.assembly.clone();
         let work = move |observer: run::Observer<'_>| run::compute(&file, &assembly, earlier, threads, observer);
         let computed: Result<_, RunError> = watched(py, progress, work)?;

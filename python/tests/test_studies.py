@@ -214,7 +214,7 @@ def test_what_a_result_lacks_is_said(miura, soft):
     assert fw.relax(soft, start=first, name="start").summary["iterations"] == 0
     with pytest.raises(KeyError, match="foo: there is no such column; there are .*energy_total"):
         first.table["foo"]
-    waves = fw.bloch(fw.Assembly.torus(fw.Sheet.read("meshes/open-star.fold")), grid=(8, 8), q1=[0.5])
+    waves = fw.bloch(fw.Assembly.torus(fw.Sheet.read(ROOT / "meshes/open-star.fold")), grid=(8, 8), q1=[0.5])
     with pytest.raises(ValueError, match="this study of kind bloch has neither curves nor states to plot"):
         waves.plot()
     folded = fw.fold(fw.Assembly.patch(miura, (2, 2), bars=1e3, creases=1.0, rest=0.9))
@@ -300,6 +300,28 @@ def test_a_start_belongs_to_the_same_assembly(miura):
             fw.relax(other, start=result)
     with pytest.raises(fw.SceneError, match="another assembly"):
         fw.relax(fw.Assembly.torus(miura, (3, 3), bars=1e4, creases=1.0), start=result)
+
+
+def test_a_start_may_have_other_locks_and_drives():
+    """A state found with a lock, or along a path, is one of the assembly without; the ratio is that of the sheet drawn there."""
+    edge = (0, 1, 0, 0)
+    drawn = fw.Assembly.torus(fw.generate("miura", fold=0.36), bars=fw.RIGID, creases=1.0, facets=2.0)
+    at = fw.response(drawn).summary["poisson"]["in_plane"]
+    miura = fw.generate("miura", fold=0.3)
+    free = fw.Assembly.torus(miura, bars=fw.RIGID, creases=1.0, facets=2.0)
+    locked = fw.Assembly.torus(miura, bars=fw.RIGID, creases=1.0, facets=2.0, locks={edge: 0.72})
+    held = fw.relax(locked)
+    assert fw.response(free, start=held).summary["poisson"]["in_plane"] == pytest.approx(at, rel=1e-9)
+    back = fw.relax(free, start=held)
+    assert back.summary["energy"]["total"] < 1e-12 < held.summary["energy"]["total"]
+    assert fw.relax(locked, start=back).summary["energy"]["total"] == pytest.approx(held.summary["energy"]["total"], rel=1e-9)
+    drives = [{"name": "angle", "lock": edge, "to": 0.72}]
+    begun = {edge: float(free.drawn.fold_angles[list(map(tuple, miura.edges)).index(edge)])}
+    driven = fw.path(fw.Assembly.torus(miura, bars=fw.RIGID, creases=1.0, facets=2.0, locks=begun, drives=drives))
+    assert fw.response(free, start=driven).summary["poisson"]["in_plane"] == pytest.approx(at, rel=1e-9)
+    waves = fw.bloch(free, grid=(8, 8), q1=[0.5])
+    with pytest.raises(fw.SceneError, match="a study that ended in no state"):
+        fw.relax(free, start=waves)
 
 
 def test_words_stay_words_without_an_event(soft):

@@ -1,9 +1,14 @@
 //! A state of a sheet as a value: what answers, files and restarts hold, and what every analysis begins from.
 
+use super::assembly::Assembly;
+use super::element::Element;
 use super::law::Memory;
+use super::problem::Gauge;
 use super::problem::Model;
+use crate::sheet::Site;
 use crate::solver::{Problem, Start};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 
 /// A state of a sheet, independent of how a model numbers its unknowns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,6 +43,40 @@ impl Configuration {
     pub fn without_tension(&self) -> Self {
         Self { tension: None, ..self.clone() }
     }
+
+    /// This state of an assembly as one of another assembly of the same vertices, with other terms: locks, panels, laws.
+    /// Hinges and bars on the same points keep their angles and memories, others have those of the drawn state and none;
+    /// tensions are kept where the stiff measures are the same.
+    #[must_use]
+    pub fn carried(&self, from: &Assembly, to: &Assembly) -> Self {
+        let (from, to) = (from.model(Gauge::Free), to.model(Gauge::Free));
+        let angle_at: HashMap<_, f64> = hinges(&from).zip(self.angles.iter().copied()).collect();
+        let memory_at: HashMap<_, Memory> = yielding(&from).zip(self.memory.iter().copied()).collect();
+        let angle = |(place, own)| angle_at.get(&place).copied().unwrap_or(own);
+        let same =
+            from.stiff().map(place).eq(to.stiff().map(place)) && from.compliance().len() == to.compliance().len();
+        Self {
+            coordinates: self.coordinates.clone(),
+            angles: hinges(&to).zip(to.angles()).map(angle).collect(),
+            tension: self.tension.clone().filter(|_| same),
+            memory: yielding(&to).map(|place| memory_at.get(&place).copied().unwrap_or_default()).collect(),
+        }
+    }
+}
+
+/// Whether an element has an angle, and the points on which it stands.
+type Place<'a> = (bool, &'a [Site]);
+
+fn place<'a>(element: Element<'a>) -> Place<'a> {
+    (element.is_angle(), element.sites())
+}
+
+fn hinges(model: &Model) -> impl Iterator<Item = Place<'_>> {
+    model.elements().filter(Element::is_angle).map(place)
+}
+
+fn yielding(model: &Model) -> impl Iterator<Item = Place<'_>> {
+    model.elements().filter(Element::remembers).map(place)
 }
 
 impl Model {
