@@ -9,7 +9,7 @@
 //! this is repeated until nothing is left to split. Every repetition makes pieces shorter or points fewer: a part of a
 //! piece is longer than the tolerance and shorter than the piece.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::ControlFlow;
 
 use robust::{Coord, orient2d};
@@ -34,6 +34,16 @@ const WIDEST: f64 = 4.0;
 /// Distance in tolerances up to which points are not told apart: without it every line of a bundle through one point would
 /// have a point of its own there, beside those of all others.
 const SAME_POINT: f64 = 1.0 / 16.0;
+
+/// Passes in which points go back onto segments, whose ends go onto others.
+const PASSES: usize = 4;
+
+/// Least distance in tolerances by which a point goes back: points that are off by rounding stay.
+const LEAST_MOVE: f64 = 1e-9;
+
+/// Least determinant of lines through a point, over the square of their number, with which it goes to the point where
+/// they meet: that of two lines at 30 degrees.
+const LEAST_DETERMINANT: f64 = 1.0 / 16.0;
 
 /// Most points of an arrangement; ten thousand lines that all cross have a hundred times as many.
 const MOST_POINTS: usize = 500_000;
@@ -61,8 +71,10 @@ pub(crate) struct Piece {
 /// have the same ends.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Arrangement {
-    /// Positions of the points, those that no piece has included.
+    /// Positions of the points, those that no piece has included, as they are drawn.
     pub points: Vec<Vec2>,
+    /// Where they stand on the segments that they split, which thus stay straight.
+    pub straight: Vec<Vec2>,
     /// Pieces of all segments; segments within the tolerance have none.
     pub pieces: Vec<Piece>,
 }
@@ -80,6 +92,7 @@ pub(crate) fn arrange(
     let numbered = segments.iter().map(|ends| ends.map(|end| places.number(end)));
     let drawn: Vec<Piece> = numbered.enumerate().map(|(segment, ends)| Piece { ends, segment }).collect();
     let mut pieces = places.distinct(drawn.clone());
+    let mut straight = None;
     if split {
         let mut rounds = 0;
         while let Some(parts) = split_once(&mut places, &pieces, compared)? {
@@ -89,6 +102,9 @@ pub(crate) fn arrange(
                 return Err(Disorder::Tangled(pieces.first().map_or(0, |piece| piece.segment)));
             }
         }
+        let mut moved = places.clone();
+        moved.straighten(&drawn, &pieces);
+        straight = split_once(&mut moved, &pieces, compared)?.is_none().then_some(moved.points);
     }
     for piece in &drawn {
         for (end, v) in segments[piece.segment].iter().zip(piece.ends) {
@@ -97,10 +113,12 @@ pub(crate) fn arrange(
             }
         }
     }
-    Ok(Arrangement { points: places.points, pieces })
+    let straight = straight.unwrap_or_else(|| places.points.clone());
+    Ok(Arrangement { points: places.points, straight, pieces })
 }
 
 /// Points, those within the tolerance of each other merged, found by their place in a grid.
+#[derive(Clone)]
 struct Places {
     tolerance: f64,
     points: Vec<Vec2>,
@@ -169,6 +187,48 @@ impl Places {
         let mut known = HashSet::new();
         let pieces = pieces.into_iter().map(|piece| Piece { ends: piece.ends.map(|v| self.first(v)), ..piece });
         pieces.filter(|p| p.ends[0] != p.ends[1] && known.insert((p.segment, sorted(p.ends)))).collect()
+    }
+}
+
+impl Places {
+    /// Moves the points that split segments onto these, or nearest to them where they are several.
+    fn straighten(&mut self, drawn: &[Piece], pieces: &[Piece]) {
+        let mut on: BTreeMap<usize, Vec<[usize; 2]>> = BTreeMap::new();
+        for piece in pieces {
+            let ends = drawn[piece.segment].ends.map(|v| self.first(v));
+            let inner = piece.ends.into_iter().filter(|v| !ends.contains(v));
+            inner.for_each(|v| on.entry(v).or_default().push(ends));
+        }
+        for _ in 0..PASSES {
+            for (&v, lines) in &on {
+                let x = self.points[v];
+                let moved = onto(x, lines.iter().map(|ends| ends.map(|v| self.points[v])));
+                if (moved - x).norm() > LEAST_MOVE * self.tolerance {
+                    self.points[v] = moved;
+                }
+            }
+        }
+    }
+}
+
+/// Returns the point that is nearest to these lines, the one next to `x` where they are parallel.
+fn onto(x: Vec2, lines: impl Iterator<Item = [Vec2; 2]>) -> Vec2 {
+    // sums of `n n^T` and of `n n . (a - x)` over the unit normals `n` of the lines through `a`
+    let (mut squares, mut off, mut count) = ([0.0; 3], Vec2::zeros(), 0.0);
+    for [a, b] in lines.filter(|[a, b]| a != b) {
+        let along = (b - a).normalize();
+        let normal = Vec2::new(-along.y, along.x);
+        let more = [normal.x * normal.x, normal.x * normal.y, normal.y * normal.y];
+        squares.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        off += normal * normal.dot(&(a - x));
+        count += 1.0;
+    }
+    let [xx, xy, yy] = squares;
+    let determinant = xx * yy - xy * xy;
+    if determinant > LEAST_DETERMINANT * count * count {
+        x + Vec2::new(yy * off.x - xy * off.y, xx * off.y - xy * off.x) / determinant
+    } else {
+        x + off / f64::max(count, 1.0)
     }
 }
 
@@ -312,6 +372,26 @@ mod tests {
         assert_eq!(ends(&corner), [[0, 1], [1, 3]]);
         let overlap = arranged(&[[0.0, 0.0, 2.0, 0.0], [3.0, 0.0, 1.0, 0.0]]);
         assert_eq!(ends(&overlap), [[0, 3], [3, 1], [2, 1], [1, 3]]);
+    }
+
+    /// Claim: a line stays straight where others end short of it, beyond it or cross it there, and a point on two lines
+    /// is where they meet. Source: counted by hand.
+    #[test]
+    fn lines_stay_straight() {
+        let within = |segments: &[[f64; 4]]| {
+            let ends = segments.iter().map(|s| [Vec2::new(s[0], s[1]), Vec2::new(s[2], s[3])]);
+            arrange(&ends.collect::<Vec<_>>(), 0.1, true, &mut 0).unwrap()
+        };
+        for end in [-0.08, 0.08] {
+            let found = within(&[[0.0, 0.0, 10.0, 0.0], [4.0, end, 4.0, 5.0]]);
+            assert_eq!((points(&found), found.straight[2]), (4, Vec2::new(4.0, 0.0)), "{found:?}");
+            assert_eq!(found.points[2].y, end);
+        }
+        let over = within(&[[4.0, 0.08, 4.0, -5.0], [0.0, 0.0, 10.0, 0.0], [4.05, 5.0, 4.05, 0.05]]);
+        assert_eq!((over.pieces.len(), over.straight[0]), (4, Vec2::new(4.0, 0.0)), "{over:?}");
+        let crossed = within(&[[0.0, 0.0, 10.0, 0.0], [4.0, -4.0, 4.0, 4.0], [4.05, 0.05, 8.0, 5.0]]);
+        let place = crossed.pieces.iter().find(|piece| piece.segment == 2).unwrap().ends[0];
+        assert_eq!(crossed.straight[place], Vec2::new(4.0, 0.0));
     }
 
     /// Claim: `n` random lines through a disc that all cross pairwise have `n (n - 1) / 2` crossings and `n^2` pieces,

@@ -47,7 +47,7 @@ pub(super) fn mesh(
 ) -> Result<Meshed, Misdrawn> {
     let ends: Vec<[Vec2; 2]> = lines.iter().map(|line| line.ends).collect();
     let arranged = arrange(&ends, tolerance, split, compared).map_err(|disorder| untidy(lines, disorder, tolerance))?;
-    let Arrangement { mut points, pieces } = arranged;
+    let Arrangement { mut points, mut straight, pieces } = arranged;
     let vanished = vanished(lines, &pieces);
     let doubled = |(piece, fault): (Piece, Box<PatternFault>)| {
         let fault = gap(&points, &pieces, Some(piece), tolerance).map_or(*fault, |ends| apart(lines, ends, tolerance));
@@ -55,8 +55,8 @@ pub(super) fn mesh(
     };
     let single = without_doubles(lines, &pieces).map_err(doubled)?;
     let (kept, dropped) = without_loose(lines, points.len(), single);
-    let (arranged, slits) = with_open_slits(lines, &mut points, kept);
-    let (coords, pieces) = renumbered(&points, &arranged);
+    let (arranged, slits) = with_open_slits(lines, [&mut points, &mut straight], kept);
+    let (coords, pieces) = renumbered(&straight, &arranged);
     let located = |defect: Defect| {
         let number = piece_of(&pieces, &defect);
         match gap(&points, &arranged, number.map(|k| arranged[k]), tolerance) {
@@ -207,9 +207,9 @@ fn agree(a: &Line, b: &Line) -> bool {
 
 /// Returns the pieces with cuts of one edge, whose ends no other cut and no rim reaches, split in their middle: there
 /// they can open. Also returns their number.
-fn with_open_slits(lines: &[Line], points: &mut Vec<Vec2>, pieces: Vec<Piece>) -> (Vec<Piece>, usize) {
+fn with_open_slits(lines: &[Line], mut places: [&mut Vec<Vec2>; 2], pieces: Vec<Piece>) -> (Vec<Piece>, usize) {
     let opens = |piece: &Piece| matches!(lines[piece.segment].letter, Assignment::Cut | Assignment::Boundary);
-    let mut degree = vec![0; points.len()];
+    let mut degree = vec![0; places[0].len()];
     pieces.iter().filter(|piece| opens(piece)).flat_map(|piece| piece.ends).for_each(|v| degree[v] += 1);
     let (mut split, mut slits) = (Vec::with_capacity(pieces.len()), 0);
     for piece in pieces {
@@ -217,8 +217,8 @@ fn with_open_slits(lines: &[Line], points: &mut Vec<Vec2>, pieces: Vec<Piece>) -
         let is_cut = line.letter == Assignment::Cut || (line.contour && !line.is_plain());
         if is_cut && piece.ends.iter().all(|&v| degree[v] == 1) {
             let [a, b] = piece.ends;
-            points.push((points[a] + points[b]) / 2.0);
-            let middle = points.len() - 1;
+            let middle = places[0].len();
+            places.iter_mut().for_each(|points| points.push((points[a] + points[b]) / 2.0));
             split.extend([[a, middle], [middle, b]].map(|ends| Piece { ends, ..piece }));
             slits += 1;
         } else {
