@@ -3,7 +3,9 @@
 //! Newton's method across a frame `T` of orthonormal columns, roughly the tangents at the predicted point `p`: every
 //! correction is the least-squares solution of `J d = -F`, `T^T d = 0`, from the normal equations `(J^T J + T T^T) d =
 //! -J^T F`. They lose digits of `d`, not of the point, since `F` is evaluated anew; and redundant rows of `J` do no
-//! harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal.
+//! harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal. On a curve that is a
+//! multiple one as a whole `J` has more null vectors: there a small multiple of the unit matrix is added, and nothing
+//! moves along them.
 
 use foldwell_numerics::dense::small::{CholeskyFactor, cholesky};
 use foldwell_numerics::{DenseMatrix, vector};
@@ -11,6 +13,10 @@ use nalgebra::DVector;
 
 /// Largest number of corrections.
 const MOST_CORRECTIONS: usize = 6;
+/// Pivot of the normal equations, over their largest diagonal entry, up to which it is rounding errors of zero.
+const ZERO_PIVOT: f64 = 1e-13;
+/// The multiple of the unit matrix, over that entry: rounding errors divided by it turn no tangent.
+const UNMOVED: f64 = 1e-6;
 
 /// Equations `F(x) = 0`, some of which may be redundant.
 pub trait Implicit {
@@ -95,7 +101,13 @@ impl Corrector {
     fn normal(&self, across: &DenseMatrix) -> Option<CholeskyFactor> {
         let mut normal = self.jacobian.tr_mul(&self.jacobian);
         across.column_iter().for_each(|tangent| normal.ger(1.0, &tangent, &tangent, 1.0));
-        cholesky(normal)
+        let largest = normal.diagonal().amax();
+        let is_regular =
+            |found: &CholeskyFactor| found.l_dirty().diagonal().iter().all(|root| root * root > ZERO_PIVOT * largest);
+        cholesky(normal.clone()).filter(is_regular).or_else(|| {
+            (0..normal.nrows()).for_each(|k| normal[(k, k)] += UNMOVED * largest);
+            cholesky(normal)
+        })
     }
 
     /// Orthonormal null vectors of the Jacobian along the frame.

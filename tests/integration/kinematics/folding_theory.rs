@@ -14,10 +14,10 @@ use foldwell::model::{Assembly, Boundary, RIGID, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{null_space, symmetric_eigenvalues};
 use foldwell::sheet::generate::{Eggbox, Miura, RandomDevelopable};
-use foldwell::sheet::{EdgeKey, EdgeKind, Pattern, Sheet, generate};
+use foldwell::sheet::{EdgeKey, EdgeKind, Pattern, Sheet, fold, generate};
 use foldwell::solver::continuation::End;
 use nalgebra::{DVector, Matrix2, Matrix3x2, Vector2};
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 fn edge(sheet: &Sheet, [i, j, n1, n2]: [i32; 4]) -> usize {
     let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1, n2], round: 0 };
@@ -45,6 +45,38 @@ fn to_length(length: f64) -> Stop {
 
 fn shape(state: &Folded) -> &Shape {
     state.shape.as_ref().unwrap()
+}
+
+/// Claim: a square cell with both diagonals folds along one side alone, by any angle, though that ray is a double one and the
+/// closure has a null vector too many all along it; drawn in another plane too. Tolerance: rounding of pi.
+#[test]
+fn a_sheet_folds_along_one_line() {
+    let points = [[0.0, 0.0], [0.5, 0.5], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    for turn in [0.0, 0.7] {
+        let (sin, cos) = f64::sin_cos(turn);
+        let place = |[x, y]: [f64; 2]| format!("[{x}, {}, {}]", y * cos, y * sin);
+        let text = format!(
+            "{{\"file_spec\": 1.2, \"foldwell:lattice\": [{}, {}], \"vertices_coords\": [{}], \
+             \"faces_vertices\": [[0, 2, 1], [2, 3, 1], [3, 4, 1], [4, 0, 1]]}}",
+            place([1.0, 0.0]),
+            place([0.0, 1.0]),
+            points.map(place).join(", ")
+        );
+        let sheet = fold::parse(&text, "square").unwrap();
+        for [n1, n2] in [[1, 0], [0, 1]] {
+            let found = follow(&sheet, &[edge(&sheet, [0, 0, n1, n2])], Stop::default());
+            let other = edge(&sheet, [0, 0, n2, n1]);
+            let is_flat = |(k, angle): (usize, &f64)| k == other || angle.abs() < 1e-9;
+            let is_plain = |one: &&Traced| one.states[1].angles.iter().enumerate().all(is_flat);
+            let plain: Vec<&Traced> = found.iter().filter(is_plain).collect();
+            assert_eq!(plain.len(), 2, "{turn}: the ray and its opposite");
+            for one in plain {
+                assert!(matches!(one.end, End::Closed(_)), "{turn}: {:?}", one.end);
+                let last = one.states.last().unwrap();
+                assert!(abs_diff_eq!(last.angles[other].abs(), 2.0 * PI, epsilon = 1e-12), "{:?}", last.angles);
+            }
+        }
+    }
 }
 
 /// Claim: the vertex of `meshes/degree-four.fold`, a finite sheet of four rigid quadrilaterals, has two branches, each
