@@ -1,5 +1,5 @@
-//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes, of a sheet that
-//! is closed round an axis with that axis upright.
+//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes; of a sheet that
+//! is closed round an axis with that axis upright, and of a plane one that stands as it stands.
 
 use nalgebra::Matrix3;
 
@@ -14,6 +14,10 @@ const OUTWARD: f64 = 0.7;
 const THICK: f64 = 0.05;
 /// Two extents, squared, are about equal if the smaller one is more than this part of the larger one.
 const EQUAL: f64 = 0.7;
+/// Most height of the normal of a plane sheet that stands: 30 degrees from the level.
+const STANDING: f64 = 0.5;
+/// Least extent over the largest, squared, up to which a sheet is plane.
+const PLANE: f64 = 1e-4;
 
 /// An orthographic projection; `right`, `up` and `toward` are orthonormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,25 +28,32 @@ pub struct Projection {
     pub up: Vec3,
     /// Direction from the sheet to the eye.
     pub toward: Vec3,
-    /// Mean normal of the sheet; of a closed one, its axis.
+    /// Mean normal of the sheet; of a closed one, its axis; of a plane one that stands, z.
     pub normal: Vec3,
 }
 
 impl Projection {
     /// Returns the view from the side of the face normals in which the longer side of the sheet runs across the figure.
-    /// A sheet that is closed round an axis, such as a tube or a drum, stands upright and is seen from less high above.
+    /// A sheet that is closed round an axis, such as a tube or a drum, stands upright and is seen from less high above;
+    /// so is one in an upright plane, as a truss in x and z, with z upwards.
     ///
-    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet, `OF_CLOSED` to that across the
-    /// axis; its part in that plane has the angle `TURN` to the second principal axis. All are in radians.
+    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet, `OF_UPRIGHT` to the level of one
+    /// that stands; its part in that plane has the angle `TURN` to the second principal axis. All are in radians.
     pub(crate) fn of(points: &[Vec3], triangles: &[[usize; 3]]) -> Self {
         const ELEVATION: f64 = 0.82;
-        const OF_CLOSED: f64 = 0.4;
+        const OF_UPRIGHT: f64 = 0.4;
         const TURN: f64 = 0.5;
         let spread = Spread::of(points);
         let normals = Normals::of(&spread.places, triangles);
         let (axes, elevation) = match spread.axis(&normals) {
-            Some(axis) => ([level_x(axis), axis.cross(&level_x(axis)), axis], OF_CLOSED),
-            None => (spread.principal_axes(&normals), ELEVATION),
+            Some(axis) => ([level_x(axis), axis.cross(&level_x(axis)), axis], OF_UPRIGHT),
+            None => match spread.principal_axes(&normals) {
+                [.., normal] if normal.z.abs() < STANDING && spread.extents[2] <= PLANE * spread.extents[0] => {
+                    let along = -Vec3::new(normal.x, normal.y, 0.0).normalize();
+                    ([along.cross(&Vec3::z()), along, Vec3::z()], OF_UPRIGHT)
+                }
+                axes => (axes, ELEVATION),
+            },
         };
         let [across, along, normal] = axes;
         let level = across * TURN.sin() - along * TURN.cos();
@@ -190,6 +201,23 @@ mod tests {
         let frame = Matrix3::from_columns(&[view.right, view.up, view.toward]);
         assert!((frame.transpose() * frame - Matrix3::identity()).norm() < 1e-12);
         assert!((frame.determinant() - 1.0).abs() < 1e-12);
+    }
+
+    /// Claim: a sheet in an upright plane is seen with z upwards, from the side of its normals, whichever that is.
+    #[test]
+    fn upright_sheets_stand() {
+        for turn in [0.0, 1.0, 2.5, -2.0] {
+            let out = Vec3::new(f64::sin(turn), f64::cos(turn), 0.1).normalize();
+            let across = out.cross(&Vec3::z()).normalize();
+            let points =
+                [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [0.0, 1.0]].map(|[s, t]| across * s - out.cross(&across) * t);
+            let normal = (points[1] - points[0]).cross(&(points[2] - points[0]));
+            let view = Projection::of(&points, &[[0, 1, 2], [0, 2, 3]]);
+            assert!(
+                view.up.z > 0.9 && view.right.z.abs() < 1e-12 && view.toward.dot(&normal) > 0.0,
+                "{turn}: {view:?}"
+            );
+        }
     }
 
     /// Claim: the side of a prism of six faces stands upright whatever its axis and its height, and a zigzag of as many
