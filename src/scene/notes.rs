@@ -5,6 +5,7 @@ use super::rest::RestSpec;
 use crate::model::Assembly;
 use crate::sheet::info::{TURNED_OVER, frames_said, remarks, targets_said};
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
+use std::collections::BTreeSet;
 
 /// Returns remarks about a scene, made before its studies.
 pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
@@ -15,6 +16,7 @@ pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
         notes.push(TURNED_OVER.to_owned());
     }
     notes.extend(assembled(assembly.sheet()));
+    notes.extend(loose(assembly));
     if !assembly.sheet().is_repeated() && file.scene.sheet.cells.as_deref().is_some_and(|cells| cells.0 != [1, 1]) {
         notes.push("`cells` has no effect: the mesh is a finite sheet, which is not repeated".to_owned());
     }
@@ -41,6 +43,22 @@ fn assembled(sheet: &Sheet) -> Vec<String> {
     );
     let alone = format!("edges of no face: {bars}; they are bars, as cables and struts");
     [(joints, said), (bars, alone)].into_iter().filter(|(count, _)| *count > 0).map(|(_, said)| said).collect()
+}
+
+/// Says that bars of a patch hang loose, whose polygons reach over its rim and are not there.
+fn loose(assembly: &Assembly) -> Option<String> {
+    let tiling = assembly.tiling();
+    let mut is_on_face = vec![false; tiling.positions.len()];
+    tiling.triangles.iter().flat_map(|triangle| triangle.corners).for_each(|corner| is_on_face[corner.vertex] = true);
+    let ends: BTreeSet<usize> = tiling.edges.iter().flat_map(|edge| edge.ends).map(|end| end.vertex).collect();
+    let count = ends.into_iter().filter(|vertex| !is_on_face[*vertex]).count();
+    let cut = count > 0 && assembly.sheet().is_repeated() && assembly.sheet().bars_alone().next().is_none();
+    cut.then(|| {
+        format!(
+            "vertices on no face: {count}; the polygons there reach over the rim of the patch and are left out, and their \
+             bars hang loose"
+        )
+    })
 }
 
 /// Says that a single rest angle folds mountains and valleys to the same side. Only letters that the drawing does not

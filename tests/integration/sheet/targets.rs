@@ -237,6 +237,22 @@ fn remarks_are_made() {
     assert!(summary.contains("6 fold angles of the file"), "{summary}");
 }
 
+/// Claim: where a patch has lost the polygons of vertices that still have bars, it is said how many hang loose. Source: of
+/// thick Miura-ori in 2 x 2 cells, 64 vertices, two of the four panels of a cell reach over the rim on either side.
+#[test]
+fn loose_bars_are_said() {
+    let notes = |pattern: &str| {
+        let sheet = format!("generate = {{ pattern = \"{pattern}\" }}\ncells = [2, 2]");
+        Scene::on(&sheet, "[[study]]\nname = \"a\"\nkind = \"modes\"\n").ran().report.summary.notes
+    };
+    assert!(
+        notes("thick-miura").iter().any(|note| note.contains("vertices on no face: 16")),
+        "{:?}",
+        notes("thick-miura")
+    );
+    assert!(notes("miura").is_empty());
+}
+
 /// Claim: an edge that is drawn folded flat has the side of its letter or its target, also in the model: at rest there
 /// its energy is zero. Source: pi and -pi are drawn alike. Tolerance: rounding of the coordinates of the drawing, a
 /// sine of 1e-16, squared.
