@@ -259,6 +259,15 @@ impl Domain {
         Some(tube::lattice_motions(seam, *kept, self.shared_of(x)))
     }
 
+    /// Mirrors a tube at the plane across its axis, which turns it inside out. Returns whether it is a tube.
+    pub(crate) fn evert(&self, x: &mut [f64]) -> bool {
+        let Self::Tube { kept, .. } = self else { return false };
+        let first = x.len() - self.shared();
+        let heights = (2..first).step_by(3).chain([first + 1]).chain((!kept.rise).then_some(first + 2));
+        heights.for_each(|k| x[k] = -x[k]);
+        true
+    }
+
     /// Sets the direction of the axis of a screw, in radians from x; all other coordinates stay. Does nothing for
     /// other domains.
     pub(crate) fn point_axis(&self, x: &mut [f64], direction: f64) {

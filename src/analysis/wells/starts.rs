@@ -9,7 +9,7 @@
 //! own number alone. Trusses, which have no creases, start from coordinates that are moved farther.
 //!
 //! Each random start of a patch has a second one beside it: the drawn sheet with parts turned inside out. Stiff domes snap
-//! to such states, and crumpled sheets miss them. The first one is the whole sheet, the others one to three random balls of
+//! to such states, and crumpled sheets miss them. The first one is the whole sheet, that of a tube too, the others one to three random balls of
 //! vertices that are neither pinned nor at the rim, small balls as often as large ones. Starts from balls are left out around
 //! another state with a spread below half a turn. A second start counts where it leads to a well, and one from balls where
 //! the sheet does not pass through itself there: it has many other wells.
@@ -110,10 +110,15 @@ pub fn relax_around(
     outcomes
 }
 
-/// The drawn patch with parts turned inside out, by number: first the whole of it, then random balls of its inner vertices.
-/// `None` for other domains, and for parts that are flat, but for the whole, or have no mean normal.
+/// The drawn patch with parts turned inside out, by number: first the whole of it, then random balls of its inner vertices;
+/// of a tube the whole alone. `None` for other domains, and for parts that are flat, but for the whole, or have no mean normal.
 fn mirrored(assembly: &Assembly, settler: &MinimumTracker, (seed, number): (u64, usize)) -> Option<Configuration> {
     let (tiling, drawn) = (assembly.tiling(), &assembly.drawn().coordinates);
+    let mut tube = drawn.clone();
+    if assembly.domain().evert(&mut tube) {
+        let angles: Vec<f64> = assembly.drawn_angles().iter().map(|angle| -DISPLACED * angle).collect();
+        return (number == 0 && assembly.terms().pins.is_empty()).then(|| settler.at(tube, &angles));
+    }
     let mut numbers = ChaCha8Rng::seed_from_u64(seed);
     numbers.set_stream(u64::MAX - number as u64);
     let mut below_one = || 0.5 * (1.0 + symmetric(&mut numbers));
