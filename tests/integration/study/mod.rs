@@ -7,6 +7,7 @@ mod corners;
 mod coupled_tubes;
 mod drums;
 mod empty_answers;
+mod examples_of_merlin;
 mod folds;
 mod gallery_paths;
 mod kept_states;

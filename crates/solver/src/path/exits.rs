@@ -56,8 +56,13 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         PathState { arc_length: last.arc_length + way, tangent, conjugate, ..point.state.clone() }
     }
 
-    /// Whether a state is on the branch between two states that follow each other on it.
+    /// Whether a state is on the branch between two states that follow each other on it. One with another number of negative
+    /// eigenvalues than both is not, however near: the parameter may turn within a tiny way, as where faces touch.
     pub fn passes(&mut self, from: &PathState, to: &PathState, state: &PathState) -> Found<bool> {
+        let is_another = |end: &PathState| matches!((end.negative_eigenvalues, state.negative_eigenvalues), (Some(a), Some(b)) if a != b);
+        if is_another(from) && is_another(to) {
+            return Ok(false);
+        }
         let Some((mut guess, off)) = self.beside([from, to], state) else { return Ok(false) };
         let chord = Cubic::new(from, to).chord();
         let along = self.product(&off, &chord) / self.product(&chord, &chord);
