@@ -48,7 +48,7 @@ pub(crate) fn settings_of(dict: &Bound<'_, PyDict>) -> PyResult<(Vec<String>, Ar
 /// and two its wavenumbers.
 fn is_of_edges(given: &Bound<'_, PyAny>, path: &str) -> bool {
     let least = match path.splitn(5, '.').collect::<Vec<_>>()[..] {
-        ["energy", _, "stiffness" | "rest"] => 0,
+        ["energy", _, "stiffness" | "rest"] | ["energy", _, "law", "each"] => 0,
         ["study", _, "modes", _] | ["energy", _, "rest", "mode"] => 4,
         _ => return false,
     };

@@ -73,6 +73,7 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     let bars = scene.energy.bars.iter();
     found.extend(bars.flat_map(|spec| [stiffness_table(&spec.stiffness), length_table(spec)]).flatten());
     found.extend(scene.energy.hinges().into_iter().flatten().flat_map(hinges).flatten());
+    found.extend(scene.energy.law_tables().map(|table| table.file.to_path_buf()));
     found.extend(scene.energy.curves().into_iter().filter_map(|curve| curve.file.clone()));
     for study in &scene.studies {
         if let Some(StartSpec::File(path)) = study.kind.start().map(|start| &**start) {

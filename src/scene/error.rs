@@ -65,6 +65,11 @@ pub enum TableFault {
     /// A field that should be a length is not one.
     #[error("`{field}` in column `{column}` is not a finite number above 0")]
     Length { field: String, column: &'static str },
+    /// A number that is none of the laws that are listed.
+    #[error(
+        "`{field}` in column `{column}` is no law of the list: they are counted from 1 to {laws}, and 0 is a spring"
+    )]
+    Law { field: String, column: &'static str, laws: usize },
     #[error("{message}; {help}")]
     Turns { message: String, help: String },
     #[error("{0}")]

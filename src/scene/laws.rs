@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
-use super::rows::{Fault, numbered_lines, read_table};
+use super::rows::{Column, Fault, numbered_lines, read_table};
 use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec, HingeYieldSpec, LawForm};
 use super::turns::fault_of_turns;
 use super::{Located, SceneError, SceneFile};
@@ -42,7 +42,7 @@ pub(super) fn given(file: &SceneFile, values: &ElementValues) -> Result<[Option<
     ])
 }
 
-/// Returns the laws of the elements of a term: one for all, or those of their letters.
+/// Returns the laws of the elements of a term: one for all, those of their letters, or those of a table.
 fn of_elements<T>(
     file: &SceneFile,
     (values, of): (&ElementValues, ElementKind),
@@ -59,6 +59,13 @@ fn of_elements<T>(
             let letters = letters.iter().map(read).collect::<Result<BTreeMap<_, _>, SceneError>>()?;
             let each = values.each_by_letter((&letters, "law"), of, spec.span(), (None, |_| Some(None)))?;
             Ok(GivenLaw { law: TermLaw::PerEdge(each), stiffness: None })
+        }
+        LawForm::Listed(table, laws) => {
+            let read = |law: &T| Ok(read(file, (law, spec.span()))?.0);
+            let laws = laws.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
+            let numbers = values.file_values(table, Column::Law(laws.len()), of)?;
+            let law = |number: &f64| laws.get((*number as usize).wrapping_sub(1)).cloned();
+            Ok(GivenLaw { law: TermLaw::PerEdge(numbers.iter().map(law).collect()), stiffness: None })
         }
     }
 }

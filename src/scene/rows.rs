@@ -23,6 +23,8 @@ pub(crate) enum Column {
     Stiffness,
     /// Rest lengths: positive.
     Length,
+    /// Numbers of laws in a list of so many, counted from 1; 0 is a spring.
+    Law(usize),
 }
 
 impl Column {
@@ -33,6 +35,7 @@ impl Column {
             Self::Rate => "rate",
             Self::Stiffness => "stiffness",
             Self::Length => "length",
+            Self::Law(_) => "law",
         }
     }
 
@@ -52,7 +55,10 @@ impl Column {
             },
             Self::Stiffness if !(number >= LEAST_STIFFNESS) => Err(TableFault::Stiffness { field: field(), column }),
             Self::Length if !(number > 0.0 && number.is_finite()) => Err(TableFault::Length { field: field(), column }),
-            Self::Rate | Self::Stiffness | Self::Length => Ok(number),
+            Self::Law(laws) if !(number.fract() == 0.0 && (0.0..=laws as f64).contains(&number)) => {
+                Err(TableFault::Law { field: field(), column, laws })
+            }
+            Self::Rate | Self::Stiffness | Self::Length | Self::Law(_) => Ok(number),
         }
     }
 }

@@ -15,6 +15,7 @@ mod sweep;
 mod vertices;
 
 use super::Located;
+use super::forms::FileName;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Label, Positive, SeamCell, Stiffness, Triple};
@@ -226,6 +227,13 @@ impl EnergySpec {
         let (bars, hinges) = self.laws();
         let of_bars = bars.into_iter().flat_map(LawForm::each).filter_map(BarLawSpec::curve);
         of_bars.chain(hinges.into_iter().flatten().flat_map(LawForm::each).filter_map(HingeLawSpec::curve)).collect()
+    }
+
+    /// The tables of the laws of single elements.
+    pub(crate) fn law_tables(&self) -> impl Iterator<Item = &FileName> {
+        let (bars, hinges) = self.laws();
+        let of_hinges = hinges.into_iter().flatten().filter_map(LawForm::table);
+        bars.and_then(LawForm::table).into_iter().chain(of_hinges)
     }
 
     /// Whether the stiffness of bars, creases and facets follows from a measured curve.

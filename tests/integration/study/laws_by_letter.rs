@@ -1,8 +1,8 @@
-//! Laws by the letters of edges.
+//! Laws by the letters of edges, and of single elements.
 
 use crate::common::Scene;
 use foldwell::model::{Assembly, Bilinear, Law, OfAngle, Stiffening};
-use foldwell::sheet::{Assignment, EdgeKind};
+use foldwell::sheet::{Assignment, EdgeKey, EdgeKind};
 use foldwell::{Pattern, Rest, generate, relax};
 use std::sync::Arc;
 
@@ -59,6 +59,33 @@ fn mountains_and_valleys_have_their_own_laws() {
     near(relax(&builder.crease_law(laws).build().unwrap()).unwrap().state.total(), of_both);
 }
 
+/// Claim: laws of single creases by a table are those by letters where it says the same, 0 is a spring, and numbers that no
+/// law has are refused with their line. Source: the laws by letters. Tolerance: that of relaxations.
+#[test]
+fn single_creases_have_their_own_laws() {
+    let sheet = generate(&Pattern::named("miura").unwrap()).unwrap();
+    let table = |number: &dyn Fn(Assignment) -> &'static str| {
+        let rows = sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease).map(|edge| {
+            let EdgeKey { i, j, shift: [n1, n2], .. } = edge.key;
+            format!("{i},{j},{n1},{n2},{}\n", number(sheet.assignment(edge)))
+        });
+        format!("i,j,n1,n2,law\n{}", rows.collect::<String>())
+    };
+    let law = format!("stiffness = 1.0, law = {{ each = {{ file = \"laws.csv\" }}, of = [{STIFFENING}, {BILINEAR}] }}");
+    let mountain = |of_mountains: &'static str, of_others: &'static str| {
+        table(&move |letter| if letter == Assignment::Mountain { of_mountains } else { of_others })
+    };
+    let found = |table: String| scene(&law).with("laws.csv", table).converged().relaxed("relaxed").energy.total;
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() <= 1e-9 * expected, "{found} {expected}");
+    near(found(mountain("1", "2")), energy(&format!("stiffness = 1.0, law = {{ M = {STIFFENING}, V = {BILINEAR} }}")));
+    near(found(mountain("0", "2")), energy(&format!("stiffness = 1.0, law = {{ V = {BILINEAR} }}")));
+    for wrong in ["3", "-1", "0.5", "stiffening"] {
+        scene(&law)
+            .with("laws.csv", mountain(wrong, "1"))
+            .refused("is no law of the list: they are counted from 1 to 2");
+    }
+}
+
 /// Claim: what is no law by letters is refused, with what would be right.
 #[test]
 fn letters_without_law_are_refused() {
@@ -70,6 +97,11 @@ fn letters_without_law_are_refused() {
         ("stiffness = 1.0, law = { M = { kind = \"stiff\" } }".into(), "unknown word `stiff`"),
         ("stiffness = 1.0, law = { V = { kind = \"power\", exponent = 0.5 } }".into(), "the exponent is 0.5"),
         ("stiffness = 1.0, law = {}".into(), "missing key `kind`"),
+        (format!("stiffness = 1.0, law = {{ of = [{SPRING}] }}"), "both without other keys"),
+        (
+            format!("stiffness = 1.0, law = {{ each = {{ file = \"a.csv\" }}, of = [], M = {SPRING} }}"),
+            "both without other keys",
+        ),
         (format!("law = {{ M = {SPRING} }}"), "missing key `stiffness`"),
         (format!("stiffness = 1.0, yield = {{ moment = 1.0 }}, law = {{ M = {SPRING} }}"), "a law and yields at once"),
     ] {
