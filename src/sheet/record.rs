@@ -65,8 +65,8 @@ impl Redrawing {
         let mut said = Vec::new();
         if let Some([distance, default]) = self.merged {
             said.push(format!(
-                "points up to {distance:.3e} from each other, or from a line, were joined: with {default:.3e} {}; `merge` in [sheet] of a scene and \
-                 `foldwell convert --merge` set the distance",
+                "points up to {distance:.3e} from each other, or from a line, were joined: with {default:.3e} {}; `merge` \
+                 in [sheet] of a scene and `foldwell convert --merge` set the distance",
                 if distance > default { "lines end beside each other" } else { "others would be one that are two" }
             ));
         }

@@ -9,9 +9,9 @@
 //! own number alone. Trusses, which have no creases, start from coordinates that are moved farther.
 //!
 //! Each random start of a patch has a second one beside it: the drawn sheet with parts turned inside out. Stiff domes snap
-//! to such states, and crumpled sheets miss them. The first one is the whole sheet, that of a tube too, the others one to three random balls of
-//! vertices that are neither pinned nor at the rim, small balls as often as large ones. Starts from balls are left out around
-//! another state with a spread below half a turn. A second start counts where it leads to a well, and one from balls where
+//! to such states, and crumpled sheets miss them. The first one is the whole sheet, as is the only one of a tube, the
+//! others one to three random balls of vertices that are neither pinned nor at the rim, small balls as often as large
+//! ones. Starts from balls are left out around another state with a spread below half a turn. A second start counts where it leads to a well, and one from balls where
 //! the sheet does not pass through itself there: it has many other wells.
 //!
 //! Random angles are those around another state if one is given. The first start then is that state itself, so that it

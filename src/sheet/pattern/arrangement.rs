@@ -41,9 +41,9 @@ const PASSES: usize = 4;
 /// Least distance in tolerances by which a point goes back: points that are off by rounding stay.
 const LEAST_MOVE: f64 = 1e-9;
 
-/// Least determinant of lines through a point, over the square of their number, with which it goes to the point where
-/// they meet: that of two lines at 30 degrees.
-const LEAST_DETERMINANT: f64 = 1.0 / 16.0;
+/// Least sine of the angle between two lines with which a point goes to where they meet: at smaller ones, below 14
+/// degrees, that is far.
+const LEAST_SINE: f64 = 0.25;
 
 /// Most points of an arrangement; ten thousand lines that all cross have a hundred times as many.
 const MOST_POINTS: usize = 500_000;
@@ -103,7 +103,7 @@ pub(crate) fn arrange(
             }
         }
         let mut moved = places.clone();
-        moved.straighten(&drawn, &pieces);
+        moved.straighten(segments, &drawn, &pieces);
         straight = split_once(&mut moved, &pieces, compared)?.is_none().then_some(moved.points);
     }
     for piece in &drawn {
@@ -190,20 +190,34 @@ impl Places {
     }
 }
 
+/// The segments through a point that splits some of them.
+#[derive(Default)]
+struct Through {
+    /// The ends of those that it splits.
+    split: Vec<[usize; 2]>,
+    /// Those that end at it, as they are drawn.
+    ending: Vec<[Vec2; 2]>,
+}
+
 impl Places {
-    /// Moves the points that split segments onto these, or nearest to them where they are several.
-    fn straighten(&mut self, drawn: &[Piece], pieces: &[Piece]) {
-        let mut on: BTreeMap<usize, Vec<[usize; 2]>> = BTreeMap::new();
+    /// Moves the points that split segments onto these, and there to where segments that end at them meet them.
+    fn straighten(&mut self, segments: &[[Vec2; 2]], drawn: &[Piece], pieces: &[Piece]) {
+        let mut through: BTreeMap<usize, Through> = BTreeMap::new();
         for piece in pieces {
             let ends = drawn[piece.segment].ends.map(|v| self.first(v));
             let inner = piece.ends.into_iter().filter(|v| !ends.contains(v));
-            inner.for_each(|v| on.entry(v).or_default().push(ends));
+            inner.for_each(|v| through.entry(v).or_default().split.push(ends));
+        }
+        for (piece, segment) in drawn.iter().zip(segments) {
+            for v in piece.ends.map(|v| self.first(v)) {
+                through.get_mut(&v).into_iter().for_each(|lines| lines.ending.push(*segment));
+            }
         }
         for _ in 0..PASSES {
-            for (&v, lines) in &on {
-                let x = self.points[v];
-                let moved = onto(x, lines.iter().map(|ends| ends.map(|v| self.points[v])));
-                if (moved - x).norm() > LEAST_MOVE * self.tolerance {
+            for (&v, lines) in &through {
+                let split: Vec<_> = lines.split.iter().map(|ends| ends.map(|v| self.points[v])).collect();
+                let moved = met(self.points[v], &split, &lines.ending);
+                if (moved - self.points[v]).norm() > LEAST_MOVE * self.tolerance {
                     self.points[v] = moved;
                 }
             }
@@ -211,24 +225,27 @@ impl Places {
     }
 }
 
-/// Returns the point that is nearest to these lines, the one next to `x` where they are parallel.
-fn onto(x: Vec2, lines: impl Iterator<Item = [Vec2; 2]>) -> Vec2 {
-    // sums of `n n^T` and of `n n . (a - x)` over the unit normals `n` of the lines through `a`
-    let (mut squares, mut off, mut count) = ([0.0; 3], Vec2::zeros(), 0.0);
-    for [a, b] in lines.filter(|[a, b]| a != b) {
-        let along = (b - a).normalize();
-        let normal = Vec2::new(-along.y, along.x);
-        let more = [normal.x * normal.x, normal.x * normal.y, normal.y * normal.y];
-        squares.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
-        off += normal * normal.dot(&(a - x));
-        count += 1.0;
-    }
-    let [xx, xy, yy] = squares;
-    let determinant = xx * yy - xy * xy;
-    if determinant > LEAST_DETERMINANT * count * count {
-        x + Vec2::new(yy * off.x - xy * off.y, xx * off.y - xy * off.x) / determinant
-    } else {
-        x + off / f64::max(count, 1.0)
+/// Returns where the first of the lines `split` is met, next to `x`, by the one most across it of the others, or else of
+/// `ending`; its point nearest to `x` where they are all nearly parallel.
+fn met(x: Vec2, split: &[[Vec2; 2]], ending: &[[Vec2; 2]]) -> Vec2 {
+    // the unit normal of each line, and its distance from `x`
+    let equations = |lines: &[[Vec2; 2]]| -> Vec<(Vec2, f64)> {
+        let normal = |[a, b]: &[Vec2; 2]| Vec2::new(a.y - b.y, b.x - a.x).try_normalize(0.0);
+        lines.iter().filter_map(|line| Some((normal(line)?, normal(line)?.dot(&(line[0] - x))))).collect()
+    };
+    let [split, ending] = [split, ending].map(equations);
+    let Some(&(normal, off)) = split.first() else { return x };
+    let sine = |line: &(Vec2, f64)| normal.perp(&line.0);
+    let across = |lines: &[(Vec2, f64)]| {
+        let most = lines.iter().copied().max_by(|a, b| sine(a).abs().total_cmp(&sine(b).abs()));
+        most.filter(|line| sine(line).abs() > LEAST_SINE)
+    };
+    match across(&split).or_else(|| across(&ending)) {
+        Some(line) => {
+            let (other, beside) = line;
+            x + Vec2::new(off * other.y - beside * normal.y, beside * normal.x - off * other.x) / sine(&line)
+        }
+        None => x + off * normal,
     }
 }
 
@@ -389,6 +406,11 @@ mod tests {
         }
         let over = within(&[[4.0, 0.08, 4.0, -5.0], [0.0, 0.0, 10.0, 0.0], [4.05, 5.0, 4.05, 0.05]]);
         assert_eq!((over.pieces.len(), over.straight[0]), (4, Vec2::new(4.0, 0.0)), "{over:?}");
+        // an end is cut off or drawn out along its own line
+        let slanted = within(&[[0.0, 0.0, 10.0, 0.0], [4.06, 0.06, 7.0, 3.0], [1.94, -0.06, 6.0, 4.0]]);
+        let of = |segment: usize| slanted.pieces.iter().find(|piece| piece.segment == segment).unwrap().ends[0];
+        let off = [(1, 4.0), (2, 2.0)].map(|(segment, x)| (slanted.straight[of(segment)] - Vec2::new(x, 0.0)).norm());
+        assert!(off.iter().all(|off| *off < 1e-12), "{off:?}");
         let crossed = within(&[[0.0, 0.0, 10.0, 0.0], [4.0, -4.0, 4.0, 4.0], [4.05, 0.05, 8.0, 5.0]]);
         let place = crossed.pieces.iter().find(|piece| piece.segment == 2).unwrap().ends[0];
         assert_eq!(crossed.straight[place], Vec2::new(4.0, 0.0));

@@ -67,13 +67,13 @@ pub(super) fn mesh(
     let mut sheet = built(lines, coords, &pieces, head).map_err(located)?;
     sheet.record.redrawing.dropped = dropped;
     sheet.record.redrawing.slits = slits;
-    let close = gap(&points, &arranged, None, tolerance);
+    let close = gap(&straight, &arranged, None, tolerance);
     sheet.record.redrawing.gap = close.map(|ends| Gap {
         ends: named(lines, ends).name(),
         distance: (ends[1] - ends[0]).norm(),
         merged: tolerance,
     });
-    let lengths = arranged.iter().map(|piece| (points[piece.ends[1]] - points[piece.ends[0]]).norm());
+    let lengths = arranged.iter().map(|piece| (straight[piece.ends[1]] - straight[piece.ends[0]]).norm());
     let shortest = lengths.fold(f64::INFINITY, f64::min);
     Ok(Meshed { sheet, vanished, shortest })
 }

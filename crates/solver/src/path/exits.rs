@@ -56,11 +56,15 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         PathState { arc_length: last.arc_length + way, tangent, conjugate, ..point.state.clone() }
     }
 
-    /// Whether a state is on the branch between two states that follow each other on it. One with another number of negative
-    /// eigenvalues than both is not, however near: the parameter may turn within a tiny way, as where faces touch.
+    /// Whether a state is on the branch between two states that follow each other on it. One with another number of
+    /// negative eigenvalues than both is not, however near: the parameter may turn within a tiny way, as where faces
+    /// touch.
     pub fn passes(&mut self, from: &PathState, to: &PathState, state: &PathState) -> Found<bool> {
-        let is_another = |end: &PathState| matches!((end.negative_eigenvalues, state.negative_eigenvalues), (Some(a), Some(b)) if a != b);
-        if is_another(from) && is_another(to) {
+        let counts = [from, to, state].map(|state| state.negative_eigenvalues);
+        if let [Some(first), Some(second), Some(own)] = counts
+            && first != own
+            && second != own
+        {
             return Ok(false);
         }
         let Some((mut guess, off)) = self.beside([from, to], state) else { return Ok(false) };
