@@ -195,8 +195,16 @@ impl Places {
 struct Through {
     /// The ends of those that it splits.
     split: Vec<[usize; 2]>,
-    /// Those that end at it, as they are drawn.
+    /// Those that end at it, as they are drawn, with this end first.
     ending: Vec<[Vec2; 2]>,
+}
+
+impl Through {
+    /// Whether no two segments are drawn to the same end.
+    fn is_beside_all(&self) -> bool {
+        let ends: Vec<Vec2> = self.ending.iter().map(|ends| ends[0]).collect();
+        ends.len() > 1 && ends.iter().enumerate().all(|(k, end)| !ends[..k].contains(end))
+    }
 }
 
 impl Places {
@@ -208,11 +216,12 @@ impl Places {
             let inner = piece.ends.into_iter().filter(|v| !ends.contains(v));
             inner.for_each(|v| through.entry(v).or_default().split.push(ends));
         }
-        for (piece, segment) in drawn.iter().zip(segments) {
-            for v in piece.ends.map(|v| self.first(v)) {
-                through.get_mut(&v).into_iter().for_each(|lines| lines.ending.push(*segment));
+        for (piece, [a, b]) in drawn.iter().zip(segments) {
+            for (v, ends) in piece.ends.into_iter().zip([[*a, *b], [*b, *a]]) {
+                through.entry(self.first(v)).or_default().ending.push(ends);
             }
         }
+        through.retain(|_, lines| !lines.split.is_empty() || lines.is_beside_all());
         for _ in 0..PASSES {
             for (&v, lines) in &through {
                 let split: Vec<_> = lines.split.iter().map(|ends| ends.map(|v| self.points[v])).collect();
@@ -226,7 +235,8 @@ impl Places {
 }
 
 /// Returns where the first of the lines `split` is met, next to `x`, by the one most across it of the others, or else of
-/// `ending`; its point nearest to `x` where they are all nearly parallel.
+/// `ending`; its point nearest to `x` where they are all nearly parallel. Without lines `split` the first of the others is
+/// met.
 fn met(x: Vec2, split: &[[Vec2; 2]], ending: &[[Vec2; 2]]) -> Vec2 {
     // the unit normal of each line, and its distance from `x`
     let equations = |lines: &[[Vec2; 2]]| -> Vec<(Vec2, f64)> {
@@ -234,10 +244,10 @@ fn met(x: Vec2, split: &[[Vec2; 2]], ending: &[[Vec2; 2]]) -> Vec2 {
         lines.iter().filter_map(|line| Some((normal(line)?, normal(line)?.dot(&(line[0] - x))))).collect()
     };
     let [split, ending] = [split, ending].map(equations);
-    let Some(&(normal, off)) = split.first() else { return x };
+    let Some(&(normal, off)) = split.first().or(ending.first()) else { return x };
     let sine = |line: &(Vec2, f64)| normal.perp(&line.0);
     let across = |lines: &[(Vec2, f64)]| {
-        let most = lines.iter().copied().max_by(|a, b| sine(a).abs().total_cmp(&sine(b).abs()));
+        let most = lines.iter().rev().copied().max_by(|a, b| sine(a).abs().total_cmp(&sine(b).abs()));
         most.filter(|line| sine(line).abs() > LEAST_SINE)
     };
     match across(&split).or_else(|| across(&ending)) {
@@ -406,6 +416,13 @@ mod tests {
         }
         let over = within(&[[4.0, 0.08, 4.0, -5.0], [0.0, 0.0, 10.0, 0.0], [4.05, 5.0, 4.05, 0.05]]);
         assert_eq!((over.pieces.len(), over.straight[0]), (4, Vec2::new(4.0, 0.0)), "{over:?}");
+        // corners that both lines pass are where they meet
+        let frame =
+            [[-0.06, 0.0, 10.05, 0.0], [10.0, -0.05, 10.0, 6.07], [10.04, 6.0, -0.08, 6.0], [0.0, 6.05, 0.0, -0.05]];
+        let frame = within(&frame);
+        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 6.0], [0.0, 6.0]].map(|[x, y]| Vec2::new(x, y));
+        let is_corner = |v: usize| corners.iter().any(|corner| (frame.straight[v] - corner).norm() < 1e-12);
+        assert!(frame.pieces.len() == 4 && frame.pieces.iter().all(|piece| is_corner(piece.ends[0])), "{frame:?}");
         // an end is cut off or drawn out along its own line
         let slanted = within(&[[0.0, 0.0, 10.0, 0.0], [4.06, 0.06, 7.0, 3.0], [1.94, -0.06, 6.0, 4.0]]);
         let of = |segment: usize| slanted.pieces.iter().find(|piece| piece.segment == segment).unwrap().ends[0];

@@ -2,9 +2,11 @@
 //!
 //! Without a distance of its own a drawing is read with a small one. Where the lines are no crease pattern with it, or
 //! where points are left that are close to each other, larger ones are tried step by step. One of them is taken if its
-//! mesh leaves no doubt: all points that are left are far apart in comparison to it, and no line vanished but those
-//! far shorter than all that is left. So good drawings keep their details, and careless ones are read. Where no larger
-//! one helps either, points may be nearer to each other than the first: smaller ones are tried then.
+//! mesh leaves no doubt: all points that are left are far apart in comparison to it, no line vanished but those far
+//! shorter than all that is left, and none came to lie on another that was drawn beside it. So good drawings keep their
+//! details, and careless ones are read. Where there is doubt about points alone, the first one that makes a pattern is
+//! taken, and they are named. Where no larger one helps either, points may be nearer to each other than the first: smaller
+//! ones are tried then.
 
 use super::line::Line;
 use super::mesh::{Meshed, Misdrawn, mesh};
@@ -36,6 +38,9 @@ const COARSEST: f64 = 0.1;
 
 /// Pairs of lines that are compared before no further distance is tried: about two seconds.
 const MOST_COMPARED: usize = 30_000_000;
+
+/// Distance between lines that may be one drawn twice, over the first distance.
+const DRAWN_TWICE: f64 = 10.0;
 
 /// Length of the lines that may vanish where points are merged within more than the first distance, in lengths of the
 /// shortest edge that is left.
@@ -71,14 +76,20 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
     let coarser = iter::successors(Some(first * STEP), |distance| Some(distance * STEP));
     let coarser = coarser.take_while(|distance| *distance <= COARSEST_TRIED * extent);
     let finer = FINER.map(|part| part * first).into_iter().filter(|_| found.is_err());
-    let mut cure = None;
+    let (mut cure, mut doubtful) = (None, None);
     for distance in coarser.chain(finer) {
         if cure.is_some() || compared > MOST_COMPARED {
             break;
         }
-        let meshed = mesh(lines, distance, cleanup.split, head, &mut compared).ok().filter(is_clear);
-        cure = meshed.map(|meshed| (distance, meshed.sheet));
+        let meshed = mesh(lines, distance, cleanup.split, head, &mut compared).ok();
+        let Some(meshed) = meshed.filter(|meshed| keeps_lines(meshed, first)) else { continue };
+        if meshed.sheet.record.redrawing.gap.is_none() {
+            cure = Some((distance, meshed.sheet));
+        } else if found.is_err() && doubtful.is_none() {
+            doubtful = Some((distance, meshed.sheet));
+        }
     }
+    let cure = cure.or(doubtful);
     match (found, cure) {
         (_, Some((distance, mut sheet))) if cleanup.merge.is_none() => {
             sheet.record.redrawing.merged = Some([distance, first]);
@@ -89,9 +100,9 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
     }
 }
 
-/// Whether a mesh leaves no doubt that points within the distance of merging were meant as one.
-fn is_clear(meshed: &Meshed) -> bool {
-    meshed.sheet.record.redrawing.gap.is_none() && meshed.vanished <= SCRAP * meshed.shortest
+/// Whether a mesh leaves no doubt that the lines that have vanished in points, or in other lines, were meant to.
+fn keeps_lines(meshed: &Meshed, first: f64) -> bool {
+    meshed.vanished <= SCRAP * meshed.shortest && meshed.doubled <= DRAWN_TWICE * first
 }
 
 /// Returns a problem with the distance of merging that makes a crease pattern of the lines, if it names a gap.

@@ -32,6 +32,8 @@ pub(super) struct Meshed {
     pub sheet: Sheet,
     /// Length of the longest line that is shorter than the distance of merging and has become a point.
     pub vanished: f64,
+    /// Largest distance between lines as they are drawn of which one has come to lie on the other.
+    pub doubled: f64,
     /// Length of the shortest edge.
     pub shortest: f64,
 }
@@ -48,12 +50,12 @@ pub(super) fn mesh(
     let ends: Vec<[Vec2; 2]> = lines.iter().map(|line| line.ends).collect();
     let arranged = arrange(&ends, tolerance, split, compared).map_err(|disorder| untidy(lines, disorder, tolerance))?;
     let Arrangement { mut points, mut straight, pieces } = arranged;
-    let vanished = vanished(lines, &pieces);
-    let doubled = |(piece, fault): (Piece, Box<PatternFault>)| {
+    let (vanished, doubled) = (vanished(lines, &pieces), doubled(lines, &points, &pieces));
+    let conflicting = |(piece, fault): (Piece, Box<PatternFault>)| {
         let fault = gap(&points, &pieces, Some(piece), tolerance).map_or(*fault, |ends| apart(lines, ends, tolerance));
         (Some(piece.segment), fault.into())
     };
-    let single = without_doubles(lines, &pieces).map_err(doubled)?;
+    let single = without_doubles(lines, &pieces).map_err(conflicting)?;
     let (kept, dropped) = without_loose(lines, points.len(), single);
     let (arranged, slits) = with_open_slits(lines, [&mut points, &mut straight], kept);
     let (coords, pieces) = renumbered(&straight, &arranged);
@@ -75,7 +77,7 @@ pub(super) fn mesh(
     });
     let lengths = arranged.iter().map(|piece| (straight[piece.ends[1]] - straight[piece.ends[0]]).norm());
     let shortest = lengths.fold(f64::INFINITY, f64::min);
-    Ok(Meshed { sheet, vanished, shortest })
+    Ok(Meshed { sheet, vanished, doubled, shortest })
 }
 
 fn untidy(lines: &[Line], disorder: Disorder, tolerance: f64) -> Misdrawn {
@@ -130,6 +132,25 @@ fn vanished(lines: &[Line], pieces: &[Piece]) -> f64 {
     pieces.iter().for_each(|piece| is_drawn[piece.segment] = true);
     let lost = lines.iter().zip(is_drawn).filter(|(line, is_drawn)| !is_drawn && !line.auxiliary);
     lost.map(|(line, _)| (line.ends[1] - line.ends[0]).norm()).fold(0.0, f64::max)
+}
+
+/// Returns the largest distance between lines, as they are drawn, of which pieces lie on each other; auxiliary ones are
+/// left out.
+fn doubled(lines: &[Line], points: &[Vec2], pieces: &[Piece]) -> f64 {
+    let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    let apart = |piece: &Piece| {
+        let first = *known.entry(sorted(piece.ends)).or_insert(piece.segment);
+        let [a, b] = piece.ends.map(|v| points[v]);
+        let beside = [first, piece.segment].map(|k| foot(lines[k].ends, (a + b) / 2.0));
+        (beside[1] - beside[0]).norm()
+    };
+    pieces.iter().filter(|piece| !lines[piece.segment].auxiliary).map(apart).fold(0.0, f64::max)
+}
+
+/// Returns the point of a line that is nearest to `x`.
+fn foot([a, b]: [Vec2; 2], x: Vec2) -> Vec2 {
+    let along = b - a;
+    a + along * ((x - a).dot(&along) / along.norm_squared())
 }
 
 /// Returns the nearest two of the points of `pieces`, one of them an end of the piece `at` if one is given, if they are

@@ -47,6 +47,26 @@ fn pyramid(sides: usize, turn: f64, loaded: bool) -> Assembly {
     builder.build().unwrap()
 }
 
+/// Claim: a double branch point behind a simple one is in the same place for all lengths of steps: with long ones, states
+/// beside it are found from nearer ones alone. Source: two eigenvalues of the Hessian that vanish there, -1.809088 to its
+/// digits. Tolerance: 1e-6.
+#[test]
+fn double_points_stay_where_they_are() {
+    let corner = |k: usize| [(TAU * k as f64 / 6.0).cos(), (TAU * k as f64 / 6.0).sin(), 0.0];
+    let vertices: Vec<[f64; 3]> = [[0.0, 0.0, 0.5]].into_iter().chain((0..6).map(corner)).collect();
+    let faces: Vec<Vec<usize>> = (0..6).map(|k| vec![0, 1 + k, 1 + (k + 1) % 6]).collect();
+    let builder = Assembly::patch(sheet(&vertices, &faces), [1, 1]).bars(1.0).creases(1e-3);
+    let builder = (1..7).fold(builder, |builder, vertex| builder.pin(vertex, [0, 0], [vertex <= 2, vertex == 1, true]));
+    let drive = Drive { quantity: Driven::Vertices { vertices: vec![0], direction: Vec3::z() }, to: -2.5 };
+    for max_step in [0.05, 0.15, 0.2] {
+        let options = PathOptions { max_step, ..PathOptions::default() };
+        let branch = followed(&builder.clone().build().unwrap(), &drive, &options).remove(0);
+        let double = branch.points.iter().find(|point| point.branch_point.is_some_and(|known| known.multiplicity == 2));
+        let drive = double.unwrap().drive;
+        assert!((drive + 1.809088).abs() < 1e-6, "{max_step}: {drive}");
+    }
+}
+
 fn apex(point: &PathPoint) -> Vec3 {
     let all = &point.state.coordinates;
     Vec3::from_column_slice(&all[all.len() - 3..])

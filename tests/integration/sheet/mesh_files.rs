@@ -4,7 +4,7 @@
 use crate::common::{Folder, Numbers, Scene, case_folder, mesh_folder};
 use foldwell::math::Vec3;
 use foldwell::sheet::pattern::{self, Cleanup, Format};
-use foldwell::sheet::{Assignment, Info, Sheet};
+use foldwell::sheet::{Assignment, EdgeKind, Info, Sheet};
 use std::fmt::Write;
 use std::fs;
 use std::process::Command;
@@ -68,6 +68,30 @@ fn careless_drawings_are_read_or_refused() {
         println!("{error}: {right} of 20 are right");
         assert!(error > 0.5 || right == 20, "{error}: {right}");
     }
+}
+
+/// Claim: creases side by side that end a little short, and sheets side by side, stay apart, their close vertices are named,
+/// and corners that both sides pass are where these meet. Source: as drawn; a distance of merging that bridges the gap of
+/// 1 is below the distance of the lines.
+#[test]
+fn lines_side_by_side_stay_two() {
+    let square = |x: f64| format!("1 {x} 0 {0} 0\n1 {0} 0 {0} 60\n1 {0} 60 {x} 60\n1 {x} 60 {x} 0\n", x + 100.0);
+    for (letter, strip) in [(2, 1.5), (2, 2.5), (3, 2.0), (3, 3.5)] {
+        let sheet = read(&format!("{}2 1 30 99 30\n{letter} 1 {1} 99 {1}\n", square(0.0), 30.0 + strip)).unwrap();
+        let creases = sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease).count();
+        assert_eq!((creases, sheet.vertices.len(), sheet.polygons.len()), (2, 8, 3), "{letter}, {strip}");
+        let gap = sheet.record.redrawing.gap.unwrap();
+        assert!((gap.distance - strip).abs() < 1e-12, "{gap:?}");
+    }
+    let two = read(&format!("{}{}2 50 1 50 59\n3 153 1 153 59\n", square(0.0), square(103.0))).unwrap();
+    let right = two.vertices.iter().map(|vertex| vertex.x).fold(0.0, f64::max);
+    assert_eq!((two.vertices.len(), two.polygons.len(), right), (12, 4, 203.0));
+    let over = read("1 -1 0 101 0\n1 100 -1 100 61\n1 101 60 -1 60\n1 0 61 0 -1\n2 0 0 100 60\n").unwrap();
+    let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, -60.0], [0.0, -60.0]];
+    assert!(
+        over.vertices.len() == 4
+            && corners.iter().zip(&over.vertices).all(|(c, v)| (c[0] - v.x).hypot(c[1] - v.y) < 1e-12)
+    );
 }
 
 /// Claim: three creases that miss one point of the square by 1.1 distances of merging end in one vertex there, as do

@@ -271,11 +271,18 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         [mut low, mut high]: [f64; 2],
         holds: &mut dyn FnMut(&PathState) -> bool,
     ) -> Found<Option<(f64, PathState)>> {
-        let mut best = None;
+        let (mut best, mut around) = (None, [None, None]);
         while high - low > LOCATED_PART {
             let middle = 0.5 * (low + high);
-            let Some(state) = self.between(from, to, middle)? else { break };
-            if holds(&state) {
+            let Some(state) = self.between(from, to, middle)? else {
+                // next to a double branch point only states nearer to it lead there
+                let [Some(from), Some(to)] = &around else { break };
+                let nearer = self.bisect([from, to], [0.0, 1.0], holds)?;
+                return Ok(nearer.map(|(part, state)| (low + part * (high - low), state)).or(best));
+            };
+            let is_beyond = holds(&state);
+            around[usize::from(is_beyond)] = Some(state.clone());
+            if is_beyond {
                 high = middle;
                 best = Some((middle, state));
             } else {
