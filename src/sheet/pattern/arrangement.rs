@@ -7,13 +7,15 @@
 //! split at the clusters that lie on them, within the tolerance, and where two of them cross, which exact determinants
 //! decide; a point on a segment and near its end is that end. A split moves a segment by up to the tolerance, so that
 //! this is repeated until nothing is left to split. Every repetition makes pieces shorter or points fewer: a part of a
-//! piece is longer than the tolerance and shorter than the piece.
+//! piece is longer than the tolerance and shorter than the piece. At last points go [back](super::straight) onto the
+//! segments that they split.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::ops::ControlFlow;
 
 use robust::{Coord, orient2d};
 
+use super::straight::straighten;
 use crate::math::Vec2;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
 use crate::sheet::pieces::find;
@@ -34,16 +36,6 @@ const WIDEST: f64 = 4.0;
 /// Distance in tolerances up to which points are not told apart: without it every line of a bundle through one point would
 /// have a point of its own there, beside those of all others.
 const SAME_POINT: f64 = 1.0 / 16.0;
-
-/// Passes in which points go back onto segments, whose ends go onto others.
-const PASSES: usize = 4;
-
-/// Least distance in tolerances by which a point goes back: points that are off by rounding stay.
-const LEAST_MOVE: f64 = 1e-9;
-
-/// Least sine of the angle between two lines with which a point goes to where they meet: at smaller ones, below 14
-/// degrees, that is far.
-const LEAST_SINE: f64 = 0.25;
 
 /// Most points of an arrangement; ten thousand lines that all cross have a hundred times as many.
 const MOST_POINTS: usize = 500_000;
@@ -103,8 +95,10 @@ pub(crate) fn arrange(
             }
         }
         let mut moved = places.clone();
-        moved.straighten(segments, &drawn, &pieces);
-        straight = split_once(&mut moved, &pieces, compared)?.is_none().then_some(moved.points);
+        let ends: Vec<Piece> = drawn.iter().map(|piece| places.at_first(piece)).collect();
+        straighten(&mut moved.points, (segments, &ends), &pieces, tolerance);
+        // where that parts pieces anew, points stay as they are drawn
+        straight = matches!(split_once(&mut moved, &pieces, compared), Ok(None)).then_some(moved.points);
     }
     for piece in &drawn {
         for (end, v) in segments[piece.segment].iter().zip(piece.ends) {
@@ -169,6 +163,11 @@ impl Places {
         find(&mut self.merged, v)
     }
 
+    /// A piece between the points that its ends are one with.
+    fn at_first(&mut self, piece: &Piece) -> Piece {
+        Piece { ends: piece.ends.map(|v| self.first(v)), ..*piece }
+    }
+
     fn position(&mut self, v: usize) -> Vec2 {
         let first = self.first(v);
         self.points[first]
@@ -185,77 +184,8 @@ impl Places {
     /// Returns the pieces between merged points: without those of no length, and each piece of a segment once.
     fn distinct(&mut self, pieces: Vec<Piece>) -> Vec<Piece> {
         let mut known = HashSet::new();
-        let pieces = pieces.into_iter().map(|piece| Piece { ends: piece.ends.map(|v| self.first(v)), ..piece });
+        let pieces = pieces.into_iter().map(|piece| self.at_first(&piece));
         pieces.filter(|p| p.ends[0] != p.ends[1] && known.insert((p.segment, sorted(p.ends)))).collect()
-    }
-}
-
-/// The segments through a point that splits some of them.
-#[derive(Default)]
-struct Through {
-    /// The ends of those that it splits.
-    split: Vec<[usize; 2]>,
-    /// Those that end at it, as they are drawn, with this end first.
-    ending: Vec<[Vec2; 2]>,
-}
-
-impl Through {
-    /// Whether no two segments are drawn to the same end.
-    fn is_beside_all(&self) -> bool {
-        let ends: Vec<Vec2> = self.ending.iter().map(|ends| ends[0]).collect();
-        ends.len() > 1 && ends.iter().enumerate().all(|(k, end)| !ends[..k].contains(end))
-    }
-}
-
-impl Places {
-    /// Moves the points that split segments onto these, and there to where segments that end at them meet them.
-    fn straighten(&mut self, segments: &[[Vec2; 2]], drawn: &[Piece], pieces: &[Piece]) {
-        let mut through: BTreeMap<usize, Through> = BTreeMap::new();
-        for piece in pieces {
-            let ends = drawn[piece.segment].ends.map(|v| self.first(v));
-            let inner = piece.ends.into_iter().filter(|v| !ends.contains(v));
-            inner.for_each(|v| through.entry(v).or_default().split.push(ends));
-        }
-        for (piece, [a, b]) in drawn.iter().zip(segments) {
-            for (v, ends) in piece.ends.into_iter().zip([[*a, *b], [*b, *a]]) {
-                through.entry(self.first(v)).or_default().ending.push(ends);
-            }
-        }
-        through.retain(|_, lines| !lines.split.is_empty() || lines.is_beside_all());
-        for _ in 0..PASSES {
-            for (&v, lines) in &through {
-                let split: Vec<_> = lines.split.iter().map(|ends| ends.map(|v| self.points[v])).collect();
-                let moved = met(self.points[v], &split, &lines.ending);
-                if (moved - self.points[v]).norm() > LEAST_MOVE * self.tolerance {
-                    self.points[v] = moved;
-                }
-            }
-        }
-    }
-}
-
-/// Returns where the first of the lines `split` is met, next to `x`, by the one most across it of the others, or else of
-/// `ending`; its point nearest to `x` where they are all nearly parallel. Without lines `split` the first of the others is
-/// met.
-fn met(x: Vec2, split: &[[Vec2; 2]], ending: &[[Vec2; 2]]) -> Vec2 {
-    // the unit normal of each line, and its distance from `x`
-    let equations = |lines: &[[Vec2; 2]]| -> Vec<(Vec2, f64)> {
-        let normal = |[a, b]: &[Vec2; 2]| Vec2::new(a.y - b.y, b.x - a.x).try_normalize(0.0);
-        lines.iter().filter_map(|line| Some((normal(line)?, normal(line)?.dot(&(line[0] - x))))).collect()
-    };
-    let [split, ending] = [split, ending].map(equations);
-    let Some(&(normal, off)) = split.first().or(ending.first()) else { return x };
-    let sine = |line: &(Vec2, f64)| normal.perp(&line.0);
-    let across = |lines: &[(Vec2, f64)]| {
-        let most = lines.iter().rev().copied().max_by(|a, b| sine(a).abs().total_cmp(&sine(b).abs()));
-        most.filter(|line| sine(line).abs() > LEAST_SINE)
-    };
-    match across(&split).or_else(|| across(&ending)) {
-        Some(line) => {
-            let (other, beside) = line;
-            x + Vec2::new(off * other.y - beside * normal.y, beside * normal.x - off * other.x) / sine(&line)
-        }
-        None => x + off * normal,
     }
 }
 

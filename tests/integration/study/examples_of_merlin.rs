@@ -11,13 +11,15 @@ const PANELS: usize = 10;
 /// Numbers of the vertices of one column of vertices, from 1 as in MERLIN.
 const COLUMN: usize = PANELS + 1;
 
+/// Stiffness of creases per length.
+const CREASES: f64 = 0.1;
+
 /// A sheet, by where its vertices stand: that of a number along x and one along y.
 struct Example {
     place: Box<dyn Fn(usize, usize) -> [f64; 3]>,
-    /// `EA` of bars, stiffness of creases and of diagonals per length, and the fold angle in degrees from which creases
+    /// `EA` of bars, the stiffness of diagonals per length, and the fold angle in degrees from which creases and diagonals
     /// stiffen.
     bars: f64,
-    creases: f64,
     facets: f64,
     stiffens: f64,
     /// The axes along which vertices are held, and that along which others are loaded, by their numbers in MERLIN.
@@ -58,7 +60,7 @@ impl Example {
 
     /// The sheet with linear laws, or with those of the example: Ogden bars, and creases and diagonals that stiffen.
     fn built(&self, own: bool) -> Builder {
-        let builder = Assembly::patch(self.sheet(), [1, 1]).bars(self.bars).creases(self.creases).facets(self.facets);
+        let builder = Assembly::patch(self.sheet(), [1, 1]).bars(self.bars).creases(CREASES).facets(self.facets);
         let (loaded, axis) = &self.loaded;
         let force: [f64; 3] = std::array::from_fn(|k| if k == *axis { -1.0 } else { 0.0 });
         let held = self.held.iter().fold(builder, |builder, (vertex, axes)| {
@@ -93,7 +95,6 @@ fn bending_miura() -> Example {
     Example {
         place: miura(54.7356),
         bars: 1e3,
-        creases: 0.1,
         facets: 1.0,
         stiffens: 179.9,
         held: vec![(56, "x"), (57, "xyz"), (65, "xz")],
@@ -106,7 +107,6 @@ fn bending_eggbox() -> Example {
     Example {
         place: eggbox(2.0),
         bars: 1e3,
-        creases: 0.1,
         facets: 2.0,
         stiffens: 157.5,
         held: vec![(27, "xyz"), (29, "xz"), (93, "yz"), (95, "z")],
@@ -121,7 +121,6 @@ fn folding_eggbox() -> Example {
     Example {
         place: eggbox(1.0),
         bars: 1e5,
-        creases: 0.1,
         facets: 1e3,
         stiffens: 179.9,
         held: first.chain(odd(1).map(|vertex| (vertex, "z"))).chain([(6, "y"), (last + 6, "yz")]).collect(),
@@ -136,7 +135,6 @@ fn folding_miura() -> Example {
     Example {
         place: miura(15.0),
         bars: 1e5,
-        creases: 0.1,
         facets: 1e4,
         stiffens: 179.9,
         held: first.chain(odd(1).chain(odd(last + 1)).map(|vertex| (vertex, "z"))).chain([(1, "y")]).collect(),
@@ -152,7 +150,6 @@ fn bistable_miura() -> Example {
     Example {
         place: miura(30.0),
         bars: 1e3,
-        creases: 0.1,
         facets: 1.0,
         stiffens: 135.0,
         held: left.chain(right).chain([(1, "xyz"), (last + 1, "yz")]).collect(),
@@ -161,8 +158,8 @@ fn bistable_miura() -> Example {
 }
 
 /// Claim: with linear laws and with the examples' own the loads of MERLIN's last states displace the sheets as they do
-/// there. Source: MERLIN run under GNU Octave, with the digits that are given: 12 of the states with the own laws, which are
-/// equilibria here to 1e-11.
+/// there. Source: with linear laws MERLIN under GNU Octave, with the digits that are given; with its own laws its formulas of
+/// forces, laws and path, typed anew and run there, whose states are equilibria here to 1e-11.
 #[test]
 fn sheets_are_bent_and_folded() {
     let [miura, eggbox, small, bistable] = [bending_miura(), bending_eggbox(), folding_eggbox(), bistable_miura()];
@@ -195,7 +192,8 @@ fn a_sheet_pops_through() {
 
 /// Claim: a Miura-ori that is folded nearly flat has MERLIN's last state, which it passes beyond two limit loads, and goes
 /// on where creases touch: there the load turns within a ten-millionth of the way, and the path does not go back over its
-/// own states. Source: MERLIN run under GNU Octave. Tolerance: 1e-9, as steep as the load is there.
+/// own states. Source: MERLIN's formulas under GNU Octave, and 164.94206 of MERLIN itself. Tolerance: 1e-9, as steep as the
+/// load is there.
 #[test]
 fn a_sheet_is_folded_flat() {
     let load = 0.738842051112;
