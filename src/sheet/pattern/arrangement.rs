@@ -15,6 +15,7 @@ use std::ops::ControlFlow;
 
 use robust::{Coord, orient2d};
 
+use super::piece::Piece;
 use super::straight::straighten;
 use crate::math::Vec2;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
@@ -48,15 +49,6 @@ pub(crate) enum Disorder {
     Tangled(usize),
     /// The lines meet at more points than this number, which is the limit.
     TooMany(usize),
-}
-
-/// A piece of a segment between two points of an arrangement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Piece {
-    /// Numbers of the two points, in the direction of the segment.
-    pub ends: [usize; 2],
-    /// Number of the segment.
-    pub segment: usize,
 }
 
 /// Points and pieces of segments; pieces are in the order of their segments. Those of segments that lie on each other

@@ -1,7 +1,7 @@
 //! Auxiliary lines that bound no face.
 
-use super::arrangement::Piece;
 use super::line::Line;
+use super::piece::Piece;
 
 /// Returns the pieces between `points` points without auxiliary ones that end where nothing else is, or that no line
 /// joins to a crease or the rim; and the number of lines of which a piece is left out.

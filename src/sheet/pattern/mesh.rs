@@ -4,9 +4,10 @@ use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
-use super::arrangement::{Arrangement, Disorder, Piece, arrange};
+use super::arrangement::{Arrangement, Disorder, arrange};
 use super::auxiliary::without_loose;
 use super::line::Line;
+use super::piece::Piece;
 use crate::math::{Vec2, Vec3};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::boxes::{around, for_pairs_that_meet};

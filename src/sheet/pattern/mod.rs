@@ -49,6 +49,7 @@ mod mesh;
 mod opx;
 mod ori;
 mod outline;
+mod piece;
 mod straight;
 mod svg;
 mod svg_shape;

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::arrangement::Piece;
+use super::piece::Piece;
 use crate::math::Vec2;
 
 /// Passes in which points go back onto segments, whose ends go onto others.

@@ -105,10 +105,16 @@ impl<C: Implicit> Follower<'_, C> {
         self.dense.fit(&known);
         let last = self.points[self.points.len() - 1].clone();
         while length > LEAST_STEP {
-            match self.corrected(last.arc_length + length, LARGEST_DISTANCE.min(0.2 * length)) {
-                Some((point, distance)) if dot(&point.tangent, &last.tangent) >= LEAST_TANGENT_COSINE => {
+            let mut point = last.clone();
+            self.dense.at(last.arc_length + length, &mut point.x, &mut point.tangent);
+            normalize(&mut point.tangent);
+            let found = self.corrector.correct(self.curve, &mut point.x, &mut point.tangent, self.tolerance);
+            let turn = dot(&point.tangent, &last.tangent);
+            match found {
+                Some(found) if turn >= LEAST_TANGENT_COSINE && found.distance <= LARGEST_DISTANCE.min(0.2 * length) => {
+                    (point.residual, point.corrections) = (found.residual, found.corrections);
                     self.push(point, length);
-                    let factor = 0.9 * (WANTED_DISTANCE / distance.max(1e-16)).powf(1.0 / order as f64);
+                    let factor = 0.9 * (WANTED_DISTANCE / found.distance.max(1e-16)).powf(1.0 / order as f64);
                     return Some(length * factor.clamp(0.3, 2.0));
                 }
                 _ => length *= 0.4,
@@ -215,31 +221,23 @@ impl<C: Implicit> Follower<'_, C> {
     }
 
     /// A point of the curve near the last step.
-    fn point_at(&mut self, arc_length: f64) -> Option<Point> {
-        self.corrected(arc_length, LARGEST_DISTANCE).map(|(point, _)| point)
-    }
-
-    /// A point of the curve near the last step, with its distance from the interpolant, up to `farthest`.
     ///
-    /// Next to a point where branches cross no correction converges, or it goes to another branch, and on a curve that is
-    /// a multiple one as a whole none means anything: there the interpolant itself is taken where it is as good as a
-    /// corrected point.
-    fn corrected(&mut self, arc_length: f64, farthest: f64) -> Option<(Point, f64)> {
+    /// Next to a point where branches cross no correction converges, or it goes to another branch: there the
+    /// interpolant itself is taken where it is as good as a corrected point.
+    fn point_at(&mut self, arc_length: f64) -> Option<Point> {
         let mut point = self.points[self.points.len() - 1].clone();
         point.arc_length = arc_length;
         self.dense.at(arc_length, &mut point.x, &mut point.tangent);
         normalize(&mut point.tangent);
         let predicted = point.clone();
         match self.corrector.correct(self.curve, &mut point.x, &mut point.tangent, self.tolerance) {
-            Some(found)
-                if found.distance <= farthest && dot(&point.tangent, &predicted.tangent) >= LEAST_TANGENT_COSINE =>
-            {
+            Some(found) if found.distance <= LARGEST_DISTANCE => {
                 (point.residual, point.corrections) = (found.residual, found.corrections);
-                Some((point, found.distance))
+                Some(point)
             }
             _ => {
                 let residual = self.corrector.residual(self.curve, &predicted.x);
-                (residual <= self.tolerance).then_some((Point { residual, corrections: 0, ..predicted }, 0.0))
+                (residual <= self.tolerance).then_some(Point { residual, corrections: 0, ..predicted })
             }
         }
     }
