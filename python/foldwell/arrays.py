@@ -4,12 +4,30 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
-from typing import Any
+from itertools import islice
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__: list[str] = []
+
+#: Most entries of a list: an iterator without end has more.
+MOST_ENTRIES = 10_000_000
+
+Entry = TypeVar("Entry")
+
+
+def entries(values: Iterable[Entry], name: str) -> list[Entry]:
+    """Returns the entries of a list or iterator as a list.
+
+    Raises:
+        ValueError: there are more than ten million, or there is no end of them.
+    """
+    found = list(islice(values, MOST_ENTRIES + 1))
+    if len(found) > MOST_ENTRIES:
+        raise ValueError(f"{name} has more than {MOST_ENTRIES} entries")
+    return found
 
 
 def vector(values: ArrayLike, name: str, length: int | tuple[int, ...]) -> NDArray[np.float64]:
@@ -86,9 +104,9 @@ def polygons(lists: Iterable[Iterable[int]], name: str = "faces", form: str = "v
     if not isinstance(lists, Iterable):
         raise TypeError(f"{name} is {lists!r}, expected lists of {form}")
     found = []
-    for number, each in enumerate(lists):
+    for number, each in enumerate(entries(lists, name)):
         try:
-            found.append([operator.index(entry) for entry in each])
+            found.append([operator.index(entry) for entry in entries(each, f"{name}[{number}]")])
         except TypeError as error:
             raise ValueError(f"{name}[{number}] is {each!r}, expected a list of {form}") from error
     return found

@@ -493,6 +493,8 @@ def _built(domain: str, cls: type[Assembly], sheet: Sheet, **given: Any) -> Asse
     for name in ("laws", "yields"):
         if not isinstance(given.get(name, {}), Mapping):
             raise TypeError(f"{name} is {given[name]!r}, expected a dict by terms such as {{\"creases\": {{..}}}}")
+        if (other := next((term for term in given.get(name, {}) if term not in ("bars", "creases", "facets")), None)) is not None:
+            raise TypeError(f"{name}[{other!r}] is of no term, expected bars, creases or facets")
     energy: dict[str, Any] = {term: {"stiffness": given[term]} for term in ("bars", "creases", "facets") if term in given}
     if isinstance(given.get("facets"), str) and given["facets"] != "mesh":
         energy["facets"] = {"model": given["facets"]}

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import integers, matrix, of_edges, polygons, whole
+from .arrays import entries, integers, matrix, of_edges, polygons, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -121,7 +121,7 @@ class Sheet:
         points = matrix(vertices, "vertices", (2, 3))
         vectors = None if lattice is None else matrix(lattice, "lattice", (2, 3), rows=2)
         ends = [] if edges is None else integers(edges, "edges", "two vertex numbers for each edge").tolist()
-        words = [] if letters is None else [str(letter) for letter in letters]
+        words = [] if letters is None else [str(letter) for letter in entries(letters, "letters")]
         given = [] if fold_angles is None else np.atleast_1d(np.asarray(fold_angles, dtype=object)).tolist()
         angles = of_edges([np.nan if angle is None else angle for angle in given], "fold_angles").tolist()
         for name, values in (("letters", words), ("fold_angles", angles)):

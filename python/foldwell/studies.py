@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike, NDArray
 
 from . import _foldwell
-from .arrays import integers, whole
+from .arrays import entries, integers, whole
 from .assembly import Assembly
 from .errors import DidNotConverge
 from .progress import Progress, listener
@@ -439,7 +439,8 @@ def compute(
     for words, given in (("draw", draw), ("check", check)):
         if isinstance(given, str):
             raise TypeError(f"{words} is {given!r}, expected a list such as [{given!r}]")
-    study = {"name": name or kind, "kind": kind, "draw": list(draw), "check": list(check), **keys}
+    draw, check = entries(draw, "draw"), entries(check, "check")
+    study = {"name": name or kind, "kind": kind, "draw": draw, "check": check, **keys}
     earlier: list[tuple[str, _foldwell.Answer]] = []
     if isinstance(start, Result):
         study["start"] = f"{start.name}-start" if start.name == study["name"] else start.name

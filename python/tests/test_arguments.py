@@ -250,3 +250,15 @@ def test_values_without_end_are_refused():
     for value in (10**30, "\ud800"):
         with pytest.raises(fw.SceneError, match="^title: "):
             fw.run({**scene(), "title": value})
+    assembly = fw.Assembly.patch(fw.generate("miura"), bars=1e3, creases=1.0)
+    endless = {
+        "faces": lambda: fw.Sheet.from_arrays(np.eye(3), itertools.repeat((0, 1, 2))),
+        r"faces\[0\]": lambda: fw.Sheet.from_arrays(np.eye(3), [itertools.count()]),
+        "letters": lambda: fw.Sheet.from_arrays(np.eye(3), [(0, 1, 2)], letters=itertools.repeat("M")),
+        "draw": lambda: fw.relax(assembly, draw=itertools.repeat("vtk")),
+    }
+    for name, call in endless.items():
+        with pytest.raises(ValueError, match=f"{name} has more than 10000000 entries"):
+            call()
+    with pytest.raises(TypeError, match="is of no term, expected bars, creases or facets"):
+        fw.Assembly.patch(fw.generate("miura"), bars=1e3, laws={"crease": {"kind": "linear"}})

@@ -18,6 +18,32 @@ def poles(points):
     return STRENGTH * near, [force, -force], np.block([[block, -block], [-block, block]])
 
 
+def dipoles(points):
+    """Two magnets, each with a pole at either end: the first two points, and the others."""
+    energy, gradient, hessian = 0.0, np.zeros((4, 3)), np.zeros((4, 3, 4, 3))
+    for a, b, sign in [(0, 2, 1), (1, 3, 1), (0, 3, -1), (1, 2, -1)]:
+        of, [force, _], block = poles(points[[a, b]])
+        energy += sign * of
+        gradient[a] += sign * force
+        gradient[b] -= sign * force
+        block = block.reshape(2, 3, 2, 3)
+        for i, j in [(0, 0), (0, 1), (1, 0), (1, 1)]:
+            hessian[(a, b)[i], :, (a, b)[j]] += sign * block[i, :, j]
+    return energy, gradient, hessian.reshape(12, 12)
+
+
+def test_dipoles_are_a_term(soft):
+    """Far apart they have the energy `(m n - 3 (m e) (n e)) / r^3` of two dipoles, and a sheet with two of them relaxes."""
+    m, n, along = 1e-3 * np.array([[0.3, -0.5, 0.8], [0.6, 0.7, -0.2], [1000.0, 2000.0, -500.0]])
+    r = np.linalg.norm(along)
+    expected = STRENGTH * (m @ n - 3.0 * (m @ along) * (n @ along) / r**2) / r**3
+    assert dipoles(np.array([m / 2, -m / 2, along + n / 2, along - n / 2]))[0] == pytest.approx(expected, rel=1e-5)
+    magnets = soft.with_term("magnets", [[0, 1, 12, 13]], dipoles)
+    found = fw.relax(magnets)
+    own = dipoles(found.state.positions[[0, 1, 12, 13]])[0]
+    assert found.converged and found.summary["energy"]["magnets"] == pytest.approx(own, rel=1e-12)
+
+
 @pytest.fixture
 def magnets(soft):
     """Poles on two pairs of vertices of nine cells."""

@@ -17,6 +17,8 @@ pub enum AssemblyError {
     NoCells,
     #[error("the stiffness of the {term} is {stiffness}, not a positive number")]
     Stiffness { term: &'static str, stiffness: f64 },
+    #[error("the law of the {term} has no force on one side of rest, where what is rigid would be slack")]
+    RigidSlack { term: &'static str },
     #[error("the mass is {mass}, not a positive number")]
     Mass { mass: f64 },
     #[error("rest angles are those of creases: give these a stiffness")]

@@ -231,8 +231,8 @@ impl Builder {
     ///
     /// # Errors
     /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness, a rest length or the mass is
-    /// not a positive number, rest values are given without a stiffness or weight without mass, the length of a list
-    /// does not match the tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis
+    /// not a positive number, a law lets rigid elements be slack, rest values are given without a stiffness or weight
+    /// without mass, the length of a list does not match the tiling, a crease or a vertex does not exist in it, or loads do not balance along an axis
     /// without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, place, mut given } = self;
@@ -262,6 +262,7 @@ impl Builder {
         }
         let mut terms =
             Terms { bars, creases, facets, mass, laws: given.laws.for_edges(bare.edges())?, ..Terms::default() };
+        terms.check_laws()?;
         for (crease, angle) in given.locks {
             let hinges = bare.sheet().hinges_round(crease);
             if angle.is_some() && hinges > 1 {

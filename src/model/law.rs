@@ -1,9 +1,19 @@
 //! Springs and other laws: how the energy of an element depends on the value of its measure.
 
 use super::assembly_error::AssemblyError;
+use super::stiffness::Stiffness;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
+
+/// Values on both sides of a rest value of 1 at which the force of a law is asked for.
+const BESIDE_ONE: [f64; 2] = [1.0 - 1e-3, 1.0 + 1e-3];
+/// Distance from rest over the rest value below which what a law has beyond its spring is found from its stiffness: the
+/// difference of two forces loses that many digits there, and of two energies twice as many.
+const NEAR_REST: f64 = 1e-5;
+/// Nodes and weights of Gauss and Legendre on [0, 1], exact for polynomials of degree 5.
+const GAUSS: [[f64; 2]; 3] =
+    [[0.112_701_665_379_258_3, 5.0 / 18.0], [0.5, 4.0 / 9.0], [0.887_298_334_620_741_7, 5.0 / 18.0]];
 
 /// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](Law) near rest; infinite
 /// stiffness means `value = rest` exactly.
@@ -125,6 +135,19 @@ impl TermLaw {
         }
     }
 
+    /// Whether the law of a rigid element has no force on one side of rest: a rigid cable, which would be slack there and
+    /// is no element that keeps its rest value.
+    pub(crate) fn slackens_rigid(&self, stiffness: &Stiffness) -> bool {
+        let is_slack = |law: &Arc<dyn Law>| BESIDE_ONE.into_iter().any(|value| law.at(value, 1.0)[1] == 0.0);
+        match self {
+            Self::Uniform(law) => stiffness.stiffest().is_infinite() && is_slack(law),
+            Self::PerEdge(each) => {
+                let mut laws = each.iter().enumerate();
+                laws.any(|(edge, law)| stiffness.of(edge).is_infinite() && law.as_ref().is_some_and(is_slack))
+            }
+        }
+    }
+
     /// Whether any of the laws has a memory.
     fn remembers(&self) -> bool {
         let remembers = |law: &Arc<dyn Law>| law.remembering(Memory::default()).is_some();
@@ -147,7 +170,7 @@ pub struct Laws {
 }
 
 impl Laws {
-    fn all(&self) -> [(&'static str, &Option<TermLaw>); 3] {
+    pub(super) fn all(&self) -> [(&'static str, &Option<TermLaw>); 3] {
         [("bars", &self.bars), ("creases", &self.creases), ("facets", &self.facets)]
     }
 
@@ -189,6 +212,19 @@ pub(super) enum Stored {
     Value,
 }
 
+/// Returns energy, force and stiffness that a law has beyond its spring at a value so near rest that it is no more than
+/// rounding to the forces of either: `phi' = integral of phi'' - 1` from rest, and `phi` that of `phi'`.
+fn beyond_near_rest(law: &dyn Law, off: f64, Spring { stiffness, rest }: Spring) -> [f64; 3] {
+    let second = |part: f64| law.at(rest + part * off, rest)[2] - 1.0;
+    let [mut energy, mut force] = [0.0; 2];
+    for [part, weight] in GAUSS {
+        let here = weight * off * second(part);
+        force += here;
+        energy += (1.0 - part) * off * here;
+    }
+    [energy, force, second(1.0)].map(|unit| stiffness * unit)
+}
+
 impl Stored {
     /// Whether the stiffness of the law jumps.
     pub(super) fn has_kinks(&self) -> bool {
@@ -216,6 +252,12 @@ impl Stored {
         }
         if let Self::Value = self {
             return [spring.stiffness * value, spring.stiffness, 0.0];
+        }
+        if let Self::BeyondSpring(law) = self
+            && off.abs() <= NEAR_REST * spring.rest.abs()
+            && !law.has_kinks()
+        {
+            return beyond_near_rest(law.as_ref(), off, spring);
         }
         self.scaled(spring, memory, [0.5 * off * off, off, 1.0], |law| law.at(value, spring.rest))
     }

@@ -299,9 +299,15 @@ impl Model {
             || (!matches!(self.equations.domain, Domain::Screw) && !self.pinned.is_empty())
     }
 
-    /// Whether the sheet is a patch without pins, supports, rigid parts and loads.
-    pub(crate) fn is_free_patch(&self) -> bool {
-        matches!(self.equations.domain, Domain::Patch) && !self.held_or_loaded()
+    /// Whether the sheet is a patch that pins keep from no shape, since they hold rigid motions alone, without supports
+    /// and rigid parts.
+    pub(crate) fn takes_any_shape(&self) -> bool {
+        let is_bare = self.supports.is_empty() && self.equations.bodies.is_empty();
+        is_bare && matches!(self.equations.domain, Domain::Patch) && {
+            let motions = self.rigid_motions(&self.base, true);
+            let of_pinned: Vec<gauge::Motion> = self.pinned.iter().map(|&k| motions[k]).collect();
+            gauge::choose(&of_pinned, &vec![false; of_pinned.len()]).len() == of_pinned.len()
+        }
     }
 
     /// Returns the map from coordinates to points.

@@ -1,5 +1,6 @@
 //! The terms of a sheet: stiffnesses, rest angles, locks, pins, loads and mass.
 
+use super::assembly_error::AssemblyError;
 use super::law::Laws;
 use super::mass::Mass;
 use super::own_term::{MEMBRANE, OwnTerm};
@@ -104,6 +105,20 @@ impl Terms {
     pub fn bars_and_creases(bars: f64, creases: f64, rest: Vec<f64>) -> Self {
         let creases = Hinges { stiffness: creases.into(), rest };
         Self { bars: Some(bars.into()), creases: Some(creases), ..Self::default() }
+    }
+
+    /// Checks that no law lets a rigid element be slack.
+    pub(super) fn check_laws(&self) -> Result<(), AssemblyError> {
+        let hinges = |hinges: &Option<Hinges>| hinges.as_ref().map(|hinges| hinges.stiffness.clone());
+        let stiffness = [self.bar_stiffness().cloned(), hinges(&self.creases), hinges(&self.facets)];
+        for ((term, law), stiffness) in self.laws.all().into_iter().zip(stiffness) {
+            if let (Some(law), Some(stiffness)) = (law, stiffness)
+                && law.slackens_rigid(&stiffness)
+            {
+                return Err(AssemblyError::RigidSlack { term });
+            }
+        }
+        Ok(())
     }
 
     /// Whether all bars and facets of the terms are rigid; also true if there are none.

@@ -18,14 +18,15 @@ use crate::sheet::Assignment;
 
 /// The laws that a scene gives a term.
 pub(super) struct GivenLaw {
-    /// The laws of its elements.
-    law: TermLaw,
+    /// The laws of its elements; `None` if all are springs.
+    law: Option<TermLaw>,
     /// The stiffness at rest, if the law of all says it.
     pub stiffness: Option<f64>,
+    span: Range<usize>,
 }
 
-/// A law and the stiffness at rest, if the law says it.
-type ReadLaw = (Arc<dyn Law>, Option<f64>);
+/// A law, `None` if it is that of a spring, and the stiffness at rest, if the law says it.
+type ReadLaw = (Option<Arc<dyn Law>>, Option<f64>);
 
 /// Returns a law from what stands at a place of a scene.
 type LawReader<T> = fn(&SceneFile, (&T, Range<usize>)) -> Result<ReadLaw, SceneError>;
@@ -49,23 +50,25 @@ fn of_elements<T>(
     spec: &Located<LawForm<T>>,
     read: LawReader<T>,
 ) -> Result<GivenLaw, SceneError> {
+    let span = spec.span();
     match &**spec {
         LawForm::All(law) => {
             let (law, stiffness) = read(file, (law, spec.span()))?;
-            Ok(GivenLaw { law: TermLaw::Uniform(law), stiffness })
+            Ok(GivenLaw { law: law.map(TermLaw::Uniform), stiffness, span })
         }
         LawForm::Letters(letters) => {
-            let read = |(letter, law): (&Assignment, &T)| Ok((*letter, Some(read(file, (law, spec.span()))?.0)));
+            let read = |(letter, law): (&Assignment, &T)| Ok((*letter, read(file, (law, spec.span()))?.0));
             let letters = letters.iter().map(read).collect::<Result<BTreeMap<_, _>, SceneError>>()?;
             let each = values.each_by_letter((&letters, "law"), of, spec.span(), (None, |_| Some(None)))?;
-            Ok(GivenLaw { law: TermLaw::PerEdge(each), stiffness: None })
+            Ok(GivenLaw { law: Some(TermLaw::PerEdge(each)), stiffness: None, span })
         }
         LawForm::Listed(table, laws) => {
             let read = |law: &T| Ok(read(file, (law, spec.span()))?.0);
             let laws = laws.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
             let numbers = values.file_values(table, Column::Law(laws.len()), of)?;
-            let law = |number: &f64| laws.get((*number as usize).wrapping_sub(1)).cloned();
-            Ok(GivenLaw { law: TermLaw::PerEdge(numbers.iter().map(law).collect()), stiffness: None })
+            let law = |number: &f64| laws.get((*number as usize).wrapping_sub(1)).cloned().flatten();
+            let law = Some(TermLaw::PerEdge(numbers.iter().map(law).collect()));
+            Ok(GivenLaw { law, stiffness: None, span })
         }
     }
 }
@@ -92,6 +95,7 @@ pub(super) fn of_terms(
 /// Returns the law of the bars.
 fn of_bars(file: &SceneFile, (spec, span): (&BarLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
     match spec {
+        BarLawSpec::Linear {} => Ok((None, None)),
         BarLawSpec::Ogden { exponents } => Ok(alone(OfStrain(Ogden { exponents: exponents.0 }))),
         BarLawSpec::GreenLagrange {} => Ok(alone(OfStrain(GreenLagrange))),
         BarLawSpec::Bilinear { ratio, at } => Ok(alone(OfStrain(Bilinear { ratio: ratio.0, at: at.0 }))),
@@ -103,6 +107,7 @@ fn of_bars(file: &SceneFile, (spec, span): (&BarLawSpec, Range<usize>)) -> Resul
 /// Returns the law of creases or facets.
 fn of_hinges(file: &SceneFile, (spec, span): (&HingeLawSpec, Range<usize>)) -> Result<ReadLaw, SceneError> {
     match spec {
+        HingeLawSpec::Linear {} => Ok((None, None)),
         HingeLawSpec::Stiffening { limits } => Ok(alone(Stiffening { limits: limits.0 })),
         HingeLawSpec::Power { exponent } => Ok(alone(OfAngle(Power { exponent: exponent.0 }))),
         HingeLawSpec::Bilinear { ratio, at } => {
@@ -115,7 +120,7 @@ fn of_hinges(file: &SceneFile, (spec, span): (&HingeLawSpec, Range<usize>)) -> R
 
 /// A law that does not say the stiffness at rest.
 fn alone(law: impl Law + 'static) -> ReadLaw {
-    (Arc::new(law), None)
+    (Some(Arc::new(law)), None)
 }
 
 /// A bound at which the elements of a term yield, and its hardening: slope and isotropic part.
@@ -147,11 +152,17 @@ fn of_term<L: Law + 'static>(
     (yields, stiffness): (Option<Yield>, Option<Stiffness>),
     of_curve: fn(ElasticPlastic) -> L,
 ) -> Result<Option<TermLaw>, SceneError> {
+    if let (Some(GivenLaw { law: Some(law), span, .. }), Some(stiffness)) = (&law, &stiffness)
+        && law.slackens_rigid(stiffness)
+    {
+        let message = "the law has no force on one side of rest, where what is rigid would be slack";
+        return Err(file.error_at(span.clone(), message, "give elements of this law a finite stiffness"));
+    }
     let (Some(yields), Some(stiffness)) = (yields, stiffness) else {
-        return Ok(law.map(|law| law.law));
+        return Ok(law.and_then(|law| law.law));
     };
     let refused = |message: &str, help: &str| Err(file.error_at(yields.span.clone(), message, help));
-    if law.is_some() {
+    if law.is_some_and(|law| law.law.is_some()) {
         return refused("the term has a law and yields at once", "leave out `law`: what yields is linear up to there");
     }
     if stiffness.is_rigid() {
@@ -173,7 +184,7 @@ fn table<L: Law + 'static>(
 ) -> Result<ReadLaw, SceneError> {
     let curve = measured(file, spec, columns)?;
     let slope = curve.slope();
-    Ok((Arc::new(law(curve)), Some(slope)))
+    Ok((Some(Arc::new(law(curve))), Some(slope)))
 }
 
 /// Returns the law of a formula.

@@ -1,7 +1,7 @@
 //! Checks that several kinds of study share: which stiffnesses and rest values they support, and which a tube has.
 
 use super::{Context, StudyError};
-use crate::model::Domain;
+use crate::model::{Domain, Gauge};
 use crate::scene::Located;
 use crate::scene::drives::supported;
 use crate::scene::spec::StudyKind::{
@@ -72,6 +72,14 @@ pub(super) fn linear_springs(context: &Context<'_>, what: &str) -> Result<(), St
     let Some(term) = context.assembly.terms().first_not_linear() else { return Ok(()) };
     let message = format!("{what} need linear bars and hinges and no other terms, and here is another: {term}");
     Err(context.refuse(message, "leave out `law` of bars, creases and facets, and terms of your own").into())
+}
+
+/// Checks that all elements are springs in their own states of rest, whatever their laws beyond them.
+pub(super) fn springs_at_rest(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
+    let model = context.assembly.model(Gauge::Free);
+    let Some(other) = model.elements().find(|element| !element.is_spring_at_rest()) else { return Ok(()) };
+    let message = format!("{what} need springs at rest, and the law of the {} is none there", other.kind().name());
+    Err(context.refuse(message, "leave out `law`, or `start` from a study that relaxes").into())
 }
 
 /// Checks that nothing yields: what does has other states where it comes on another way.

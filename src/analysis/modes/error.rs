@@ -28,11 +28,13 @@ pub enum ModesError {
     Kinematics(#[from] KinematicsError),
     #[error("frequencies are those of vertices: {of} have no mass of their own")]
     NoMassMatrix { of: &'static str },
+    #[error("a motion of part {part} moves no mass: frequencies need one for every free motion")]
+    MasslessMotion { part: usize },
     #[error(
-        "the motions of part {part} are coupled by its mass, or one has none: frequencies are of parts whose middle is \
-         their centre of mass, and whose turns are about principal axes"
+        "mass couples the motions of a rigid part: so many frequencies of so many unknowns are found only of parts whose \
+         middle is their centre of mass, and whose turns are about principal axes"
     )]
-    CoupledMotions { part: usize },
+    CoupledMotions,
     #[error("vertex {vertex} of cell {cell:?} belongs to no face: a mass per area gives it none")]
     Massless { vertex: usize, cell: [usize; 2] },
     #[error("stopped on request")]

@@ -65,21 +65,48 @@ pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<b
     }
 }
 
-/// Lowest eigenvalues and eigenvectors of the energy's Hessian, by unknowns with these factors, at the model's
-/// reference state with these tensions, on what the rigid terms leave free, which is at most `free`.
+/// Other unknowns `y` that some of them are substituted by, `x = factor * map * y`, as motions of a rigid part that its mass
+/// couples.
+pub(super) struct Coupling {
+    pub unknowns: Vec<usize>,
+    pub map: DenseMatrix,
+}
+
+impl Coupling {
+    /// Multiplies the columns of these unknowns by the map.
+    fn substitute(&self, matrix: &mut DenseMatrix) {
+        let columns = matrix.select_columns(&self.unknowns) * &self.map;
+        self.unknowns.iter().zip(columns.column_iter()).for_each(|(&k, column)| matrix.set_column(k, &column));
+    }
+
+    /// Turns rows of the other unknowns into rows of the unknowns.
+    fn back(&self, rows: &mut DenseMatrix) {
+        let there = Self { unknowns: self.unknowns.clone(), map: self.map.transpose() };
+        there.substitute(rows);
+    }
+}
+
+/// Lowest eigenvalues and eigenvectors of the energy's Hessian, by unknowns with these factors and couplings, at the
+/// model's reference state with these tensions, on what the rigid terms leave free, which is at most `free`. With
+/// couplings only the dense way finds them: `None` where it would not.
 pub(super) fn lowest(
     (model, tension): (&Model, &[f64]),
-    factors: &[f64],
+    (factors, couplings): (&[f64], &[Coupling]),
     (wanted, free): (usize, usize),
     observe: &mut Observer<'_>,
-) -> Result<Spectrum, ModesError> {
+) -> Result<Option<Spectrum>, ModesError> {
     let unknowns = model.layout().unknowns;
-    let by_dense = decomposed_dense(unknowns, wanted.min(free), free)?;
-    let way = if by_dense { lowest_dense } else { lowest_sparse };
-    let (values, vectors, diagonal) = way((model, tension), factors, wanted.min(free), observe)?;
+    let (at, count) = ((model, tension), wanted.min(free));
+    let (values, vectors, diagonal) = if decomposed_dense(unknowns, count, free)? {
+        lowest_dense(at, (factors, couplings), count, observe)?
+    } else if couplings.is_empty() {
+        lowest_sparse(at, factors, count, observe)?
+    } else {
+        return Ok(None);
+    };
     let velocity = |v: &Vec<f64>| model.velocity(&v.iter().zip(factors).map(|(y, f)| y * f).collect::<Vec<f64>>());
     let rounding = dense::eigenvalue_rounding(unknowns, diagonal);
-    Ok(Spectrum { values, vectors: vectors.iter().map(velocity).collect(), rounding })
+    Ok(Some(Spectrum { values, vectors: vectors.iter().map(velocity).collect(), rounding }))
 }
 
 /// Entries of the Hessian of the whole energy, bars of finite stiffness included.
@@ -93,7 +120,7 @@ pub(super) fn whole_hessian(at: &Linearization, compliance: &[f64]) -> Vec<f64> 
 
 fn lowest_dense(
     (model, tension): (&Model, &[f64]),
-    factors: &[f64],
+    (factors, couplings): (&[f64], &[Coupling]),
     count: usize,
     observe: &mut Observer<'_>,
 ) -> Result<Pairs, ModesError> {
@@ -102,8 +129,14 @@ fn lowest_dense(
     at.substitute(factors);
     let compliance = model.compliance();
     let values = whole_hessian(&at, compliance);
-    let hessian = at.pattern().to_dense(&values);
-    let full = dense::from_rows(&at.rows(), layout.unknowns);
+    let mut hessian = at.pattern().to_dense(&values);
+    let mut full = dense::from_rows(&at.rows(), layout.unknowns);
+    for coupling in couplings {
+        coupling.substitute(&mut full);
+        coupling.substitute(&mut hessian);
+        hessian.transpose_mut();
+        coupling.substitute(&mut hessian);
+    }
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
     let free = if rigid.is_empty() {
         DenseMatrix::identity(layout.unknowns, layout.unknowns)
@@ -113,7 +146,9 @@ fn lowest_dense(
     go_on(observe)?;
     let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
     let count = count.min(found.values.len());
-    let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
+    let mut vectors = (&free * found.vectors.columns(0, count)).transpose();
+    couplings.iter().for_each(|coupling| coupling.back(&mut vectors));
+    let vectors = vectors.row_iter().map(|row| row.iter().copied().collect()).collect();
     Ok((found.values[..count].to_vec(), vectors, at.pattern().largest_diagonal(&values)))
 }
 

@@ -1,13 +1,15 @@
 //! Small vibrations about a state: the eigenvalues of the energy's Hessian `H` against the masses `M` of the vertices.
 //!
-//! `H u = omega^2 M u`. `M` is diagonal, that of the motions of a rigid part where its middle is its centre of mass and
-//! the axes of its turns are principal ones, so that with `u = M^(-1/2) y` the eigenvalues are those of the symmetric
-//! matrix `M^(-1/2) H M^(-1/2)`. Masses enter relative to the largest one: multiplying all of them by a number divides
+//! `H u = omega^2 M u`. `M` is diagonal but for the motions of a rigid part, which are coupled where its middle is not its
+//! centre of mass or the axes of its turns are not principal ones. With `u = M^(-1/2) y` the eigenvalues are those of the
+//! symmetric matrix `M^(-1/2) H M^(-1/2)`. Masses enter relative to the largest one: multiplying all of them by a number divides
 //! every `omega^2` by it and changes nothing else.
 
 use super::error::ModesError;
-use super::spectrum::{Observer, Spectrum, lowest};
+use super::spectrum::{Coupling, Observer, Spectrum, lowest};
 use crate::model::{Assembly, Domain, Model};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::{cholesky, inverse};
 
 /// Largest product of two motions of a rigid part with the mass, over those of each with itself, that is rounding error.
 const COUPLED: f64 = 1e-12;
@@ -63,18 +65,21 @@ impl Vibrations {
             return Ok(Some(Self { squares: vec![], rounding: 0.0, vectors: vec![] }));
         }
         let largest = masses.iter().copied().fold(0.0, f64::max);
-        let factors: Vec<f64> = of_unknowns(model, &masses)?.iter().map(|mass| (largest / mass).sqrt()).collect();
-        let Spectrum { values, mut vectors, rounding } = lowest((model, tension), &factors, (wanted, free), observe)?;
+        let (masses, couplings) = of_unknowns(model, &masses)?;
+        let factors: Vec<f64> = masses.iter().map(|mass| (largest / mass).sqrt()).collect();
+        let found = lowest((model, tension), (&factors, &couplings), (wanted, free), observe)?;
+        let Spectrum { values, mut vectors, rounding } = found.ok_or(ModesError::CoupledMotions)?;
         let squares = values.iter().map(|value| if value.abs() <= rounding { 0.0 } else { value / largest }).collect();
         vectors.iter_mut().flatten().for_each(|rate| *rate /= largest.sqrt());
         Ok(Some(Self { squares, rounding: rounding / largest, vectors }))
     }
 }
 
-/// Returns the mass of every unknown of a model, given those of the vertices.
-fn of_unknowns(model: &Model, masses: &[f64]) -> Result<Vec<f64>, ModesError> {
+/// Returns the mass of every unknown of a model, given those of the vertices, and what of the motions of rigid parts is
+/// coupled.
+fn of_unknowns(model: &Model, masses: &[f64]) -> Result<(Vec<f64>, Vec<Coupling>), ModesError> {
     let of_coordinates: Vec<f64> = masses.iter().flat_map(|mass| [*mass; 3]).collect();
-    let mut found = model.unknowns(&of_coordinates);
+    let (mut found, mut couplings) = (model.unknowns(&of_coordinates), vec![]);
     for (part, motions) in model.poses().into_iter().enumerate() {
         let only = |unknown: usize| (0..found.len()).map(|k| f64::from(u8::from(k == unknown))).collect::<Vec<f64>>();
         let rates: Vec<Vec<f64>> = motions.iter().map(|&unknown| model.velocity(&only(unknown))).collect();
@@ -82,13 +87,17 @@ fn of_unknowns(model: &Model, masses: &[f64]) -> Result<Vec<f64>, ModesError> {
             of_coordinates.iter().zip(rates[i].iter().zip(&rates[j])).map(|(mass, (a, b))| mass * a * b).sum()
         };
         let own: Vec<f64> = (0..motions.len()).map(|i| product(i, i)).collect();
-        let is_coupled = |i: usize, j: usize| product(i, j).abs() > COUPLED * (own[i] * own[j]).sqrt();
-        if (0..motions.len()).any(|i| !(own[i] > 0.0) || (0..i).any(|j| is_coupled(i, j))) {
-            return Err(ModesError::CoupledMotions { part });
-        }
+        let relative = |i: usize, j: usize| product(i, j) / (own[i] * own[j]).sqrt();
+        let matrix = DenseMatrix::from_fn(motions.len(), motions.len(), relative);
+        // not a number where a motion moves no mass
+        let root = cholesky(matrix.clone()).and_then(|factor| inverse(factor.l()));
+        let map = root.ok_or(ModesError::MasslessMotion { part })?.transpose();
         motions.iter().zip(own).for_each(|(&unknown, mass)| found[unknown] = mass);
+        if (&matrix - DenseMatrix::identity(motions.len(), motions.len())).amax() > COUPLED {
+            couplings.push(Coupling { unknowns: motions, map });
+        }
     }
-    Ok(found)
+    Ok((found, couplings))
 }
 
 /// Checks that every coordinate of an assembly is one of a vertex that has a mass, or of a rigid part.

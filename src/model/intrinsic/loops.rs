@@ -10,8 +10,8 @@ use thiserror::Error;
 pub enum Unsupported {
     #[error("only patches are solved in fold angles")]
     Domain,
-    #[error("pins and loads act on positions")]
-    PinsOrLoads,
+    #[error("pins that hold more than rigid motions, held values and rigid parts act on positions")]
+    Pins,
     #[error("bars or hinges have a law, or there are terms of one's own")]
     Law,
     #[error("edge {edge} has no bar")]

@@ -44,9 +44,9 @@ impl IntrinsicModel {
     /// # Errors
     /// [`Unsupported`] with the reason for which the model has none.
     pub fn new(model: &Model) -> Result<Self, Unsupported> {
-        if !model.is_free_patch() {
+        if !model.takes_any_shape() {
             let patch = matches!(model.domain(), super::Domain::Patch);
-            return Err(if patch { Unsupported::PinsOrLoads } else { Unsupported::Domain });
+            return Err(if patch { Unsupported::Pins } else { Unsupported::Domain });
         }
         let (bars, hinges, topology) = collected(model)?;
         let (mut target, mut compliance) = (vec![], vec![]);
@@ -127,8 +127,8 @@ impl IntrinsicModel {
         FoldedUp { coordinates, angles, lengths, torques, forces }
     }
 
-    /// Moves the model to a state: its vertices where these variables put them, its angles continued to these, and
-    /// tensions that balance. Returns the start of a minimisation from there.
+    /// Moves the model to a state: its vertices where these variables and its pins put them, its angles continued to
+    /// these, and tensions that balance but for loads. Returns the start of a minimisation from there.
     pub fn hand_over(&self, model: &mut Model, z: &[f64], multipliers: &[f64]) -> Start {
         let FoldedUp { coordinates, angles, torques, forces, .. } = self.folded_up(model, z, multipliers);
         let force = |element: Element<'_>| {
@@ -136,6 +136,7 @@ impl IntrinsicModel {
             element.edge().map_or(0.0, |edge| of_edges[edge])
         };
         let tension = Some(model.stiff().map(force).collect());
+        let coordinates = model.onto_pins(coordinates);
         model.enter(&Configuration::new(coordinates, model.angles_among(&angles), tension))
     }
 }

@@ -121,7 +121,8 @@ fn drawn_angles_place_the_drawn_patch() {
     }
 }
 
-/// Claim: what has no form in fold angles is refused with its reason: other domains, pins, and edges without stiffness.
+/// Claim: what has no form in fold angles is refused with its reason: other domains, pins of two vertices, and edges
+/// without stiffness.
 #[test]
 fn other_models_are_refused() {
     let refused = |assembly: Assembly| IntrinsicModel::new(&assembly.model(Gauge::Held)).unwrap_err();
@@ -133,5 +134,5 @@ fn other_models_are_refused() {
     let bare = whole.with_terms(Terms { bars: None, ..whole.terms().clone() });
     assert!(matches!(refused(bare), Unsupported::NoBar { .. }));
     let pinned = Assembly::patch(star(), [3, 3]).bars(RIGID).creases(1.0).pin(0, [0, 0], [true; 3]);
-    assert_eq!(refused(pinned.build().unwrap()), Unsupported::PinsOrLoads);
+    assert_eq!(refused(pinned.pin(0, [1, 0], [true; 3]).build().unwrap()), Unsupported::Pins);
 }

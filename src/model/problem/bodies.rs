@@ -10,7 +10,7 @@ use crate::model::element::Local;
 use crate::model::terms::Part;
 use crate::numerics::dense::small::nearest_rotation;
 use crate::sheet::tiling::Site;
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 
 /// Number of coordinates of a pose.
@@ -151,29 +151,40 @@ impl Bodies {
     pub(super) fn pull(&self, sites: &[Site], generalised: &[f64], local: &mut Local) {
         let of_site = |site: &Site| self.moved(self.part_of(site.vertex)?, site.vertex, generalised);
         let turned: Vec<Option<rotation::Turned>> = sites.iter().map(of_site).collect();
-        let maps: Vec<DMatrix<f64>> = turned.iter().map(|turned| derivative(turned.as_ref())).collect();
-        let (mut starts, mut size) = (vec![], 0);
-        for map in &maps {
-            starts.push(size);
-            size += map.ncols();
+        let turns: Vec<Option<Matrix3<f64>>> =
+            turned.iter().map(|turned| turned.as_ref().map(|turned| Matrix3::from_columns(&turned.first))).collect();
+        let (mut starts, mut gradient) = (vec![], vec![]);
+        for (k, turn) in turns.iter().enumerate() {
+            let force = point(&local.gradient, k);
+            starts.push(gradient.len());
+            gradient.extend_from_slice(force.as_slice());
+            turn.iter().for_each(|turn| gradient.extend_from_slice(turn.tr_mul(&force).as_slice()));
         }
-        let gradient: Vec<f64> = (0..maps.len())
-            .flat_map(|k| (maps[k].transpose() * point(&local.gradient, k)).as_slice().to_vec())
-            .collect();
         if !local.hessian.is_empty() {
-            let entry = |row: usize, column: usize| local.hessian[in_lower_triangle(row, column)];
-            let mut pulled = DMatrix::zeros(size, size);
-            for (k, left) in maps.iter().enumerate() {
-                for (l, right) in maps.iter().enumerate() {
-                    let block = Matrix3::from_fn(|row, column| entry(3 * k + row, 3 * l + column));
-                    let mut place = pulled.view_mut((starts[k], starts[l]), (left.ncols(), right.ncols()));
-                    place += left.transpose() * block * right;
+            let mut pulled = vec![0.0; lower_triangle(gradient.len()).count()];
+            let of_block = |k: usize, l: usize| {
+                Matrix3::from_fn(|row, column| local.hessian[in_lower_triangle(3 * k + row, 3 * l + column)])
+            };
+            for (k, left) in turns.iter().enumerate() {
+                for (l, right) in turns[..=k].iter().enumerate() {
+                    let (block, [row, column]) = (of_block(k, l), [starts[k], starts[l]]);
+                    add_lower(&mut pulled, [row, column], &block);
+                    if let Some(left) = left {
+                        add_lower(&mut pulled, [row + 3, column], &left.tr_mul(&block));
+                    }
+                    if let Some(right) = right {
+                        let by_turn = block * right;
+                        add_lower(&mut pulled, [row, column + 3], &by_turn);
+                        left.iter()
+                            .for_each(|left| add_lower(&mut pulled, [row + 3, column + 3], &left.tr_mul(&by_turn)));
+                    }
                 }
                 if let Some(turned) = &turned[k] {
-                    add_curvature(turned, &point(&local.gradient, k), starts[k] + 3, &mut pulled);
+                    let curvature = curvature(turned, &point(&local.gradient, k));
+                    add_lower(&mut pulled, [starts[k] + 3; 2], &curvature);
                 }
             }
-            local.hessian = lower_triangle(size).map(|at| pulled[at]).collect();
+            local.hessian = pulled;
         }
         local.gradient = gradient;
     }
@@ -202,15 +213,15 @@ impl Bodies {
 
     /// Puts the potential `-sum f x` of forces on a part, with its derivatives by the pose, into `local`.
     pub(super) fn load(&self, part: usize, forces: &[(usize, Vec3)], generalised: &[f64], local: &mut Local) {
-        let (mut gradient, mut hessian) = (vec![0.0; POSE], DMatrix::zeros(POSE, POSE));
+        let (mut gradient, mut hessian) = (vec![0.0; POSE], vec![0.0; lower_triangle(POSE).count()]);
         for (vertex, force) in forces {
             let Some(turned) = self.moved(part, *vertex, generalised) else { continue };
             (0..3).for_each(|k| gradient[k] -= force[k]);
             (0..3).for_each(|k| gradient[3 + k] -= force.dot(&turned.first[k]));
-            add_curvature(&turned, &-force, 3, &mut hessian);
+            add_lower(&mut hessian, [3, 3], &curvature(&turned, &-force));
         }
         local.gradient = gradient;
-        local.hessian = lower_triangle(POSE).map(|at| hessian[at]).collect();
+        local.hessian = hessian;
     }
 }
 
@@ -222,21 +233,18 @@ impl Body {
     }
 }
 
-/// The derivative of a point by its coordinates, or by the pose of its part.
-fn derivative(turned: Option<&rotation::Turned>) -> DMatrix<f64> {
-    let Some(turned) = turned else { return DMatrix::identity(3, 3) };
-    let mut map = DMatrix::zeros(3, POSE);
-    for k in 0..3 {
-        map[(k, k)] = 1.0;
-        (0..3).for_each(|row| map[(row, 3 + k)] = turned.first[k][row]);
-    }
-    map
+/// The second derivative of a point by the rotation vector of its part, times a force.
+fn curvature(turned: &rotation::Turned, force: &Vec3) -> Matrix3<f64> {
+    Matrix3::from_fn(|k, l| force.dot(&turned.second[k][l]))
 }
 
-/// Adds the second derivative of a point by the rotation vector, times a force, to a block of a Hessian.
-fn add_curvature(turned: &rotation::Turned, force: &Vec3, first: usize, hessian: &mut DMatrix<f64>) {
+/// Adds a block that begins at a row and a column to a symmetric matrix of which the lower triangle is stored; what lies
+/// above the diagonal is left out.
+fn add_lower(lower: &mut [f64], [row, column]: [usize; 2], block: &Matrix3<f64>) {
     for k in 0..3 {
-        (0..3).for_each(|l| hessian[(first + k, first + l)] += force.dot(&turned.second[k][l]));
+        for l in (0..3).filter(|l| column + l <= row + k) {
+            lower[in_lower_triangle(row + k, column + l)] += block[(k, l)];
+        }
     }
 }
 

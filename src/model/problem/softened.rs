@@ -44,12 +44,19 @@ impl Model {
         rigid.map(|(measure, bar)| (measure, bar.spring.rest))
     }
 
-    /// Returns the number of soft hinges that are not flat at rest, and of those that are folded to the side of their rest
-    /// angle.
-    pub(crate) fn hinges_on_rest_side(&self, x: &[f64]) -> [usize; 2] {
+    /// Returns the number of hinges of finite stiffness that are not flat at rest, that of those folded to the side of their
+    /// rest angle, and the largest angle off rest of one of them, in radians.
+    pub(crate) fn hinges_on_rest_side(&self, x: &[f64]) -> (usize, usize, f64) {
         let coordinates = self.coordinates(x);
-        let aimed = self.soft().filter(|element| element.is_hinge() && element.spring.rest.abs() > FLAT_RAD);
-        let aimed: Vec<bool> = aimed.map(|hinge| hinge.spring.rest * hinge.value(&coordinates) > 0.0).collect();
-        [aimed.len(), aimed.iter().filter(|same| **same).count()]
+        let (mut hinges, mut on_rest_side, mut farthest) = (0, 0, 0.0);
+        for hinge in self.elements().filter(|element| element.is_elastic_hinge() && !element.is_beyond_spring()) {
+            let (rest, value) = (hinge.spring.rest, hinge.value(&coordinates));
+            if rest.abs() > FLAT_RAD {
+                hinges += 1;
+                on_rest_side += usize::from(rest * value > 0.0);
+                farthest = f64::max(farthest, (value - rest).abs());
+            }
+        }
+        (hinges, on_rest_side, farthest)
     }
 }

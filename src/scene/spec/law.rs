@@ -42,6 +42,8 @@ pub enum LawFault {
 #[schemars(rename = "BarLaw")]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum BarLawSpec {
+    /// The force EA (l - 1) of a spring, as without a law.
+    Linear {},
     /// The force EA (l^(a - 1) - l^(b - 1)) / (a - b).
     Ogden {
         /// The exponents a and b.
@@ -72,6 +74,8 @@ pub enum BarLawSpec {
 #[schemars(rename = "HingeLaw")]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum HingeLawSpec {
+    /// The torque k d of a spring, d the angle off rest, as without a law.
+    Linear {},
     /// Linear between two fold angles, and ever stiffer beyond them, without bound where it is folded flat.
     Stiffening {
         /// The two angles, the first below 0 and the second above.

@@ -4,7 +4,8 @@
 //! where points are left that are close to each other, larger ones are tried step by step. One of them is taken if its
 //! mesh leaves no doubt: all points that are left are far apart in comparison to it, no line vanished but those far
 //! shorter than all that is left, and none came to lie on another that was drawn beside it. So good drawings keep their
-//! details, and careless ones are read. Where there is doubt about points alone, the first one that makes a pattern is
+//! details, and careless ones are read. Where a pair of points is left that is much nearer than all others, and a larger
+//! distance makes it one point, that is taken. Where there is doubt about points alone, the first one that makes a pattern is
 //! taken, and they are named. Where no larger one helps either, points may be nearer to each other than the first: smaller
 //! ones are tried then.
 
@@ -46,6 +47,11 @@ const DRAWN_TWICE: f64 = 10.0;
 /// shortest edge that is left.
 const SCRAP: f64 = 0.1;
 
+/// Shortest edge over the distance of merging from which on no larger one is tried; and the factor by which a larger one
+/// makes it longer where two points that were meant as one had been left.
+const CLEAR: f64 = 10.0;
+const CLEARER: f64 = 1.5;
+
 /// Options for the clean-up of vertices and edges of a flat crease pattern, before its faces are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cleanup {
@@ -76,20 +82,24 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
     let coarser = iter::successors(Some(first * STEP), |distance| Some(distance * STEP));
     let coarser = coarser.take_while(|distance| *distance <= COARSEST_TRIED * extent);
     let finer = FINER.map(|part| part * first).into_iter().filter(|_| found.is_err());
-    let (mut cure, mut doubtful) = (None, None);
+    let (mut cure, mut doubtful) = (None::<(f64, Meshed)>, None);
     for distance in coarser.chain(finer) {
-        if cure.is_some() || compared > MOST_COMPARED {
+        let is_clear = |(within, meshed): &(f64, Meshed)| meshed.shortest >= CLEAR * within || distance < first;
+        if compared > MOST_COMPARED || cure.as_ref().is_some_and(is_clear) {
             break;
         }
         let meshed = mesh(lines, distance, cleanup.split, head, &mut compared).ok();
         let Some(meshed) = meshed.filter(|meshed| keeps_lines(meshed, first)) else { continue };
         if meshed.sheet.record.redrawing.gap.is_none() {
-            cure = Some((distance, meshed.sheet));
+            let is_clearer = |best: &(f64, Meshed)| is_clearer((distance, &meshed), (best.0, &best.1));
+            if cure.as_ref().is_none_or(is_clearer) {
+                cure = Some((distance, meshed));
+            }
         } else if found.is_err() && doubtful.is_none() {
             doubtful = Some((distance, meshed.sheet));
         }
     }
-    let cure = cure.or(doubtful);
+    let cure = cure.map(|(distance, meshed)| (distance, meshed.sheet)).or(doubtful);
     match (found, cure) {
         (_, Some((distance, mut sheet))) if cleanup.merge.is_none() => {
             sheet.record.redrawing.merged = Some([distance, first]);
@@ -103,6 +113,13 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
 /// Whether a mesh leaves no doubt that the lines that have vanished in points, or in other lines, were meant to.
 fn keeps_lines(meshed: &Meshed, first: f64) -> bool {
     meshed.vanished <= SCRAP * meshed.shortest && meshed.doubled <= DRAWN_TWICE * first
+}
+
+/// Whether a larger distance of merging leaves points that are farther apart in comparison to it, since those that were
+/// nearest to each other have become one, and no line more has vanished.
+fn is_clearer((larger, meshed): (f64, &Meshed), (within, before): (f64, &Meshed)) -> bool {
+    let apart = meshed.shortest / larger > CLEARER * before.shortest / within;
+    apart && meshed.vanished <= before.vanished && meshed.doubled <= before.doubled
 }
 
 /// Returns a problem with the distance of merging that makes a crease pattern of the lines, if it names a gap.

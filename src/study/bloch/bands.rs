@@ -46,6 +46,7 @@ pub(super) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     if !in_state {
         supported::one_stiffness_each(context, "bands")?;
         supported::drawn_lengths(context, "bands")?;
+        supported::springs_at_rest(context, "bands of the drawn state")?;
     }
     let springs = if in_state { all_springs(assembly) } else { stiffnesses(file, assembly).is_some() };
     let help = format!("give bars a finite stiffness and facets too, or leave out `{key}`");

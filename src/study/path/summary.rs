@@ -33,7 +33,7 @@ pub struct PathBranchSummary {
     pub end: String,
     /// Number of its states.
     pub steps: usize,
-    /// Newton steps of all its states.
+    /// Newton steps to all its states, those to states that were refused included.
     pub iterations: usize,
     /// Arc length of its last state; null where it has none.
     pub arc_length: Option<f64>,
@@ -127,9 +127,12 @@ impl PathSummary {
             let number = if self.branches.len() > 1 { format!("branch {}: ", branch.branch) } else { String::new() };
             let end = format!("{number}{} at {} {}", branch.end, self.drive, value(branch.drive));
             let folded = branch.rest_sides.map_or(String::new(), |sides| {
-                format!(", energy {:.9e}, {}", branch.energy.unwrap_or(f64::NAN), sides.said())
+                let (energy, off) = (branch.energy.unwrap_or(f64::NAN), rounded(sides.farthest.to_degrees(), 3));
+                let said = RestSides::said([sides.on_rest_side, sides.hinges]);
+                format!(", energy {energy:.9e}, {said}, at most {off} degrees off")
             });
-            format!("{end}{folded}, {}{}", counted(branch.steps, "state"), events.collect::<String>())
+            let stable = if branch.stable { "" } else { ", not all stable" };
+            format!("{end}{folded}, {}{stable}{}", counted(branch.steps, "state"), events.collect::<String>())
         });
         let said = branches.collect::<Vec<_>>().join("; ");
         let listed = |value: &f64| if self.driven == "rest" { percent(*value) } else { rounded(*value, 6) };

@@ -145,7 +145,7 @@ impl RelaxSummary {
         };
         let left = self.branch_choice.map_or(String::new(), |BranchChoice { hinges, on_rest_side, soft_bars }| {
             let by = if soft_bars { ", by bars that stretch at first" } else { "" };
-            format!(", the start was left with {}{by}", RestSides { hinges, on_rest_side }.said())
+            format!(", the start was left with {}{by}", RestSides::said([on_rest_side, hinges]))
         });
         format!(
             "energy {:.9e}, {iterations}, {residuals}{by_way_of}{unstable}{crossing}{branching}{left}",

@@ -4,6 +4,7 @@
 use crate::common::{Scene, Testing, distance, mesh, patch};
 use foldwell::analysis::relax::{IntrinsicFailure, Method, RelaxError, RelaxOptions, Relaxed, relax_from};
 use foldwell::kinematics::folding_modes;
+use foldwell::math::Vec3;
 use foldwell::model::intrinsic::Unsupported;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};
 use foldwell::numerics::parallel::Threads;
@@ -117,7 +118,7 @@ fn a_long_strip() {
 }
 
 /// Claim: where fold angles cannot be the unknowns, the reason is said and positions are used: flat vertices and rigid
-/// quadrilaterals make the closure dependent, pins and loads act on positions, a torus is no patch.
+/// quadrilaterals make the closure dependent, pins that hold the shape act on positions, a torus is no patch.
 #[test]
 fn what_has_no_form_in_fold_angles() {
     let flat = patch("open-flat", [4, 4]);
@@ -133,12 +134,46 @@ fn what_has_no_form_in_fold_angles() {
     assert!((found.state.total() - expected.state.total()).abs() <= 1e-9 * expected.state.total());
     let star = patch("open-star", [3, 3]);
     let creases = Terms::bars_and_creases(RIGID, 1.0, star.rest_per_hinge(0.05, 1));
-    let pinned = relaxed(&star, &Terms { pins: vec![(0, [true; 3])], ..creases }, Method::Intrinsic).unwrap();
-    assert_eq!(pinned.intrinsic_failure, Some(IntrinsicFailure::Unsupported(Unsupported::PinsOrLoads)));
+    let pins = vec![(0, [true; 3]), (1, [true; 3])];
+    let pinned = relaxed(&star, &Terms { pins, ..creases }, Method::Intrinsic).unwrap();
+    assert_eq!(pinned.intrinsic_failure, Some(IntrinsicFailure::Unsupported(Unsupported::Pins)));
     let torus = Assembly::torus(mesh("open-star"), [2, 2]).build().unwrap();
     let creases = Terms::bars_and_creases(RIGID, 1.0, torus.rest_per_hinge(0.05, 1));
     let found = relaxed(&torus, &creases, Method::Intrinsic).unwrap();
     assert_eq!(found.intrinsic_failure, Some(IntrinsicFailure::Unsupported(Unsupported::Domain)));
+}
+
+/// Claim: pins that hold rigid motions alone leave the number of steps as that of a free patch, where moved vertices take
+/// more than twice as many; the energy is the same, and pinned coordinates stay. With a load at the other corner,
+/// towards which such a patch turns, it takes no more than 15. Tolerance: energies as for free patches, rounding of
+/// coordinates.
+#[test]
+fn pins_of_rigid_motions() {
+    let assembly = patch("open-star", [12, 12]);
+    let whole = along_mode(&assembly, [0.0, 0.2, 0.0], RIGID);
+    let free = relaxed(&assembly, &whole, Method::Auto).unwrap();
+    assert!(free.history.iter().any(|step| step.intrinsic));
+    let last = assembly.drawn().coordinates.len() / 3 - 1;
+    let corner = vec![(0, [true; 3])];
+    let three = vec![(0, [true; 3]), (last, [false, true, true]), (last / 2, [false, false, true])];
+    for (name, pins) in [("corner", corner.clone()), ("three", three)] {
+        let terms = Terms { pins: pins.clone(), ..whole.clone() };
+        let found = relaxed(&assembly, &terms, Method::Auto).unwrap();
+        let moved = relaxed(&assembly, &terms, Method::Vertices).unwrap();
+        assert!(found.iterations <= free.iterations + 1, "{name}: {} for {}", found.iterations, free.iterations);
+        assert!(moved.iterations > 2 * found.iterations, "{name}: {} by vertices", moved.iterations);
+        let [expected, energy] = [&free, &found].map(|relaxed| relaxed.state.total());
+        assert!((energy - expected).abs() <= 1e-9 * expected, "{name}: {energy} for {expected}");
+        for (vertex, axes) in pins {
+            for axis in (0..3).filter(|&axis| axes[axis]) {
+                let place = [&found.state.coordinates, &assembly.drawn().coordinates].map(|all| all[3 * vertex + axis]);
+                assert!((place[0] - place[1]).abs() <= 1e-12, "{name}: {place:?}");
+            }
+        }
+    }
+    let terms = Terms { pins: corner, loads: vec![(last, Vec3::new(0.0, 0.0, 1e-3))], ..whole };
+    let loaded = relaxed(&assembly, &terms, Method::Auto).unwrap();
+    assert!(loaded.iterations <= 15 && loaded.negative_eigenvalues == Some(0), "{}", loaded.iterations);
 }
 
 /// Claim: results have the same bits for any number of threads.

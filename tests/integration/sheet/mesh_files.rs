@@ -94,6 +94,20 @@ fn lines_side_by_side_stay_two() {
     );
 }
 
+/// Claim: where a gap in the rim asks for a larger distance of merging, three creases that miss one point by four times as
+/// much as that gap meet there too, since all other points are three hundred times as far apart; where no gap asks for it
+/// their sliver is kept. Source: by hand.
+#[test]
+fn points_much_nearer_than_all_others_are_one() {
+    let drawing = |corner: f64| {
+        let rim = format!("1 0 0 600 0\n1 {corner} 0 600 600\n1 600 600 0 600\n1 0 600 0 0\n");
+        read(&format!("{rim}2 0 0 600 600\n2 600 0 0 600\n3 300.7 0 300.7 600\n")).unwrap()
+    };
+    let [careless, exact] = [600.19, 600.0].map(drawing);
+    assert_eq!((careless.vertices.len(), careless.polygons.len()), (7, 6));
+    assert_eq!((exact.vertices.len(), exact.polygons.len()), (9, 7));
+}
+
 /// Claim: three creases that miss one point of the square by 1.1 distances of merging end in one vertex there, as do
 /// two creases that end beside a corner; where a gap is wider, the message gives its ends and both distances. Source:
 /// by hand; rounds that double the pieces of the three lines do not end.

@@ -6,7 +6,7 @@
 use crate::common::{Scene, eigenvalues};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
 use foldwell::analysis::modes::modes;
-use foldwell::model::{Assembly, AssemblyError};
+use foldwell::model::{Assembly, AssemblyError, Bilinear, OfStrain};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::symmetry::symmetries;
 use foldwell::sheet::{EdgeKey, EdgeKind, Glue, fold};
@@ -208,33 +208,41 @@ fn chain(bars: usize, length: f64, span: f64) -> Sheet {
     fold::parse(&text, "chain.fold").unwrap()
 }
 
-/// Claim: a chain of equal rigid bars without faces hangs as statics say: with the weight 1 at each joint and the pull
-/// `h`, bar `k` of `n` has the slope `(k - (n - 1)/2) / h`, and `h` is that for which the bars reach over the span.
-/// Tolerance: 1e-9, where residuals of 1e-12 end.
+/// Claim: a chain of equal bars without faces, rigid ones or cables that stretch, hangs as statics say: with the weight 1
+/// at each joint and the pull `h`, bar `k` of `n` has the slope `(k - (n - 1)/2) / h` and is longer by its force over
+/// `EA`, and `h` is that for which the bars reach over the span. Tolerance: 1e-9, where residuals of 1e-12 end.
 #[test]
 fn a_hanging_chain() {
     let (bars, span, length) = (10, 2.0, 3.0);
-    let sheet = chain(bars, length, span);
-    let mut builder = Assembly::patch(sheet, [1, 1]).bars(RIGID);
     let each = length / bars as f64;
-    builder = builder.rest_lengths(foldwell::model::RestLengths::PerEdge(vec![each; bars]));
-    builder = builder.pin(0, HOME, [true; 3]).pin(bars, HOME, [true; 3]);
-    for joint in 1..bars {
-        builder = builder.load(joint, HOME, [0.0, 0.0, -1.0]);
-    }
-    let slope = |k: usize, pull: f64| (k as f64 - (bars - 1) as f64 / 2.0) / pull;
-    let reach = |pull: f64| (0..bars).map(|k| each / slope(k, pull).hypot(1.0)).sum::<f64>();
-    let (mut low, mut high) = (1e-3, 1e3);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if reach(middle) < span { low = middle } else { high = middle }
-    }
-    let state = relax(&builder.build().unwrap()).unwrap().state;
-    let mut depth = 0.0;
-    for k in 0..bars - 1 {
-        depth += each * slope(k, low) / slope(k, low).hypot(1.0);
-        let found = state.coordinates[3 * (k + 1) + 2];
-        assert!((found - depth).abs() < 1e-9, "joint {}: {found} {depth}", k + 1);
+    for stiffness in [RIGID, 100.0] {
+        let mut builder = Assembly::patch(chain(bars, length, span), [1, 1]).bars(stiffness);
+        if stiffness.is_finite() {
+            builder = builder.bar_law(OfStrain(Bilinear { ratio: 0.0, at: [0.0, f64::INFINITY] }));
+        }
+        builder = builder.rest_lengths(foldwell::model::RestLengths::PerEdge(vec![each; bars]));
+        builder = builder.pin(0, HOME, [true; 3]).pin(bars, HOME, [true; 3]);
+        for joint in 1..bars {
+            builder = builder.load(joint, HOME, [0.0, 0.0, -1.0]);
+        }
+        let slope = |k: usize, pull: f64| (k as f64 - (bars - 1) as f64 / 2.0) / pull;
+        let along = |k: usize, pull: f64| {
+            let steepness = slope(k, pull).hypot(1.0);
+            each * (1.0 + pull * steepness / stiffness) / steepness
+        };
+        let reach = |pull: f64| (0..bars).map(|k| along(k, pull)).sum::<f64>();
+        let (mut low, mut high) = (1e-3, 1e3);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if reach(middle) < span { low = middle } else { high = middle }
+        }
+        let state = relax(&builder.build().unwrap()).unwrap().state;
+        let mut depth = 0.0;
+        for k in 0..bars - 1 {
+            depth += along(k, low) * slope(k, low);
+            let found = state.coordinates[3 * (k + 1) + 2];
+            assert!((found - depth).abs() < 1e-9, "joint {} of {stiffness}: {found} {depth}", k + 1);
+        }
     }
 }
 

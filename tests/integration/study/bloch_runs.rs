@@ -195,7 +195,8 @@ fn what_cannot_be_done() {
     }
 }
 
-/// Claim: a state that is not of one cell is refused, and bands of one with a lock; a state of springs has bands; a
+/// Claim: a state that is not of one cell is refused, and bands of one with a lock, or of the drawn one with a law that is
+/// no spring at rest; a state of springs has bands; a
 /// sheet without a determinant is a study that failed, and polygons that bend have one.
 #[test]
 fn states_that_cannot_be_asked() {
@@ -216,6 +217,13 @@ fn states_that_cannot_be_asked() {
     for (domain, keys, expected) in cases {
         relaxed(domain, keys).refused(expected);
     }
+    let with_law = |law: &str| {
+        let bars = format!("bars = {{ stiffness = 100.0, law = {law} }}\ncreases = {{ stiffness = 1.0 }}");
+        scene(&format!("generate = {{ pattern = \"random\" }}\n[energy]\n{bars}"), "path = [[0, 0], [1, 0]]")
+    };
+    let cable = "{ kind = \"bilinear\", ratio = 0.0, at = [0.0, inf] }";
+    with_law(cable).refused("bands of the drawn state need springs at rest, and the law of the bars is none there");
+    with_law("{ kind = \"green-lagrange\" }").converged();
     let ran = relaxed("domain = \"torus\"", "").ran();
     let still = ran.bloch("a");
     assert_eq!((still.theta, still.order_at_origin), (Some([0.0; 2]), Some(4)));

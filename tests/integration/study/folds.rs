@@ -124,6 +124,8 @@ fn hinges_on_the_other_side_are_said() {
     let said = folded.report.summary.studies[0].sentence();
     let words = format!("energy {:.9e}, 3 of 4 hinges on the side of their rest angles", branch.energy.unwrap());
     assert!(branch.energy > Some(1.0) && said.contains(&words), "{said}");
+    // the one on the other side is off by more than its own rest angle, 18 degrees
+    assert!(sides.farthest > 18f64.to_radians() && said.contains(" degrees off"), "{said}");
 }
 
 /// Claim: facets, whose rest angles are 0 but for rounding errors, are not counted among the hinges that fold to a side.
@@ -133,6 +135,7 @@ fn hinges_that_rest_flat_have_no_side() {
     let folded = folding("generate = { pattern = \"miura\" }\ncells = [3, 3]", "assigned").converged();
     let sides = folded.path("fold").branches[0].rest_sides.unwrap();
     assert_eq!((sides.hinges, sides.on_rest_side), (40, 40));
+    assert!(sides.farthest < 1e-6, "{}", sides.farthest);
 }
 
 /// Claim: two sheets in one drawing fold to 100 % as one of them does: where what is held against rotations is chosen anew,

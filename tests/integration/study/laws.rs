@@ -4,8 +4,8 @@ use crate::common::Scene;
 use foldwell::analysis::path::{PathEnd, PathOptions, follow_path};
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_around};
 use foldwell::model::{
-    Assembly, Bilinear, Builder, Drive, Driven, Formula, GreenLagrange, Law, Length, Measured, OfAngle, OfStrain,
-    Ogden, OwnTerm, Power, Site, Spring, Stiffening,
+    Assembly, AssemblyError, Bilinear, Builder, Drive, Driven, Formula, GreenLagrange, Law, Length, Measured, OfAngle,
+    OfStrain, Ogden, OwnTerm, Power, Site, Spring, Stiffening,
 };
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{EdgeKind, Sheet, fold};
@@ -37,8 +37,8 @@ type Given = fn(Builder) -> Builder;
 /// The force of a bar by its stretch, over `EA`.
 type Force = fn(f64) -> f64;
 
-/// Claim: a bar under a force is stretched as its law says, be it soft or 1e12 times stiffer. Source: the laws, force
-/// by stretch, as published. Tolerance: 1e-10 of the force, which is that of the residual; forces are known to 1e-10 of
+/// Claim: a bar under a force is stretched as its law says, be it soft or 1e12 times stiffer, and a stiff one stores the
+/// energy of a spring. Source: the laws, force by stretch, as published. Tolerance: 1e-10 of the force, which is that of the residual; forces are known to 1e-10 of
 /// themselves where strains are above 1e-3, and strains to rounding below.
 #[test]
 fn bars_are_stretched_by_their_law() {
@@ -65,8 +65,34 @@ fn bars_are_stretched_by_their_law() {
                 found.strain[bar]
             );
             assert!((found.tension[bar] - force).abs() <= 1e-9 * force.abs(), "{}", found.tension[bar]);
+            // of the length 2, a spring but for its strain
+            let energy = force * force / stiffness;
+            let off = (found.energy_bars / energy - 1.0).abs();
+            assert!(stiffness < 1e6 || off <= 5.0 * force.abs() / stiffness + 1e-9, "EA {stiffness:e}: {off:e}");
         }
     }
+}
+
+/// Claim: rigid bars of a law that has no force on one side of rest are refused, in a scene at the law, since a rigid cable
+/// would push; beside them soft ones, and rigid bars of laws with forces on both sides, are not.
+#[test]
+fn rigid_cables_are_refused() {
+    let built = |stiffness: f64, ratio| {
+        let law = OfStrain(Bilinear { ratio, at: [0.0, f64::INFINITY] });
+        Assembly::patch(hinge(), [1, 1]).bars(stiffness).bar_law(law).build().map(|_| ())
+    };
+    assert_eq!(built(RIGID, 0.0), Err(AssemblyError::RigidSlack { term: "bars" }));
+    assert_eq!((built(RIGID, 0.1), built(1e12, 0.0)), (Ok(()), Ok(())));
+    let scene = |creases: &str| {
+        let energy = format!("[energy]\nbars = {{ stiffness = 1e3 }}\ncreases = {{ {creases} }}\n");
+        let study = "[[study]]\nname = \"relaxed\"\nkind = \"relax\"\n";
+        Scene::on("generate = { pattern = \"miura\", fold = 0.4 }\ncells = [2, 2]", &(energy + study))
+    };
+    let slack = "{ kind = \"bilinear\", ratio = 0.0, at = [0.0, inf] }";
+    scene(&format!("stiffness = {{ M = 1.0, V = inf }}, law = {slack}")).refused("what is rigid would be slack");
+    scene(&format!("stiffness = {{ M = 1.0, V = inf }}, law = {{ M = {slack} }}")).converged();
+    let energy = |law: &str| scene(&format!("stiffness = 1.0, rest = 0.5{law}")).converged().relaxed("relaxed").energy;
+    assert_eq!(energy(", law = { kind = \"linear\" }").total, energy("").total);
 }
 
 /// Claim: a stiffening hinge that rests beyond its limit stops where its torque vanishes, short of the full fold, be it

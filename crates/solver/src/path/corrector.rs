@@ -88,6 +88,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             }
             polished += usize::from(small);
             last = length;
+            self.newton_steps += 1;
             at.add(1.0, &step);
         }
         Ok(None)
@@ -116,6 +117,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// Returns the state that a step leads to if its residuals are smaller, otherwise the state as it is.
     fn bettered(&mut self, kept: Corrected, step: &Rates) -> Corrected {
         let mut at = kept.at.clone();
+        self.newton_steps += 1;
         at.add(1.0, step);
         self.problem.set_parameter(at.parameter);
         self.bordered.linearize(self.problem, &at.x, &at.tension);

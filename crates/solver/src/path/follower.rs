@@ -39,13 +39,15 @@ pub(super) struct Follower<'a, P: ParametrizedProblem> {
     pub origin: f64,
     /// Largest rate of the conjugate quantity, and largest product of it and the parameter's way, on the path.
     pub largest: [f64; 2],
+    /// Number of Newton steps so far, those to states that were refused included.
+    pub newton_steps: usize,
 }
 
 impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     /// Makes room for the systems of a problem.
     pub fn new(problem: &'a mut P, settings: PathSettings) -> Found<Self> {
         let (bordered, kinks, origin) = (Bordered::new(problem)?, problem.may_have_kinks(), problem.parameter());
-        Ok(Self { problem, bordered, settings, kinks, origin, largest: [0.0; 2] })
+        Ok(Self { problem, bordered, settings, kinks, origin, largest: [0.0; 2], newton_steps: 0 })
     }
 
     /// Takes a state into account in the largest values of the path.

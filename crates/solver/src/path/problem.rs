@@ -89,7 +89,7 @@ pub struct PathState {
     pub work_along: f64,
     /// Rates of the parameter and of the conjugate quantity up to which they are rounding errors.
     pub rate_errors: [f64; 2],
-    /// Number of Newton steps that led to the state.
+    /// Number of Newton steps that led to the state, those to states that were refused before it included.
     pub iterations: usize,
     /// How the state is written; see [`ParametrizedProblem::choice`].
     pub choice: Vec<f64>,

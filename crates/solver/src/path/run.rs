@@ -72,7 +72,13 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             states.try_fold(true, |on, entry| Ok::<_, PathError>(on && self.was_found(entry, &mut way)?))?
         };
         while goes_on {
-            let (entry, watched) = self.step(number, &way)?;
+            let before = self.follower.newton_steps;
+            let (mut entry, watched) = self.step(number, &way)?;
+            // the last state counts what was refused on the way to it, and what the states between cost
+            let others: usize = entry.states.iter().rev().skip(1).map(|marked| marked.state.iterations).sum();
+            if let Some(last) = entry.states.last_mut() {
+                last.state.iterations = self.follower.newton_steps.saturating_sub(before + others);
+            }
             goes_on = self.found(entry, Some(watched), &mut way);
         }
         Ok(())

@@ -6,6 +6,7 @@ use crate::{HessianKind, Layout, Linearization, SoftElement};
 use foldwell_numerics::sparse::Cliques;
 use foldwell_numerics::vector::max_abs;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Half span, height and stiffness EA of the truss.
 const HALF_SPAN: f64 = 1.0;
@@ -346,6 +347,32 @@ fn branch_points_beside_limit_points_are_located() {
         let off = places.iter().map(|x| (x.abs() - 1.0 + B).abs()).fold(0.0, f64::max);
         assert!(off <= 1e-3 * B, "{max_step}: {places:?}");
     }
+}
+
+/// Claim: the Newton steps of a path count those of steps that were refused: of a curve that bends ever more sharply, which
+/// long steps miss, they are at least half of the evaluations, of which there is one for each Newton step and one or two
+/// for each state that is asked for. Source: the curve `y = sin(u^2)`, `u = load`.
+#[test]
+fn refused_steps_are_counted() {
+    static EVALUATIONS: AtomicUsize = AtomicUsize::new(0);
+    let mut wave = Textbook::of_energy(
+        2,
+        |x, load| {
+            EVALUATIONS.fetch_add(1, Ordering::Relaxed);
+            let (u, sine, cosine) = (x[0], (x[0] * x[0]).sin(), (x[0] * x[0]).cos());
+            let (off, slope) = (x[1] - sine, 2.0 * u * cosine);
+            let bent = slope * slope - off * (2.0 * cosine - 4.0 * u * u * sine);
+            let energy = 0.5 * (u - load).powi(2) + 0.5 * off * off;
+            (energy, vec![u - load - off * slope, off], vec![1.0 + bent, -slope, 1.0])
+        },
+        |_| [vec![-1.0, 0.0], vec![]],
+    );
+    let settings = PathSettings { target: 4.0, max_step: 2.0, ..PathSettings::default() };
+    let branches = follow(&mut wave, vec![0.0, 0.0], &settings);
+    let steps: usize = branches[0].states.iter().map(|marked| marked.state.iterations).sum();
+    let evaluations = EVALUATIONS.load(Ordering::Relaxed);
+    println!("{steps} of {evaluations}, {} states", branches[0].states.len());
+    assert!(2 * steps >= evaluations, "{steps} of {evaluations}");
 }
 
 /// Claim: a state is found on its branch, and not on another one at a distance of a thousandth of a step. Tolerance:

@@ -52,7 +52,7 @@ pub(crate) fn begin(run: &mut Run<'_>, mut start: Start) -> Ending {
 /// Whether the method leaves the choice to try fold angles where positions failed, and they have not been tried.
 pub(super) fn may_help(run: &Run<'_>, ending: &Ending) -> bool {
     let is_open = run.method == Method::Auto && run.intrinsic_failure.is_none() && !run.is_restarted();
-    is_open && has_failed(run, ending) && run.model.is_free_patch()
+    is_open && has_failed(run, ending) && run.model.takes_any_shape()
 }
 
 /// The equilibrium that fold angles reach from the same start; the failure in positions where they reach none.
@@ -113,7 +113,7 @@ fn form(run: &Run<'_>, start: &Start) -> Result<Option<IntrinsicModel>, Unsuppor
         Method::Vertices => Ok(None),
         Method::Intrinsic => IntrinsicModel::new(&run.model).map(Some),
         // a start that knows its tensions is next to a solution
-        Method::Auto if start.tension.is_some() || !run.model.is_free_patch() => Ok(None),
+        Method::Auto if start.tension.is_some() || !run.model.takes_any_shape() => Ok(None),
         Method::Auto => {
             let form = IntrinsicModel::new(&run.model).ok();
             Ok(form.filter(|form| form.interior_vertices() >= FEWEST_VERTICES))

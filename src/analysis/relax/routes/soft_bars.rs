@@ -58,7 +58,7 @@ impl BranchChoice {
     /// neither flat nor singular, is flat still, or all rest angles are zero.
     pub(crate) fn of(model: &Model, x: &[f64], start: &[f64], soft_bars: bool) -> Option<Self> {
         let left = is_flat(start) && !is_flat(&model.configuration(x, None).angles);
-        let [hinges, on_rest_side] = if left || soft_bars { model.hinges_on_rest_side(x) } else { [0, 0] };
+        let (hinges, on_rest_side, _) = if left || soft_bars { model.hinges_on_rest_side(x) } else { (0, 0, 0.0) };
         (hinges > 0).then_some(Self { hinges, on_rest_side, soft_bars })
     }
 }
