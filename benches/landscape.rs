@@ -13,7 +13,7 @@
 mod common;
 
 use common::{in_turns, measuring};
-use foldwell::analysis::landscape::sphere::{Direction, Net, samples};
+use foldwell::analysis::landscape::sphere::{Direction, SphereNet, samples};
 use foldwell::analysis::landscape::{HeldSheet, TaylorPaths};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
@@ -35,7 +35,7 @@ fn main() {
     let edges = patch.tiling().edges.iter().zip(patch.drawn_angles());
     let bent: Vec<f64> = edges.map(|(edge, angle)| angle + AMPLITUDE * rates[edge.edge]).collect();
     let bent = patch.with_terms(Terms::bars_and_creases(RIGID, 1.0, bent));
-    let points: Vec<Vec3> = Net::new(rings).directions.iter().map(Direction::point).collect();
+    let points: Vec<Vec3> = SphereNet::new(rings).directions.iter().map(Direction::point).collect();
     let relaxation = || {
         let clock = Instant::now();
         for _ in 0..20 {

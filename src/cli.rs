@@ -26,7 +26,7 @@ use foldwell::sheet::pattern::Cleanup;
 use foldwell::sheet::similar::most_similar;
 
 use crate::parameters;
-use ending::{Failure, closed, report, say};
+use ending::{CommandFailure, closed, report, say};
 use runs::{Told, run_scenes};
 
 /// Energy wells of folding sheets.
@@ -217,7 +217,7 @@ fn with_suggestion(mut error: clap::Error) -> clap::Error {
     error
 }
 
-fn dispatch(command: Command) -> Result<u8, Failure> {
+fn dispatch(command: Command) -> Result<u8, CommandFailure> {
     match command {
         Command::Run { scenes, out, mut set, threads, resume, shard, frame, quiet, json } => {
             set.extend(frame.map(Setting::of_frame));

@@ -3,9 +3,9 @@
 //! Nothing is shown if standard error is not a terminal, nor during the first second of a study. The remaining time is
 //! estimated from the number of steps if that is known.
 //!
-//! The work runs on a separate thread ([`Watch::over`]). After Ctrl-C it stops between two steps; if a step takes long,
-//! the program ends without waiting for it. Work that has stopped, or has taken all its steps, is waited for, however long
-//! it takes to draw and write what was computed: a second Ctrl-C ends the program at once.
+//! The work runs on a separate thread ([`ProgressWatch::over`]). After Ctrl-C it stops between two steps; if a step
+//! takes long, the program ends without waiting for it. Work that has stopped, or has taken all its steps, is waited
+//! for, however long it takes to draw and write what was computed: a second Ctrl-C ends the program at once.
 
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
@@ -26,20 +26,20 @@ const GLANCE: Duration = Duration::from_millis(20);
 const STACK: usize = 8 << 20;
 
 /// Shows the progress of a run, and stops it after Ctrl-C.
-pub(crate) struct Watch {
+pub(crate) struct ProgressWatch {
     interrupted: Arc<AtomicBool>,
     /// Whether the work has been told to stop, or has taken all steps.
     ending: AtomicBool,
-    shown: Option<Mutex<Shown>>,
+    shown: Option<Mutex<ShownProgress>>,
 }
 
-struct Shown {
+struct ShownProgress {
     bar: ProgressBar,
     study: String,
     since: Instant,
 }
 
-impl Watch {
+impl ProgressWatch {
     /// Starts to listen for Ctrl-C; shows nothing if `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         let interrupted = Arc::new(AtomicBool::new(false));
@@ -50,7 +50,7 @@ impl Watch {
                 std::process::exit(130); // the second Ctrl-C does not wait for the step to end
             }
         });
-        let shown = (!quiet && std::io::stderr().is_terminal()).then(|| Mutex::new(Shown::new()));
+        let shown = (!quiet && std::io::stderr().is_terminal()).then(|| Mutex::new(ShownProgress::new()));
         Self { interrupted, ending: AtomicBool::new(false), shown }
     }
 
@@ -121,7 +121,7 @@ impl Watch {
     }
 }
 
-impl Shown {
+impl ShownProgress {
     fn new() -> Self {
         Self { bar: ProgressBar::hidden(), study: String::new(), since: Instant::now() }
     }
@@ -174,10 +174,10 @@ mod tests {
     /// Claim: without a terminal nothing is shown; steps go on until Ctrl-C is pressed and stop then.
     #[test]
     fn a_watch_stops_after_an_interrupt() {
-        let watch = Watch {
+        let watch = ProgressWatch {
             interrupted: Arc::default(),
             ending: AtomicBool::new(false),
-            shown: Some(Mutex::new(Shown::new())),
+            shown: Some(Mutex::new(ShownProgress::new())),
         };
         let progress = Progress { study: "a".into(), step: 1, of: None, residual: 0.1, part: f64::NAN };
         assert_eq!(watch.step(&progress), ControlFlow::Continue(()));
@@ -190,12 +190,13 @@ mod tests {
     /// left alone and is told to stop. If it were not left alone, the second work here would never end.
     #[test]
     fn work_is_waited_for_unless_interrupted() {
-        let watch = Arc::new(Watch { interrupted: Arc::default(), ending: AtomicBool::new(false), shown: None });
+        let watch =
+            Arc::new(ProgressWatch { interrupted: Arc::default(), ending: AtomicBool::new(false), shown: None });
         assert_eq!(watch.over(|_| 7).unwrap(), Some(7));
         let lost = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| watch.over(|_| -> u8 { panic!("lost") })));
         assert_eq!(lost.unwrap_err().downcast_ref::<&str>(), Some(&"lost"));
         let (hold, held) = channel::<()>();
-        let stuck = move |watch: &Watch| {
+        let stuck = move |watch: &ProgressWatch| {
             watch.interrupted.store(true, Ordering::Relaxed);
             held.recv().is_ok()
         };
@@ -209,8 +210,9 @@ mod tests {
     #[test]
     fn work_that_has_stopped_may_write_for_long() {
         for of in [None, Some(0)] {
-            let watch = Arc::new(Watch { interrupted: Arc::default(), ending: AtomicBool::new(false), shown: None });
-            let writes_for_long = move |watch: &Watch| {
+            let watch =
+                Arc::new(ProgressWatch { interrupted: Arc::default(), ending: AtomicBool::new(false), shown: None });
+            let writes_for_long = move |watch: &ProgressWatch| {
                 watch.interrupted.store(of.is_none(), Ordering::Relaxed);
                 let stopped =
                     watch.step(&Progress { study: "a".into(), step: 1, of, residual: 0.1, part: f64::NAN }).is_break();

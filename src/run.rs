@@ -43,7 +43,7 @@ pub use report::{RunOptions, RunReport};
 pub use single::{run, run_and_keep};
 pub use summary::{SheetSummary, Summary};
 pub use sweep::{
-    PointStatus, Row, Shard, ShardError, SweepReport, SweepSummary, UnansweredPoint, assemble, assemble_at,
+    PointStatus, Shard, ShardError, SweepReport, SweepRow, SweepSummary, UnansweredPoint, assemble, assemble_at,
     check_scenes, points, rows, run_point, sweep, table_of,
 };
 pub use view::view;

@@ -4,7 +4,7 @@ use crate::arrays::{KeptArrays, kept, unkept};
 use crate::errors::raise;
 use crate::run::Given;
 use crate::watch::watched;
-use foldwell::run::{self, Observer, Row, RunError, RunOptions};
+use foldwell::run::{self, Observer, RunError, RunOptions, SweepRow};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -88,7 +88,7 @@ impl Sweep {
 
     /// Returns the table of these rows as CSV, and the summary as JSON.
     fn table(&self, py: Python<'_>, rows: Vec<Option<String>>) -> PyResult<(String, String)> {
-        let rows = rows.iter().map(|row| serde_json::from_str::<Row>(row.as_ref()?).ok()).collect();
+        let rows = rows.iter().map(|row| serde_json::from_str::<SweepRow>(row.as_ref()?).ok()).collect();
         let (table, summary) = run::table_of(&self.sweep, rows).map_err(|error| raise(py, &error))?;
         Ok((table, serde_json::to_string(&summary).unwrap_or_default()))
     }

@@ -59,7 +59,7 @@ pub struct Stationary {
 }
 
 /// The energy along the closed states at one of them, to second order in coordinates along its tangents.
-struct Along {
+struct EnergyExpansion {
     /// Rates of the folding edges, orthonormal columns.
     tangents: DenseMatrix,
     /// Falls of the energy.
@@ -155,7 +155,7 @@ impl Springs {
     }
 
     /// The energy along the closed states.
-    fn along(&self, closing: &Closing<'_>, x: &[f64]) -> Option<Along> {
+    fn along(&self, closing: &Closing<'_>, x: &[f64]) -> Option<EnergyExpansion> {
         let folding = self.closure.folding_edges();
         let angles = closing.angles(x);
         let NullSpace { basis: tangents, singular_values, rank, .. } = self.closure.motions(&angles).ok()?;
@@ -172,11 +172,11 @@ impl Springs {
         let second = self.closure.second_order(&angles, &spread);
         lambda.iter().zip(&second).for_each(|(lambda, part)| hessian += part * (2.0 * lambda));
         let pull = tangents.tr_mul(&right);
-        Some(Along { tangents, pull, hessian, least })
+        Some(EnergyExpansion { tangents, pull, hessian, least })
     }
 }
 
-impl Along {
+impl EnergyExpansion {
     /// Newton's step of the angles.
     fn step(&self) -> Option<DVector<f64>> {
         if self.tangents.ncols() == 0 {

@@ -3,7 +3,7 @@
 use crate::kinematics::Shape;
 use crate::kinematics::metric::LatticeFrame;
 use crate::math::Vec3;
-use crate::model::{Domain, Drawn, Element, Memory, Model, TermKind, Turns};
+use crate::model::{Domain, Drawn, Element, Memory, Model, ScrewTurns, TermKind};
 use crate::solver::Problem;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -231,7 +231,7 @@ pub(crate) fn cylinder(drawn: &Drawn, x: &[f64]) -> Option<Cylinder> {
 /// The signed curvature, and the turns of the two lattice vectors about one direction of the axis; zero where nothing
 /// turns.
 fn curvature_and_turns(domain: &Domain, x: &[f64]) -> (f64, [f64; 2]) {
-    if let Some(Turns { kappa, theta, .. }) = domain.turns(x) {
+    if let Some(ScrewTurns { kappa, theta, .. }) = domain.turns(x) {
         return (kappa / (1.0 - kappa * x[2]), theta);
     }
     let (Some([turns, shifts]), Domain::Tube { counterclockwise, .. }) = (domain.tube_motions(x), domain) else {

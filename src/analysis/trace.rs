@@ -14,11 +14,11 @@ mod state;
 use super::tube::SeamPlace;
 use crate::kinematics::{Closing, Closure, Embedding, Ray, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
-use crate::solver::continuation::{CurveOptions, End, Event, Point, Trajectory, follow};
+use crate::solver::continuation::{CurveOptions, CurvePoint, End, Event, Trajectory, follow};
 pub(crate) use curve::TURNING;
 use curve::{CLOSED, CREASE_ANGLE, CURVATURE, INTERSECTION, Watched};
 pub use error::TraceError;
-use start::Start;
+use start::TraceStart;
 pub(crate) use state::Intersects;
 pub use state::{Folded, Stop};
 use std::f64::consts::TAU;
@@ -74,7 +74,7 @@ pub fn trace(
     assembly: &Assembly,
     options: &TraceOptions,
     intersects: Option<Intersects<'_>>,
-    observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
+    observe: &mut dyn FnMut((usize, i8), &CurvePoint) -> bool,
 ) -> Result<Vec<Traced>, TraceError> {
     let found = start::start(assembly)?;
     let count = found.rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
@@ -122,8 +122,8 @@ pub fn trace(
 fn along(
     (closing, watched): (&mut Closing<'_>, &mut Watched<'_, '_>),
     options: &TraceOptions,
-    (ray, all): (&Ray, &Start<'_>),
-    observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
+    (ray, all): (&Ray, &TraceStart<'_>),
+    observe: &mut dyn FnMut((usize, i8), &CurvePoint) -> bool,
 ) -> Traced {
     let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
     let start = closing.folding(&all.angles);
@@ -140,7 +140,7 @@ fn along(
     };
     watched.known.clear();
     let mut indicators =
-        |closing: &mut Closing<'_>, point: &Point, out: &mut Vec<f64>| watched.indicators(closing, point, out);
+        |closing: &mut Closing<'_>, point: &CurvePoint, out: &mut Vec<f64>| watched.indicators(closing, point, out);
     let found = follow(closing, start, leaving, &options, &mut indicators, &mut |point| observe(branch, point));
     let Trajectory { points, events, mut end } = found;
     let states = watched.states(closing, &points, &mut || observe(branch, &points[0]));

@@ -23,7 +23,7 @@ const LONGEST_LINE: usize = 1000;
 
 /// The reasons for which a command failed.
 #[derive(Debug, Error)]
-pub(super) enum Failure {
+pub(super) enum CommandFailure {
     #[error(transparent)]
     Run(#[from] RunError),
     #[error(transparent)]
@@ -43,7 +43,7 @@ pub(super) enum Failure {
     Thread(io::Error),
 }
 
-impl Failure {
+impl CommandFailure {
     /// Returns the exit status.
     pub(super) fn exit_status(&self) -> u8 {
         match self {
@@ -55,20 +55,20 @@ impl Failure {
 }
 
 /// Prints on standard output; it is not an error if the reader has closed it.
-pub(super) fn say(text: &str) -> Result<u8, Failure> {
+pub(super) fn say(text: &str) -> Result<u8, CommandFailure> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_or_else(closed, |()| Ok(0))
 }
 
 /// Returns the end of a command whose text could not be printed.
-pub(super) fn closed(error: io::Error) -> Result<u8, Failure> {
-    if error.kind() == io::ErrorKind::BrokenPipe { Ok(0) } else { Err(Failure::StandardOutput(error)) }
+pub(super) fn closed(error: io::Error) -> Result<u8, CommandFailure> {
+    if error.kind() == io::ErrorKind::BrokenPipe { Ok(0) } else { Err(CommandFailure::StandardOutput(error)) }
 }
 
 /// Prints a failure on standard error: description, place in the scene and proposed correction.
-pub(super) fn report(failure: &Failure) {
+pub(super) fn report(failure: &CommandFailure) {
     let text = match failure {
-        Failure::Run(error) => fancy(error),
+        CommandFailure::Run(error) => fancy(error),
         other => format!("Error: {other}\n"),
     };
     let cut = |line: &str| line.char_indices().nth(LONGEST_LINE).map_or(line.len(), |(end, _)| end);

@@ -8,9 +8,9 @@ use foldwell::run::{self, Ledger, RunOptions, RunReport, Shard, SweepReport};
 use foldwell::scene::SceneFile;
 use serde::{Serialize, Serializer};
 
-use super::ending::{FAILED, Failure, INTERRUPTED, say};
+use super::ending::{CommandFailure, FAILED, INTERRUPTED, say};
 use crate::describe::{describe_run, describe_sweep};
-use crate::progress::Watch;
+use crate::progress::ProgressWatch;
 
 /// Options for the messages of a run.
 pub(super) struct Told {
@@ -21,13 +21,13 @@ pub(super) struct Told {
 }
 
 /// What came of a scene.
-enum Found {
+enum SceneOutcome {
     Run(RunReport),
     Sweep(SweepReport),
 }
 
 /// As its summary.
-impl Serialize for Found {
+impl Serialize for SceneOutcome {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Run(report) => report.summary.serialize(serializer),
@@ -42,15 +42,15 @@ pub(super) fn run_scenes(
     scenes: Vec<(SceneFile, RunOptions)>,
     shard: Option<Shard>,
     told: &Told,
-) -> Result<u8, Failure> {
-    let watch = Arc::new(Watch::new(told.quiet));
+) -> Result<u8, CommandFailure> {
+    let watch = Arc::new(ProgressWatch::new(told.quiet));
     let (several, mut status) = (scenes.len() > 1, 0);
     let mut all = Vec::new();
     for (scene, options) in scenes {
         let found = if shard.is_some() || scene.scene.sweep.is_some() {
-            sweep_scene(scene, options, shard, &watch)?.map(Found::Sweep)
+            sweep_scene(scene, options, shard, &watch)?.map(SceneOutcome::Sweep)
         } else {
-            run_scene(scene, options, &watch)?.map(Found::Run)
+            run_scene(scene, options, &watch)?.map(SceneOutcome::Run)
         };
         let Some(found) = found else { return Ok(INTERRUPTED) };
         found.tell(told)?;
@@ -69,9 +69,9 @@ pub(super) fn run_scenes(
     Ok(status)
 }
 
-impl Found {
+impl SceneOutcome {
     /// Prints the results, and the remarks about the scene.
-    fn tell(&self, told: &Told) -> Result<(), Failure> {
+    fn tell(&self, told: &Told) -> Result<(), CommandFailure> {
         let notes = if let Self::Run(report) = self { &report.summary.notes[..] } else { &[] };
         for note in notes.iter().filter(|_| !told.quiet) {
             // an error is ignored: there is no other place for the message if standard error is closed
@@ -96,12 +96,16 @@ impl Found {
 }
 
 /// Computes the studies of one scene; `None` if Ctrl-C ended the run before its summary was begun.
-fn run_scene(scene: SceneFile, options: RunOptions, watch: &Arc<Watch>) -> Result<Option<RunReport>, Failure> {
+fn run_scene(
+    scene: SceneFile,
+    options: RunOptions,
+    watch: &Arc<ProgressWatch>,
+) -> Result<Option<RunReport>, CommandFailure> {
     let ledger = Ledger::default();
     let books = ledger.clone();
     let found = watch.over(move |watch| run::run(&scene, &options, &|step| watch.step(step), &books));
     watch.finish();
-    match found.map_err(Failure::Thread)? {
+    match found.map_err(CommandFailure::Thread)? {
         Some(report) => Ok(Some(report?)),
         None => Ok(ledger.close(true)?),
     }
@@ -120,12 +124,12 @@ fn sweep_scene(
     scene: SceneFile,
     options: RunOptions,
     shard: Option<Shard>,
-    watch: &Arc<Watch>,
-) -> Result<Option<SweepReport>, Failure> {
+    watch: &Arc<ProgressWatch>,
+) -> Result<Option<SweepReport>, CommandFailure> {
     let (file, of_sweep) = (scene.clone(), options.clone());
     let found = watch.over(move |watch| run::sweep(&file, &of_sweep, shard, &|step| watch.step(step)));
     watch.finish();
-    if let Some(report) = found.map_err(Failure::Thread)? {
+    if let Some(report) = found.map_err(CommandFailure::Thread)? {
         return Ok(Some(report?));
     }
     let out = options.out.clone().unwrap_or_default();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use foldwell::run::{self, RunError, RunOptions};
 use foldwell::scene::{self, SceneFile, Setting};
 
-use super::ending::Failure;
+use super::ending::CommandFailure;
 
 /// The word that stands for standard input.
 const STANDARD_INPUT: &str = "-";
@@ -20,16 +20,16 @@ pub(super) fn read(
     paths: &[PathBuf],
     settings: &[Setting],
     options: &RunOptions,
-) -> Result<Vec<(SceneFile, RunOptions)>, Failure> {
+) -> Result<Vec<(SceneFile, RunOptions)>, CommandFailure> {
     let mut folders: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     let mut scenes = Vec::new();
     for path in paths {
         let out = folder(path, options.out.as_deref(), paths.len() > 1);
         if options.out.is_none() && out.is_file() {
-            return Err(Failure::NoFolder(out));
+            return Err(CommandFailure::NoFolder(out));
         }
         if let Some(first) = folders.insert(out.clone(), path) {
-            return Err(Failure::SameFolder { first: first.clone(), second: path.clone(), out });
+            return Err(CommandFailure::SameFolder { first: first.clone(), second: path.clone(), out });
         }
         scenes.push((read_one(path, settings)?, RunOptions { out: Some(out), ..options.clone() }));
     }
@@ -51,11 +51,11 @@ fn folder(scene: &Path, out: Option<&Path>, several: bool) -> PathBuf {
     }
 }
 
-fn read_one(path: &Path, settings: &[Setting]) -> Result<SceneFile, Failure> {
+fn read_one(path: &Path, settings: &[Setting]) -> Result<SceneFile, CommandFailure> {
     if path != Path::new(STANDARD_INPUT) {
         return Ok(run::read_scene(path, settings)?);
     }
     let mut text = String::new();
-    io::stdin().read_to_string(&mut text).map_err(Failure::StandardInput)?;
+    io::stdin().read_to_string(&mut text).map_err(CommandFailure::StandardInput)?;
     Ok(scene::parse_set(&text, ITS_NAME, settings).map_err(RunError::from)?)
 }

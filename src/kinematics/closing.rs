@@ -40,11 +40,11 @@ impl AngleConditions for SpatiallyPeriodic<'_> {
 pub struct Closing<'a> {
     closure: &'a Closure,
     angles: Vec<f64>,
-    kept: Option<Kept<'a>>,
+    kept: Option<KeptConditions<'a>>,
 }
 
 /// The conditions that are kept beside closure, and storage for the two Jacobians.
-struct Kept<'a> {
+struct KeptConditions<'a> {
     conditions: &'a dyn AngleConditions,
     closure: DenseMatrix,
     rates: DenseMatrix,
@@ -59,7 +59,11 @@ impl<'a> Closing<'a> {
     /// Returns the equations followed by those of conditions.
     pub fn keeping(self, conditions: &'a dyn AngleConditions) -> Self {
         let closure = DenseMatrix::zeros(self.closure.rows(), self.closure.folding_edges().len());
-        let kept = Some(Kept { conditions, closure, rates: DenseMatrix::zeros(conditions.count(), self.angles.len()) });
+        let kept = Some(KeptConditions {
+            conditions,
+            closure,
+            rates: DenseMatrix::zeros(conditions.count(), self.angles.len()),
+        });
         Self { kept, ..self }
     }
 

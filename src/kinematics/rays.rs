@@ -87,9 +87,9 @@ impl Rays {
         let Section { dimension, expected, solutions, extraneous } = section;
         let line = |Solution { point, multiplicity, error, .. }: &Solution| {
             let x = DVector::from_iterator(point.len(), point.iter().map(|entry| entry.re));
-            Line { x, multiplicity: *multiplicity, error: *error }
+            RealSolution { x, multiplicity: *multiplicity, error: *error }
         };
-        let real: Vec<Line> = solutions.isolated.iter().filter(|solution| solution.real).map(line).collect();
+        let real: Vec<RealSolution> = solutions.isolated.iter().filter(|solution| solution.real).map(line).collect();
         let (real, singular) = match dimension {
             0 => (real, None),
             _ => among_continua(quadrics, dimension)?,
@@ -137,7 +137,7 @@ fn established(
 }
 
 /// A real solution.
-struct Line {
+struct RealSolution {
     x: DVector<f64>,
     multiplicity: usize,
     error: f64,
@@ -145,7 +145,10 @@ struct Line {
 
 /// Returns the real solutions that are isolated among the complex solutions on a curve or larger set, and the number of
 /// real singular points.
-fn among_continua(quadrics: &[DenseMatrix], dimension: usize) -> Result<(Vec<Line>, Option<usize>), KinematicsError> {
+fn among_continua(
+    quadrics: &[DenseMatrix],
+    dimension: usize,
+) -> Result<(Vec<RealSolution>, Option<usize>), KinematicsError> {
     if let [quadric] = quadrics {
         return vertex_of_cone(quadric);
     }
@@ -153,7 +156,7 @@ fn among_continua(quadrics: &[DenseMatrix], dimension: usize) -> Result<(Vec<Lin
         return Ok((Vec::new(), None));
     }
     let Some(points) = real_singular_points(quadrics)? else { return Ok((Vec::new(), None)) };
-    let line = |point: &SingularPoint| Line {
+    let line = |point: &SingularPoint| RealSolution {
         x: DVector::from_column_slice(&point.point),
         multiplicity: 2,
         error: point.error,
@@ -163,24 +166,28 @@ fn among_continua(quadrics: &[DenseMatrix], dimension: usize) -> Result<(Vec<Lin
 
 /// Returns the vertex of the cone of one quadric with one zero eigenvalue, which is isolated if the other eigenvalues
 /// have one sign, and the number of singular points.
-fn vertex_of_cone(quadric: &DenseMatrix) -> Result<(Vec<Line>, Option<usize>), KinematicsError> {
+fn vertex_of_cone(quadric: &DenseMatrix) -> Result<(Vec<RealSolution>, Option<usize>), KinematicsError> {
     let [positive, negative, zero] = signature(quadric)?;
     if zero != 1 {
         return Ok((Vec::new(), (zero == 0).then_some(0)));
     }
     let found = symmetric_eigen(quadric)?;
     let smallest = (0..found.values.len()).min_by(|&a, &b| found.values[a].abs().total_cmp(&found.values[b].abs()));
-    let line =
-        |k: usize| Line { x: found.vectors.column(k).into_owned(), multiplicity: 2, error: found.values[k].abs() };
+    let line = |k: usize| RealSolution {
+        x: found.vectors.column(k).into_owned(),
+        multiplicity: 2,
+        error: found.values[k].abs(),
+    };
     let alone = positive == 0 || negative == 0;
     Ok((smallest.filter(|_| alone).map(line).into_iter().collect(), Some(1)))
 }
 
 /// Returns two rays for each line, in the order of their numbers.
-fn numbered(modes: &DenseMatrix, lines: &[Line]) -> Vec<Ray> {
+fn numbered(modes: &DenseMatrix, lines: &[RealSolution]) -> Vec<Ray> {
     let grains =
         |direction: &DVector<f64>| -> Vec<i64> { direction.iter().map(|x| (x / GRAIN).round() as i64).collect() };
-    let mut directed: Vec<(DVector<f64>, &Line)> = lines.iter().map(|line| (positive(modes * &line.x), line)).collect();
+    let mut directed: Vec<(DVector<f64>, &RealSolution)> =
+        lines.iter().map(|line| (positive(modes * &line.x), line)).collect();
     directed.sort_by_cached_key(|(direction, _)| std::cmp::Reverse(grains(direction)));
     let rays = directed.iter().enumerate().flat_map(|(branch, (direction, line))| {
         [1, -1].map(|sign| Ray {

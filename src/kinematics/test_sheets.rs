@@ -207,7 +207,7 @@ impl Reference {
 }
 
 /// A face, and the cell into which it is translated from the sheet's list.
-struct Placed {
+struct PlacedFace {
     face: usize,
     cell: [i32; 2],
 }
@@ -218,8 +218,8 @@ struct Placed {
 pub(crate) fn put_together(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
     let first = sheet.triangles[0];
     let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
-    let mut queue = VecDeque::from([Placed { face: 0, cell: [0, 0] }]);
-    while let Some(Placed { face, cell }) = queue.pop_front() {
+    let mut queue = VecDeque::from([PlacedFace { face: 0, cell: [0, 0] }]);
+    while let Some(PlacedFace { face, cell }) = queue.pop_front() {
         let corners = sheet.triangles[face].corners.map(|corner| corner.translated(cell));
         for side in 0..3 {
             let [a, b, known] = [0, 1, 2].map(|k| corners[(side + k) % 3]);
@@ -251,13 +251,13 @@ fn hinge(sheet: &Sheet, [a, b, known, across]: [Corner; 4], at: &HashMap<Corner,
     at[&a] + along * foot + (normal * angle.sin() - inwards * angle.cos()) * height
 }
 
-fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
+fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> PlacedFace {
     for (face, triangle) in sheet.triangles.iter().enumerate() {
         for turn in 0..3 {
             let [from, to] = [triangle.corners[turn].shift, corners[0].shift];
             let cell = [to[0] - from[0], to[1] - from[1]];
             if (0..3).all(|k| triangle.corners[(turn + k) % 3].translated(cell) == corners[k]) {
-                return Placed { face, cell };
+                return PlacedFace { face, cell };
             }
         }
     }

@@ -28,7 +28,7 @@ use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::numerics::root::Search;
 use crate::sheet::{Seam, Sheet};
-use crate::solver::continuation::{CurveOptions, End, Point, follow};
+use crate::solver::continuation::{CurveOptions, CurvePoint, End, follow};
 use nalgebra::DVector;
 use std::f64::consts::TAU;
 
@@ -149,8 +149,8 @@ impl<'a> Tube<'a> {
         let start = self.embedding.drawn_angles().to_vec();
         let kept = self.keeping(Condition::Rise);
         let mut curve = Closing::new(&self.closure, start.clone()).keeping(&kept);
-        let turned = |point: &Point| self.defects(&point.x)[Condition::Turn as usize];
-        let mut stop = |_: &mut _, point: &Point, out: &mut Vec<f64>| out.push(turned(point));
+        let turned = |point: &CurvePoint| self.defects(&point.x)[Condition::Turn as usize];
+        let mut stop = |_: &mut _, point: &CurvePoint, out: &mut Vec<f64>| out.push(turned(point));
         let found = follow(&mut curve, start, ray, &options, &mut stop, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);

@@ -67,7 +67,7 @@ pub(crate) struct Walked<M> {
 
 /// A face at an edge, and the cell of the edge's first vertex if the face is in the position of the sheet's list.
 #[derive(Clone, Copy)]
-struct Seat {
+struct FaceAtEdge {
     face: usize,
     base: [i32; 2],
 }
@@ -118,7 +118,7 @@ impl FaceWalk {
 /// A plan under construction.
 struct WalkBuilder<'a> {
     sheet: &'a Sheet,
-    seats: &'a [[Option<Seat>; 2]],
+    seats: &'a [[Option<FaceAtEdge>; 2]],
     cells: Vec<Option<[i32; 2]>>,
     steps: Vec<Crossing>,
 }
@@ -192,13 +192,13 @@ fn first_with_vertex_0(sheet: &Sheet) -> Option<(usize, [i32; 2])> {
 }
 
 /// Returns the faces on the left and on the right of every edge.
-fn seats(sheet: &Sheet) -> Vec<[Option<Seat>; 2]> {
+fn seats(sheet: &Sheet) -> Vec<[Option<FaceAtEdge>; 2]> {
     let number: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
     let mut seats = vec![[None; 2]; sheet.edges.len()];
     for (face, triangle) in sheet.triangles.iter().enumerate() {
         for side in triangle.sides() {
             if let Some(&edge) = number.get(&side.key) {
-                seats[edge][side.side] = Some(Seat { face, base: side.base.shift });
+                seats[edge][side.side] = Some(FaceAtEdge { face, base: side.base.shift });
             }
         }
     }

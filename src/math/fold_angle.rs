@@ -69,12 +69,12 @@ pub(crate) fn fold_angle_along([i, j, left, right]: &[Path; 4]) -> Taylor {
 struct Hinge {
     e: Vec3,
     length: f64,
-    left: Side,
-    right: Side,
+    left: HingeSide,
+    right: HingeSide,
 }
 
 /// A face beside the hinge: `wing` is `a` or `b`, `foot` is `s` or `r`.
-struct Side {
+struct HingeSide {
     wing: Vec3,
     normal: Vec3,
     /// The inverse normal `N` or `M`: the normal divided by its squared length.
@@ -82,7 +82,7 @@ struct Side {
     foot: f64,
 }
 
-impl Side {
+impl HingeSide {
     fn new(wing: Vec3, normal: Vec3, e: &Vec3) -> Self {
         Self { wing, normal, inverse: normal / normal.norm_squared(), foot: wing.dot(e) / e.norm_squared() }
     }
@@ -91,7 +91,12 @@ impl Side {
 impl Hinge {
     fn new([i, j, left, right]: &[Vec3; 4]) -> Self {
         let (e, a, b) = (j - i, left - i, right - i);
-        Self { e, length: e.norm(), left: Side::new(a, e.cross(&a), &e), right: Side::new(b, b.cross(&e), &e) }
+        Self {
+            e,
+            length: e.norm(),
+            left: HingeSide::new(a, e.cross(&a), &e),
+            right: HingeSide::new(b, b.cross(&e), &e),
+        }
     }
 
     fn angle(&self) -> f64 {
@@ -133,8 +138,8 @@ impl Hinge {
     /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`: twice by its wing, by its
     /// wing and `e`, and this side's part of those twice by `e`.
     #[inline(always)]
-    fn curvature(&self, side: &Side, turn: f64) -> [Matrix3<f64>; 3] {
-        let Side { wing, inverse, foot, .. } = side;
+    fn curvature(&self, side: &HingeSide, turn: f64) -> [Matrix3<f64>; 3] {
+        let HingeSide { wing, inverse, foot, .. } = side;
         let (e, turned) = (&self.e, turn * self.length);
         let along = e / self.length + 2.0 * turned * inverse.cross(wing);
         let sliding = (wing - 2.0 * *foot * e) / self.length;

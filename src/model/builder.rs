@@ -57,14 +57,14 @@ impl Assembly {
     /// Begins a tube from the state to which a sheet was [rolled up](crate::rolled_up); pictures show `cells[0]` of its
     /// strands and `cells[1]` rows of cells.
     pub fn tube(sheet: Sheet, roll: Roll, cells: [usize; 2]) -> Builder {
-        Builder { sheet, cells, place: Place::Rolled(Box::new(roll)), given: Given::default() }
+        Builder { sheet, cells, place: CellPlacement::Rolled(Box::new(roll)), given: Given::default() }
     }
 
     /// Begins one cell on a domain of one's own, from the state with these coordinates: x, y and z of every vertex of
     /// the cell, then the shared ones; pictures show `cells[0] x cells[1]` copies of it. See
     /// [`CellMaps`](super::CellMaps).
     pub fn own(sheet: Sheet, domain: OwnDomain, coordinates: Vec<f64>, cells: [usize; 2]) -> Builder {
-        Builder { sheet, cells, place: Place::Own(domain, coordinates), given: Given::default() }
+        Builder { sheet, cells, place: CellPlacement::Own(domain, coordinates), given: Given::default() }
     }
 }
 
@@ -78,13 +78,13 @@ type NamedVertex = (usize, [usize; 2]);
 pub struct Builder {
     sheet: Sheet,
     cells: [usize; 2],
-    place: Place,
+    place: CellPlacement,
     given: Given,
 }
 
 /// Where the cell is drawn.
 #[derive(Clone, Debug)]
-enum Place {
+enum CellPlacement {
     /// As in the file, with these boundary conditions.
     File(Boundary),
     /// Rolled up to a tube.
@@ -115,7 +115,7 @@ struct Given {
 
 impl Builder {
     pub(super) fn new(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Self {
-        Self { sheet, cells, place: Place::File(boundary), given: Given::default() }
+        Self { sheet, cells, place: CellPlacement::File(boundary), given: Given::default() }
     }
 
     /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly. The stiffness
@@ -237,9 +237,11 @@ impl Builder {
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, place, mut given } = self;
         let bare = match place {
-            Place::File(boundary) => Assembly::without_terms(sheet, cells, boundary)?,
-            Place::Rolled(roll) => Assembly::tube_without_terms(sheet, &roll, cells)?,
-            Place::Own(domain, coordinates) => Assembly::own_without_terms(sheet, (domain, coordinates), cells)?,
+            CellPlacement::File(boundary) => Assembly::without_terms(sheet, cells, boundary)?,
+            CellPlacement::Rolled(roll) => Assembly::tube_without_terms(sheet, &roll, cells)?,
+            CellPlacement::Own(domain, coordinates) => {
+                Assembly::own_without_terms(sheet, (domain, coordinates), cells)?
+            }
         };
         if let Some(material) = given.material {
             given.bars = given.bars.or_else(|| Some(material.bars(&bare)));

@@ -32,7 +32,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 pub use own::{Affine, CellMap, CellMaps, OwnDomain};
 use recentre::{raise_axis, turn_back, unwind};
 use screw::ScrewMotion;
-pub(crate) use shared::{MOST_SHARED, Turns};
+pub(crate) use shared::{MOST_SHARED, ScrewTurns};
 use shared::{Pulled, SharedMatrix};
 use tube::TubeMotion;
 
@@ -70,7 +70,7 @@ pub(crate) struct Placed {
     pub point: Vec3,
     /// The vertex of cell (0, 0) of which the point is a copy.
     vertex: Vec3,
-    motion: Motion,
+    motion: CopyMotion,
     /// Derivatives of the position by the vertex.
     pub by_vertex: Matrix3<f64>,
     /// Derivatives of the position by the shared coordinates; `None` where it does not depend on them.
@@ -78,14 +78,14 @@ pub(crate) struct Placed {
 }
 
 /// The motion that takes a vertex of cell (0, 0) to its copy in another cell.
-enum Motion {
+enum CopyMotion {
     Translation(Vec3),
     Screw(ScrewMotion),
     Tube(TubeMotion),
     Own(CellMap),
 }
 
-impl Motion {
+impl CopyMotion {
     fn point(&self, v: &Vec3) -> Vec3 {
         match self {
             Self::Translation(by) => v + by,
@@ -136,19 +136,19 @@ impl Domain {
 
     /// Returns the motion to the cell of this number; all coordinates are `x`.
     #[inline]
-    fn motion(&self, x: &[f64], shift: [i32; 2]) -> Motion {
+    fn motion(&self, x: &[f64], shift: [i32; 2]) -> CopyMotion {
         let (shared, [n1, n2]) = (self.shared_of(x), shift.map(f64::from));
         match self {
-            Self::FixedTorus([l1, l2]) => Motion::Translation(n1 * l1 + n2 * l2),
-            Self::Patch => Motion::Translation(Vec3::zeros()),
-            _ if shift == [0, 0] => Motion::Translation(Vec3::zeros()),
+            Self::FixedTorus([l1, l2]) => CopyMotion::Translation(n1 * l1 + n2 * l2),
+            Self::Patch => CopyMotion::Translation(Vec3::zeros()),
+            _ if shift == [0, 0] => CopyMotion::Translation(Vec3::zeros()),
             Self::FreeTorus => {
                 let [l1, l2] = [&shared[..3], &shared[3..]].map(Vec3::from_column_slice);
-                Motion::Translation(n1 * l1 + n2 * l2)
+                CopyMotion::Translation(n1 * l1 + n2 * l2)
             }
-            Self::Screw => Motion::Screw(ScrewMotion::new(shared, shift)),
-            Self::Tube { seam, kept, .. } => Motion::Tube(TubeMotion::new(seam, *kept, shared, shift)),
-            Self::Own(own) => Motion::Own(own.maps().map(shared, shift)),
+            Self::Screw => CopyMotion::Screw(ScrewMotion::new(shared, shift)),
+            Self::Tube { seam, kept, .. } => CopyMotion::Tube(TubeMotion::new(seam, *kept, shared, shift)),
+            Self::Own(own) => CopyMotion::Own(own.maps().map(shared, shift)),
         }
     }
 
@@ -164,10 +164,10 @@ impl Domain {
         let point = motion.point(&vertex);
         let (by_vertex, by_shared) = match &motion {
             _ if site.shift == [0, 0] => (Matrix3::identity(), None),
-            Motion::Translation(_) => (Matrix3::identity(), (self.shared() > 0).then(|| by_lattice(site.shift))),
-            Motion::Screw(screw) => screw.at(&vertex).derivatives(),
-            Motion::Tube(tube) => tube.derivatives(&point),
-            Motion::Own(map) => map.derivatives(&vertex),
+            CopyMotion::Translation(_) => (Matrix3::identity(), (self.shared() > 0).then(|| by_lattice(site.shift))),
+            CopyMotion::Screw(screw) => screw.at(&vertex).derivatives(),
+            CopyMotion::Tube(tube) => tube.derivatives(&point),
+            CopyMotion::Own(map) => map.derivatives(&vertex),
         };
         Placed { point, vertex, motion, by_vertex, by_shared }
     }
@@ -240,16 +240,16 @@ impl Domain {
     /// coordinates at these places.
     fn add_curvature(&self, placed: &Placed, force: &Vec3, (at, first): (usize, usize), pulled: &mut Pulled) {
         match &placed.motion {
-            Motion::Translation(_) => {}
-            Motion::Screw(screw) => screw.at(&placed.vertex).add_curvature(force, at, first, pulled),
-            Motion::Tube(tube) => tube.add_curvature(&placed.point, force, at, (first, self.shared()), pulled),
-            Motion::Own(map) => map.add_curvature(&placed.vertex, force, (at, first), pulled),
+            CopyMotion::Translation(_) => {}
+            CopyMotion::Screw(screw) => screw.at(&placed.vertex).add_curvature(force, at, first, pulled),
+            CopyMotion::Tube(tube) => tube.add_curvature(&placed.point, force, at, (first, self.shared()), pulled),
+            CopyMotion::Own(map) => map.add_curvature(&placed.vertex, force, (at, first), pulled),
         }
     }
 
     /// Returns the screw motions of a state about an axis in the plane of x and y; `None` for other domains.
-    pub(crate) fn turns(&self, x: &[f64]) -> Option<Turns> {
-        matches!(self, Self::Screw).then(|| Turns::new(self.shared_of(x)))
+    pub(crate) fn turns(&self, x: &[f64]) -> Option<ScrewTurns> {
+        matches!(self, Self::Screw).then(|| ScrewTurns::new(self.shared_of(x)))
     }
 
     /// Returns the turns about the z axis and the translations along it of the two lattice vectors of a tube; `None`
@@ -307,7 +307,7 @@ impl Domain {
         if let Self::Own(own) = self {
             return own.maps().units(length);
         }
-        let Some(Turns { kappa, .. }) = self.turns(x) else { return vec![] };
+        let Some(ScrewTurns { kappa, .. }) = self.turns(x) else { return vec![] };
         let curvature = 1.0 / (length * length);
         vec![curvature / f64::max(kappa.abs(), straight / length), curvature, 1.0, 1.0, 1.0, 1.0]
     }

@@ -62,7 +62,7 @@ pub use boundary::{Boundary, Drawn};
 pub use builder::{Builder, Rest};
 pub use configuration::Configuration;
 pub use curve::{Bilinear, CurveError, ForceCurve, Measured, OfAngle, OfStrain, Power};
-pub(crate) use domain::Turns;
+pub(crate) use domain::ScrewTurns;
 pub use domain::{Affine, CellMap, CellMaps, Domain, OwnDomain, Site};
 pub use drive::{Drive, DriveError, Driven};
 pub(crate) use element::Local;

@@ -13,7 +13,7 @@ use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, 
 use super::figure::canvas::WIDTH;
 use super::figure::film::FilmView;
 use super::figure::palette::{Colour, PAPER};
-use super::figure::sheet::{Shape, TILE};
+use super::figure::sheet::{FigureShape, TILE};
 use super::picture::Picture;
 use super::{OutputError, files};
 use crate::numerics::parallel::map_with_state;
@@ -72,7 +72,7 @@ impl<'a> Film<'a> {
         Ok(())
     }
 
-    fn pixels(&self, shapes: &[Shape]) -> io::Result<Vec<u8>> {
+    fn pixels(&self, shapes: &[FigureShape]) -> io::Result<Vec<u8>> {
         let size = || io::Error::new(io::ErrorKind::InvalidData, "a frame of this size cannot be drawn");
         let mut map = Pixmap::new(self.columns.into(), self.rows.into()).ok_or_else(size)?;
         let Colour(red, green, blue) = PAPER;
@@ -86,7 +86,7 @@ impl<'a> Film<'a> {
     }
 }
 
-fn paint(map: &mut Pixmap, Shape { places, closed, style }: &Shape, scale: Transform) {
+fn paint(map: &mut Pixmap, FigureShape { places, closed, style }: &FigureShape, scale: Transform) {
     let mut builder = PathBuilder::new();
     for (k, [x, y]) in places.iter().enumerate() {
         let (x, y) = (*x as f32, *y as f32);

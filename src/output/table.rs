@@ -94,7 +94,7 @@ impl Table {
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let others = states.first().map(|state| state.solution.energy.others.as_slice()).unwrap_or_default();
-        let solution = Solution::columns(others.iter().map(|(name, _)| name.as_str()));
+        let solution = EnergiesAndResiduals::columns(others.iter().map(|(name, _)| name.as_str()));
         let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
         let seam = states.iter().any(|state| state.seam.is_some()).then_some(SEAM).into_iter().flatten();
         let table = Self::new("branch,sign,step,arc_length").with(CYLINDER).with(solution).with(["self_intersecting"]);
@@ -217,7 +217,7 @@ pub(crate) struct Energies {
 
 /// Energies and residuals of a state, as all tables list them; values that were not computed are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Solution {
+pub(crate) struct EnergiesAndResiduals {
     /// Energies of the terms.
     pub energy: Energies,
     /// Largest unbalanced force, relative to the largest force of any term.
@@ -226,7 +226,7 @@ pub(crate) struct Solution {
     pub residual_length: Option<f64>,
 }
 
-impl Solution {
+impl EnergiesAndResiduals {
     /// The energies of a state, and its residual force and length where they are known.
     pub(crate) fn new(energy: Energies, residuals: Option<[f64; 2]>) -> Self {
         let [residual_force, residual_length] = [0, 1].map(|k| residuals.map(|residuals| residuals[k]));
@@ -264,7 +264,7 @@ pub(crate) struct StateRow {
     /// The cylinder of a state that is periodic up to screw motions.
     pub shape: Option<Cylinder>,
     /// Energies and residuals.
-    pub solution: Solution,
+    pub solution: EnergiesAndResiduals,
     /// Whether faces pass through each other.
     pub self_intersecting: Option<bool>,
     /// Largest difference between a fold angle and that of the exact kinematics, in radians.
@@ -325,7 +325,7 @@ mod tests {
             sign: Some(-1),
             arc_length: Some(1.0),
             shape: Some(Cylinder { curvature: 2.0, theta: [3.0, 4.0], strain: [5.0, f64::NAN, 6.0] }),
-            solution: Solution {
+            solution: EnergiesAndResiduals {
                 energy: Energies {
                     of_edges: [Some(7.0), Some(8.0), Some(9.0)],
                     others: vec![("springs".into(), Some(9.5))],

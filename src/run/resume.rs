@@ -8,7 +8,7 @@
 use super::belongings::Belongings;
 use crate::math::Vec3;
 use crate::model::Configuration;
-use crate::output::figure::surface::PathPoint;
+use crate::output::figure::surface::TrajectoryPoint;
 use crate::output::json::from_file;
 use crate::output::table::columns_of;
 use crate::output::{OutputError, files};
@@ -64,7 +64,7 @@ pub(crate) fn is_start(file: &SceneFile, name: &str) -> bool {
 
 /// Returns the trajectories that a study of an earlier run followed, in the space of lattice strains, read from its
 /// table; `None` for studies that follow no trajectories.
-pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<PathPoint>>>, OutputError> {
+pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<TrajectoryPoint>>>, OutputError> {
     const COLUMNS: [&str; 8] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12", "theta1", "theta2"];
     if !matches!(*study.kind, StudyKind::Trace(_)) {
         return Ok(None);
@@ -73,7 +73,7 @@ pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<Path
     let text = std::fs::read_to_string(&path).map_err(|source| OutputError::Read { path, source })?;
     let rows = columns_of(&text, &COLUMNS);
     let of_one_ray = |a: &Vec<f64>, b: &Vec<f64>| a[..2] == b[..2];
-    let point = |row: &Vec<f64>| PathPoint::new(Vec3::new(row[3], row[4], row[5]), row[2], [row[6], row[7]]);
+    let point = |row: &Vec<f64>| TrajectoryPoint::new(Vec3::new(row[3], row[4], row[5]), row[2], [row[6], row[7]]);
     Ok(Some(rows.chunk_by(of_one_ray).map(|rows| rows.iter().map(point).collect()).collect()))
 }
 

@@ -7,7 +7,7 @@ use super::laws::GivenLaw;
 use super::material::{mass, material};
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
-use super::rows::Column;
+use super::rows::ColumnQuantity;
 use super::spec::{CreasesSpec, DomainSpec, Lattice};
 use super::stiffness::StiffnessSpec;
 use super::values::EdgeName;
@@ -45,7 +45,7 @@ fn built(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
         None => Assembly::without_terms(sheet, cells, boundary),
     };
     let bare = bare.map_err(|error| file.error_at(0..0, error.to_string(), "see [sheet]"))?;
-    let reader = Reader::new(file, &bare);
+    let reader = TermReader::new(file, &bare);
     let assembly = loads::loaded(file, &bare.with_terms(reader.terms()?).with_best_axis())?;
     super::rolled::polygons_bend(file, &assembly)?;
     file.scene.drives.iter().try_for_each(|spec| drives::resolve(file, &assembly, spec).map(|_| ()))?;
@@ -64,7 +64,7 @@ pub fn drive(file: &SceneFile, assembly: &Assembly, name: &str) -> Result<Drive,
 
 /// Returns the rates of a mode from its table, for every edge of the tiling; NaN if the table has none.
 pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
-    Reader::new(file, assembly).rates(name, (ElementKind::Creases, ElementKind::Facets))
+    TermReader::new(file, assembly).rates(name, (ElementKind::Creases, ElementKind::Facets))
 }
 
 /// Returns the sheet of a scene, from its mesh or its generator.
@@ -146,7 +146,7 @@ fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
 }
 
 /// The reader of the terms of a scene, which refer to its sheet.
-struct Reader<'a> {
+struct TermReader<'a> {
     file: &'a SceneFile,
     assembly: &'a Assembly,
     sheet: &'a Sheet,
@@ -156,7 +156,7 @@ struct Reader<'a> {
     angles: &'a [f64],
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TermReader<'a> {
     fn new(file: &'a SceneFile, assembly: &'a Assembly) -> Self {
         let (sheet, tiling, angles) = (assembly.sheet(), assembly.tiling(), assembly.drawn_angles());
         Self { file, assembly, sheet, tiling, values: ElementValues::new(file, assembly), angles }
@@ -245,7 +245,7 @@ impl<'a> Reader<'a> {
             RestSpec::Angle(angle) => Ok(vec![angle.radians; self.angles.len()]),
             RestSpec::Mode(mode) => self.along_mode(mode, of, rigid_facets),
             RestSpec::File(name) => {
-                let angles = self.values.file_values(name, Column::Angle, of)?;
+                let angles = self.values.file_values(name, ColumnQuantity::Angle, of)?;
                 let rigid = if of == ElementKind::Creases { rigid_facets } else { &[] };
                 self.values.flat_at(rigid, &name.file).map(|()| angles)
             }
@@ -296,7 +296,7 @@ impl<'a> Reader<'a> {
 
     /// Returns the rates of a table: every hinge of the first term has one, and hinges of the second may have one.
     fn rates(&self, name: &RatesFile, of: (ElementKind, ElementKind)) -> Result<Vec<f64>, SceneError> {
-        self.values.named_values(&name.rates, Column::Rate, of)
+        self.values.named_values(&name.rates, ColumnQuantity::Rate, of)
     }
 
     fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {

@@ -2,7 +2,7 @@
 
 use super::error::TableFault;
 use super::forms::FileName;
-use super::rows::{self, Column, TableRow};
+use super::rows::{self, ColumnQuantity, TableRow};
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{Assembly, RestLengths, Stiffness};
@@ -84,7 +84,7 @@ impl<'a> ElementValues<'a> {
     pub(super) fn stiffness(&self, spec: &Located<StiffnessSpec>, of: ElementKind) -> Result<Stiffness, SceneError> {
         match &**spec {
             StiffnessSpec::Number(stiffness) => Ok((*stiffness).into()),
-            StiffnessSpec::File(name) => Ok(self.file_values(name, Column::Stiffness, of)?.into()),
+            StiffnessSpec::File(name) => Ok(self.file_values(name, ColumnQuantity::Stiffness, of)?.into()),
             StiffnessSpec::Letters(letters) => {
                 Ok(self.each_by_letter((letters, "stiffness"), of, spec.span(), (f64::NAN, |_| None))?.into())
             }
@@ -98,13 +98,18 @@ impl<'a> ElementValues<'a> {
             None | Some(RestLengthSpec::Drawn) => Ok(RestLengths::Drawn),
             Some(RestLengthSpec::Factor(factor)) => Ok(RestLengths::Factor(*factor)),
             Some(RestLengthSpec::File(name)) => {
-                self.file_values(name, Column::Length, ElementKind::Bars).map(RestLengths::PerEdge)
+                self.file_values(name, ColumnQuantity::Length, ElementKind::Bars).map(RestLengths::PerEdge)
             }
         }
     }
 
     /// Returns the values that a file gives the elements of a term, one for each edge of the tiling.
-    pub(super) fn file_values(&self, name: &FileName, column: Column, of: ElementKind) -> Result<Vec<f64>, SceneError> {
+    pub(super) fn file_values(
+        &self,
+        name: &FileName,
+        column: ColumnQuantity,
+        of: ElementKind,
+    ) -> Result<Vec<f64>, SceneError> {
         self.named_values(&name.file, column, (of, of))
     }
 
@@ -112,7 +117,7 @@ impl<'a> ElementValues<'a> {
     pub(super) fn named_values(
         &self,
         name: &Located<PathBuf>,
-        column: Column,
+        column: ColumnQuantity,
         of: (ElementKind, ElementKind),
     ) -> Result<Vec<f64>, SceneError> {
         if let Some(array) = self.file.array(name) {
@@ -128,7 +133,7 @@ impl<'a> ElementValues<'a> {
         &self,
         array: &[f64],
         name: &Located<PathBuf>,
-        column: Column,
+        column: ColumnQuantity,
         (needed, also): (ElementKind, ElementKind),
     ) -> Result<Vec<f64>, SceneError> {
         let refused = |message, help: &str| Err(self.file.error_at(name.span(), message, help));

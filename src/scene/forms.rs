@@ -50,7 +50,7 @@ pub struct Wave {
 /// The two tables of [`Mode`] in one, used to find out which of them was given.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ModeTable {
+struct ModeKeys {
     rates: Option<Located<PathBuf>>,
     wave: Option<Located<[i32; 2]>>,
 }
@@ -102,7 +102,7 @@ impl Written for Mode {
     }
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
-        let table = ModeTable::deserialize(MapAccessDeserializer::new(map))?;
+        let table = ModeKeys::deserialize(MapAccessDeserializer::new(map))?;
         match (table.rates, table.wave) {
             (Some(rates), None) => Ok(Self::Rates(RatesFile { rates })),
             (None, Some(wave)) => Ok(Self::Wave(Wave { wave })),

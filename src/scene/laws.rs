@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::elements::{ElementKind, ElementValues};
 use super::error::TableFault;
-use super::rows::{Column, Fault, numbered_lines, read_table};
+use super::rows::{ColumnQuantity, Fault, numbered_lines, read_table};
 use super::spec::{BarLawSpec, CurveSpec, HingeLawSpec, HingeYieldSpec, LawForm};
 use super::turns::fault_of_turns;
 use super::{Located, SceneError, SceneFile};
@@ -65,7 +65,7 @@ fn of_elements<T>(
         LawForm::Listed(table, laws) => {
             let read = |law: &T| Ok(read(file, (law, spec.span()))?.0);
             let laws = laws.iter().map(read).collect::<Result<Vec<_>, SceneError>>()?;
-            let numbers = values.file_values(table, Column::Law(laws.len()), of)?;
+            let numbers = values.file_values(table, ColumnQuantity::Law(laws.len()), of)?;
             let law = |number: &f64| laws.get((*number as usize).wrapping_sub(1)).cloned().flatten();
             let law = Some(TermLaw::PerEdge(numbers.iter().map(law).collect()));
             Ok(GivenLaw { law, stiffness: None, span })

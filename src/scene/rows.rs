@@ -14,7 +14,7 @@ use crate::sheet::EdgeKey;
 
 /// The quantity in the last column of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Column {
+pub(crate) enum ColumnQuantity {
     /// Rest angles in radians.
     Angle,
     /// Rates of fold angles.
@@ -27,7 +27,7 @@ pub(crate) enum Column {
     Law(usize),
 }
 
-impl Column {
+impl ColumnQuantity {
     /// Returns the name of the last column.
     fn name(self) -> &'static str {
         match self {
@@ -77,7 +77,7 @@ pub(crate) struct TableRow {
 }
 
 /// Reads a table with this last column.
-pub(crate) fn read(path: &Path, value: Column) -> Result<Vec<TableRow>, SceneError> {
+pub(crate) fn read(path: &Path, value: ColumnQuantity) -> Result<Vec<TableRow>, SceneError> {
     read_table(path, |text| parse(text, value))
 }
 
@@ -96,7 +96,7 @@ pub(super) fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> 
 /// The number of a line of a table, and its fault.
 pub(super) type Fault = (usize, TableFault);
 
-fn parse(text: &str, value: Column) -> Result<Vec<TableRow>, Fault> {
+fn parse(text: &str, value: ColumnQuantity) -> Result<Vec<TableRow>, Fault> {
     let mut lines = numbered_lines(text);
     let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
     let all = value.names();
@@ -120,7 +120,7 @@ fn columns<'a>(header: &str, all: &'a [&'static str; 7]) -> Option<&'a [&'static
     [&all[..], &all[2..]].into_iter().find(|columns| **columns == *found)
 }
 
-fn row(text: &str, (columns, value): (&[&'static str], Column), line: usize) -> Result<TableRow, TableFault> {
+fn row(text: &str, (columns, value): (&[&'static str], ColumnQuantity), line: usize) -> Result<TableRow, TableFault> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let wrong = || TableFault::Fields { found: fields.len(), expected: columns.len() };
     let (number, numbers) = fields.split_last().filter(|_| fields.len() == columns.len()).ok_or_else(wrong)?;
@@ -142,7 +142,7 @@ fn integer(field: &str, column: &'static str) -> Result<i64, TableFault> {
 }
 
 /// Returns the number of a field, if the column allows it.
-fn checked(field: &str, of: Column) -> Result<f64, TableFault> {
+fn checked(field: &str, of: ColumnQuantity) -> Result<f64, TableFault> {
     let number = field.parse().unwrap_or(f64::NAN);
     // a number too large for a double is not meant to be rigid
     let overflows = number == f64::INFINITY && field.contains(|c: char| c.is_ascii_digit());
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
 
     fn angles(text: &str) -> Result<Vec<TableRow>, Fault> {
-        parse(text, Column::Angle)
+        parse(text, ColumnQuantity::Angle)
     }
 
     /// Claim: both headers are read. The backward name [2, 0, 1, 0] of cell (3, 4) starts at vertex 2 of (3, 4), so the

@@ -7,7 +7,7 @@ use super::checks::check;
 use super::setting::{Setting, without};
 use super::spec::SweepSpec;
 use super::{Located, SceneError, SceneFile};
-use axis::{Axis, Place, TABLE};
+use axis::{ResolvedAxis, TABLE, ValueLocation};
 
 /// Largest number of points.
 const MOST_POINTS: usize = 1_000_000;
@@ -34,7 +34,7 @@ pub struct Sweep {
     /// The text of the scene without its sweep.
     text: String,
     zip: bool,
-    axes: Vec<Axis>,
+    axes: Vec<ResolvedAxis>,
     len: usize,
 }
 
@@ -61,7 +61,7 @@ impl Sweep {
         // before the values are made, of which there may be too many for the memory
         let counts = spec.axes.iter().filter_map(|axis| axis.values.count());
         number_of_points(file, spec, counts)?;
-        let axes = spec.axes.iter().map(|axis| Axis::read(file, axis)).collect::<Result<Vec<_>, _>>()?;
+        let axes = spec.axes.iter().map(|axis| ResolvedAxis::read(file, axis)).collect::<Result<Vec<_>, _>>()?;
         if axes.is_empty() {
             let help = "add one, as in \"energy.bars.stiffness\" = [1e2, 1e4]";
             return Err(file.error_at(spec.span(), "the sweep has no axes", help));
@@ -70,7 +70,7 @@ impl Sweep {
         if spec.zip {
             common_length(file, &axes)?;
         }
-        let len = number_of_points(file, spec, axes.iter().map(Axis::len))?;
+        let len = number_of_points(file, spec, axes.iter().map(ResolvedAxis::len))?;
         Ok(Some(Self { file: file.clone(), text: without(file.text(), TABLE), zip: spec.zip, axes, len }))
     }
 
@@ -98,7 +98,7 @@ impl Sweep {
     /// keys run together.
     pub fn shape(&self) -> Option<Vec<usize>> {
         let product = !self.zip && self.axes.iter().all(|axis| axis.keys.len() == 1);
-        product.then(|| self.axes.iter().map(Axis::len).collect())
+        product.then(|| self.axes.iter().map(ResolvedAxis::len).collect())
     }
 
     /// Returns a point by its number, from 0 to [`len`](Self::len); numbers beyond begin anew.
@@ -131,9 +131,9 @@ impl Sweep {
     }
 
     /// Returns the numbers of the values that a point has on the axes.
-    fn rows(&self, index: usize) -> Vec<(&Axis, usize)> {
+    fn rows(&self, index: usize) -> Vec<(&ResolvedAxis, usize)> {
         let mut rest = index;
-        let mut row = |axis: &Axis| {
+        let mut row = |axis: &ResolvedAxis| {
             let row = rest % axis.len();
             if !self.zip {
                 rest /= axis.len();
@@ -158,12 +158,12 @@ impl Sweep {
         let message = format!("point {} ({}): {message}", point.index, settings.join(", "));
         let place = guilty.map(|(axis, row)| axis.place(*row));
         match place {
-            Some(Place::Line(path, line)) => {
+            Some(ValueLocation::Line(path, line)) => {
                 let message = help.map_or(message.clone(), |help| format!("{message}; {help}"));
                 SceneError::Table { path, line, fault: super::error::TableFault::Point(message) }
             }
             place => {
-                let span = place.map_or(0..0, |place| if let Place::Span(span) = place { span } else { 0..0 });
+                let span = place.map_or(0..0, |place| if let ValueLocation::Span(span) = place { span } else { 0..0 });
                 let help = help.unwrap_or_else(|| "the path of a key has dots, as in energy.bars.stiffness".into());
                 self.file.error_at(span, message, help)
             }
@@ -171,8 +171,8 @@ impl Sweep {
     }
 }
 
-fn different_keys(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
-    let first: Vec<(&Axis, Setting)> =
+fn different_keys(file: &SceneFile, axes: &[ResolvedAxis]) -> Result<(), SceneError> {
+    let first: Vec<(&ResolvedAxis, Setting)> =
         axes.iter().flat_map(|axis| axis.settings(0).into_iter().map(move |setting| (axis, setting))).collect();
     for (k, (axis, setting)) in first.iter().enumerate() {
         if first[..k].iter().any(|(_, other)| setting.same_key(other)) {
@@ -185,8 +185,8 @@ fn different_keys(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn common_length(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
-    let len = axes.first().map_or(0, Axis::len);
+fn common_length(file: &SceneFile, axes: &[ResolvedAxis]) -> Result<(), SceneError> {
+    let len = axes.first().map_or(0, ResolvedAxis::len);
     let Some(other) = axes.iter().find(|axis| axis.len() != len) else { return Ok(()) };
     let message = format!("the axes run together, and this one has {} values, the first {len}", other.len());
     let help = "give all axes one length, or leave out zip: then every value meets every other";

@@ -28,13 +28,13 @@ pub enum SheetError {
         line: usize,
         /// Column in characters, from 1.
         column: usize,
-        problem: Box<Problem>,
+        problem: Box<MeshProblem>,
     },
 }
 
 impl SheetError {
     /// Makes the error of a file that has this problem in a line and column.
-    pub(crate) fn bad(name: &str, [line, column]: [usize; 2], problem: impl Into<Box<Problem>>) -> Self {
+    pub(crate) fn bad(name: &str, [line, column]: [usize; 2], problem: impl Into<Box<MeshProblem>>) -> Self {
         Self::Bad { name: name.to_owned(), line, column, problem: problem.into() }
     }
 }
@@ -58,19 +58,19 @@ pub enum MeshPart {
     Hole(usize),
 }
 
-/// A [`Problem`] together with the part of the mesh that has it.
+/// A [`MeshProblem`] together with the part of the mesh that has it.
 #[derive(Debug, thiserror::Error)]
 #[error("{problem}")]
 pub struct Defect {
     /// The part of the mesh.
     pub place: MeshPart,
     /// The problem of that part.
-    pub problem: Box<Problem>,
+    pub problem: Box<MeshProblem>,
 }
 
 impl Defect {
     /// Makes the defect of `place` that has this problem.
-    pub(crate) fn new(place: MeshPart, problem: Problem) -> Self {
+    pub(crate) fn new(place: MeshPart, problem: MeshProblem) -> Self {
         Self { place, problem: Box::new(problem) }
     }
 }
@@ -78,7 +78,7 @@ impl Defect {
 /// A problem of a mesh; the message says what would be right. Vertices and faces carry the file's own numbers.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs)] // each variant is documented by its message
-pub enum Problem {
+pub enum MeshProblem {
     #[error("not a FOLD file: {message}; a FOLD file is one JSON object")]
     Syntax { message: String },
     #[error("`{key}` is missing; {right}")]

@@ -6,7 +6,7 @@ use super::assigned::is_same_angle;
 use super::assignment::Assignment;
 use super::build::{Drawing, Identified, build, build_identified, drawn_sides, edges_by_drawn_name, listed_order};
 use super::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
-use super::error::{Defect, DrawnEdge, MeshPart, Problem};
+use super::error::{Defect, DrawnEdge, MeshPart, MeshProblem};
 use super::sides::{self, sorted};
 
 /// Builds the sheet that `drawn` draws, of which `listed` are edges in the order in which files list them. The faces
@@ -22,7 +22,7 @@ pub(crate) fn build_listed(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<(Sh
         let [a, b] = ends.map(|v| identified.corner[v]);
         let found = known.get(&EdgeKey::new(a, b).0).and_then(|numbers| numbers.first()).map(|&n| &sheet.edges[n]);
         if !found.is_some_and(|edge| sides.contains(&edge.key) || bars.contains(&edge.key)) {
-            let problem = Problem::LooseEdge { edge, ends: DrawnEdge(ends[0], ends[1]) };
+            let problem = MeshProblem::LooseEdge { edge, ends: DrawnEdge(ends[0], ends[1]) };
             return Err(Defect::new(MeshPart::Edge(edge), problem));
         }
     }
@@ -45,18 +45,18 @@ pub fn build_arrays(drawn: &Drawing, listed: &[[usize; 2]]) -> Result<Sheet, Def
 
 /// Checks that the ends of edges are two vertices of `count`, and that no edge is listed twice; the error names the
 /// edge.
-pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize, Problem)> {
+pub(crate) fn check_ends(ends: &[[usize; 2]], count: usize) -> Result<(), (usize, MeshProblem)> {
     let mut seen = BTreeMap::new();
     for (edge, &[a, b]) in ends.iter().enumerate() {
         if let Some(beyond) = [a, b].into_iter().find(|&v| v >= count) {
             let (what, last) = (format!("edge {edge} of the list"), count.saturating_sub(1));
-            return Err((edge, Problem::Index { what, found: beyond.to_string(), first: 0, last }));
+            return Err((edge, MeshProblem::Index { what, found: beyond.to_string(), first: 0, last }));
         }
         if a == b {
-            return Err((edge, Problem::Loop { edge, vertex: a }));
+            return Err((edge, MeshProblem::Loop { edge, vertex: a }));
         }
         if let Some(other) = seen.insert(sorted([a, b]), edge) {
-            return Err((edge, Problem::DuplicateEdge { edge, other, ends: DrawnEdge(a, b) }));
+            return Err((edge, MeshProblem::DuplicateEdge { edge, other, ends: DrawnEdge(a, b) }));
         }
     }
     Ok(())

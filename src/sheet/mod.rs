@@ -47,7 +47,7 @@ pub(crate) mod written;
 
 pub use assignment::Assignment;
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, MeshStiffness, Panel, Sheet, Triangle};
-pub use error::{Problem, SheetError};
+pub use error::{MeshProblem, SheetError};
 pub use flatten::{NotDevelopable, flatten};
 pub use generate::{GenerateError, Pattern, generate};
 pub use info::{Info, ThinTriangle};

@@ -20,7 +20,7 @@ use super::angle::in_degrees;
 use super::assignment::Assignment;
 use super::build::{Drawing, build, draw};
 use super::cell::Sheet;
-use super::error::{Defect, MeshPart, Problem, SheetError};
+use super::error::{Defect, MeshPart, MeshProblem, SheetError};
 use super::pattern_fault::PatternFault;
 use super::text;
 use crate::math::Vec3;
@@ -83,7 +83,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn read(&mut self, line: &str) -> Result<(), Problem> {
+    fn read(&mut self, line: &str) -> Result<(), MeshProblem> {
         let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
         let uncommented = rest.split('#').next().unwrap_or_default();
         match word {
@@ -102,7 +102,7 @@ impl Reader {
         Ok(())
     }
 
-    fn read_comment(&mut self, comment: &str) -> Result<(), Problem> {
+    fn read_comment(&mut self, comment: &str) -> Result<(), MeshProblem> {
         let (word, rest) = comment.split_once(char::is_whitespace).unwrap_or((comment, ""));
         match word {
             "foldwell:lattice" => {
@@ -148,14 +148,14 @@ impl Reader {
     }
 
     /// Returns the vertices of a face or an opening, counted from 0.
-    fn corners(&self, list: &str, what: &str, number: usize) -> Result<Vec<usize>, Problem> {
+    fn corners(&self, list: &str, what: &str, number: usize) -> Result<Vec<usize>, MeshProblem> {
         let count = self.drawn.coords.len();
         let corner = |word: &str| {
             let first = word.split('/').next().unwrap_or_default();
             let right = "a whole number, such as 3, -1 or 3/1/2";
             let n: i128 = first.parse().map_err(|_| wrong(word, "vertex number", right))?;
             let from_zero = if n < 0 { n + count as i128 } else { n - 1 };
-            usize::try_from(from_zero).ok().filter(|v| *v < count).ok_or_else(|| Problem::Index {
+            usize::try_from(from_zero).ok().filter(|v| *v < count).ok_or_else(|| MeshProblem::Index {
                 what: format!("{what} {number}"),
                 found: first.to_owned(),
                 first: 1,
@@ -165,7 +165,7 @@ impl Reader {
         list.split_whitespace().map(corner).collect()
     }
 
-    fn lattice(&self) -> Result<Option<[Vec3; 2]>, Problem> {
+    fn lattice(&self) -> Result<Option<[Vec3; 2]>, MeshProblem> {
         match self.lattice_vectors[..] {
             [] => Ok(None),
             [l1, l2] => Ok(Some([l1, l2])),
@@ -183,11 +183,11 @@ impl Reader {
     }
 }
 
-fn wrong(found: &str, what: &'static str, right: &'static str) -> Problem {
+fn wrong(found: &str, what: &'static str, right: &'static str) -> MeshProblem {
     PatternFault::value(found, what, right).into()
 }
 
-fn point(words: &str) -> Result<Vec3, Problem> {
+fn point(words: &str) -> Result<Vec3, MeshProblem> {
     let bad = || wrong(words.trim(), "point", "three finite numbers, `x y z`");
     let numbers: Vec<f64> = words.split_whitespace().map(str::parse).collect::<Result<_, _>>().map_err(|_| bad())?;
     match numbers[..] {

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::build::{Drawing, build, merged};
 use super::cell::Sheet;
-use super::error::{Defect, MeshPart, Problem, SheetError};
+use super::error::{Defect, MeshPart, MeshProblem, SheetError};
 use super::pattern_fault::PatternFault;
 use super::text;
 use crate::math::Vec3;
@@ -66,7 +66,7 @@ fn binary(bytes: &[u8]) -> Option<Vec<LineCorner>> {
 }
 
 /// Returns the corners of all triangles of a text.
-fn ascii(bytes: &[u8]) -> Result<Vec<LineCorner>, (usize, Problem)> {
+fn ascii(bytes: &[u8]) -> Result<Vec<LineCorner>, (usize, MeshProblem)> {
     let wrong = |line: usize, found: &str, what: &'static str, right: &'static str| {
         (line, PatternFault::value(found, what, right).into())
     };

@@ -80,7 +80,7 @@ type LatticeMap = [[i32; 2]; 2];
 /// ```
 pub fn symmetries(sheet: &Sheet) -> Vec<Symmetry> {
     let Some(lattice) = sheet.lattice.filter(|_| sheet.is_surface()) else { return vec![] };
-    let frame = Frame::new(sheet, lattice);
+    let frame = LatticeSheet::new(sheet, lattice);
     let maps = frame.lattice_maps().into_iter().flat_map(|map| [(map, false), (map, true)]);
     let maps = maps.filter(|map| *map != (IDENTITY, false));
     maps.filter_map(|(map, turns_over)| frame.symmetry(map, turns_over)).collect()
@@ -90,7 +90,7 @@ const IDENTITY: LatticeMap = [[1, 0], [0, 1]];
 const HALF_TURN: LatticeMap = [[-1, 0], [0, -1]];
 
 /// A sheet in the coordinates of its lattice.
-struct Frame<'a> {
+struct LatticeSheet<'a> {
     sheet: &'a Sheet,
     lattice: [Vec3; 2],
     /// Covectors of the lattice vectors, and the unit normal.
@@ -100,7 +100,7 @@ struct Frame<'a> {
     numbers: HashMap<EdgeKey, usize>,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> LatticeSheet<'a> {
     fn new(sheet: &'a Sheet, lattice @ [l1, l2]: [Vec3; 2]) -> Self {
         let normal = l1.cross(&l2).normalize();
         let [c1, c2] = [l2.cross(&normal), normal.cross(&l1)];

@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 
 use super::build::{Drawing, build};
 use super::cell::{Corner, Sheet};
-use super::error::{Defect, MeshPart, Problem};
+use super::error::{Defect, MeshPart, MeshProblem};
 use super::sides::open_sides;
 use crate::math::Vec3;
 use crate::numerics::dense::small::solve_3;
@@ -45,7 +45,7 @@ pub struct Solid {
 /// other leave no room for it, or a face of it has no area, as with a thickness that is zero or no number.
 pub fn thickened(sheet: &Sheet, thickness: f64) -> Result<Solid, Defect> {
     if !sheet.is_surface() {
-        return Err(Defect::new(MeshPart::Mesh, Problem::NoSurface));
+        return Err(Defect::new(MeshPart::Mesh, MeshProblem::NoSurface));
     }
     let (coords, triangles) = points(sheet);
     let offsets = offsets(&coords, &triangles);

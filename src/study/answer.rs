@@ -2,7 +2,7 @@
 
 use crate::model::Configuration;
 use crate::output::artifact::Artifact;
-use crate::output::figure::surface::PathPoint;
+use crate::output::figure::surface::TrajectoryPoint;
 use crate::scene::spec::StudySpec;
 use crate::study::{StudyResult, StudySummary};
 
@@ -16,7 +16,7 @@ pub struct Answer {
     /// The state in which the study ended, from which later studies can start.
     pub state: Option<Configuration>,
     /// The trajectories that the study followed, in the space of lattice strains; later surface studies draw them.
-    pub paths: Vec<Vec<PathPoint>>,
+    pub paths: Vec<Vec<TrajectoryPoint>>,
 }
 
 impl Answer {

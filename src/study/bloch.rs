@@ -11,7 +11,7 @@ use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::zero_lines::ZeroLine;
 use crate::analysis::bloch::{
-    self, BlochError, Counts, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone,
+    self, BlochError, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, ZeroModeCounts, Zone,
 };
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
@@ -124,7 +124,7 @@ struct FoundModes {
     grid: [usize; 2],
     bands: FoundBands,
     strip: Option<FoundStrip>,
-    counts: Vec<Counts>,
+    counts: Vec<ZeroModeCounts>,
 }
 
 /// Computes the modes of the state that the scene names.
@@ -170,7 +170,7 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Found
         found => Ok(found?),
     };
     let wanted = spec.zero_modes_at.iter().flat_map(|list| list.iter());
-    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
+    let counts = wanted.map(|pair| ZeroModeCounts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
     let strip = |strip: &Located<StripSpec>| {
         let rigid = facets_are_rigid(context.file, context.assembly);
         strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers)

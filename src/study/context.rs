@@ -5,7 +5,7 @@ use crate::analysis::shown_cells::ShownCells;
 use crate::model::{Assembly, Configuration};
 use crate::output::OutputError;
 use crate::output::figure::Caption;
-use crate::output::figure::surface::PathPoint;
+use crate::output::figure::surface::TrajectoryPoint;
 use crate::scene::spec::{Check, Draw, StudySpec, UnitsSpec};
 use crate::scene::{SceneError, SceneFile};
 use std::collections::HashMap;
@@ -43,7 +43,7 @@ pub struct PreviousAnswers {
     /// The states in which the studies ended.
     pub states: HashMap<String, Configuration>,
     /// The trajectories that the studies followed, in the space of lattice strains.
-    pub paths: HashMap<String, Vec<Vec<PathPoint>>>,
+    pub paths: HashMap<String, Vec<Vec<TrajectoryPoint>>>,
 }
 
 /// Storage for the partial results of a long study, from which an interrupted run can continue.

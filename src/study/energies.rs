@@ -53,7 +53,7 @@ pub fn summary(terms: &Terms, state: &State) -> EnergySummary {
 mod tests {
     use super::*;
     use crate::model::{Length, OwnTerm, Site, Spring};
-    use crate::output::table::{Solution, Value};
+    use crate::output::table::{EnergiesAndResiduals, Value};
 
     /// Claim: each energy of a term of one's own stands in the column of its name, in whatever order the terms were
     /// given, and terms of one name are one column.
@@ -64,8 +64,8 @@ mod tests {
         let terms = Terms { own: ["z", "a", "z"].map(term).to_vec(), ..Terms::default() };
         let energy_own = vec![("z".to_owned(), 26.0), ("a".to_owned(), 1.0)];
         let state = State { energy_own, ..State::empty(vec![], 0) };
-        let names = Solution::columns(terms.own_names());
-        let solution = Solution { energy: columns(&terms, &state), ..Solution::default() };
+        let names = EnergiesAndResiduals::columns(terms.own_names());
+        let solution = EnergiesAndResiduals { energy: columns(&terms, &state), ..EnergiesAndResiduals::default() };
         let values = solution.values();
         assert_eq!(names[3..6], ["energy_a", "energy_z", "energy_total"]);
         assert_eq!(values[3..6], [1.0, 26.0, 27.0].map(Value::Number));

@@ -8,9 +8,9 @@ use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::{Assembly, Domain};
 use crate::numerics::{larger, worst};
-use crate::output::figure::chart::{self, Chart, Point, Series};
+use crate::output::figure::chart::{self, DataPoint, LineChart, Series};
 use crate::output::figure::rounded;
-use crate::output::table::{Solution, Table, Value};
+use crate::output::table::{EnergiesAndResiduals, Table, Value};
 use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec};
 use crate::scene::{Located, build};
@@ -230,21 +230,22 @@ impl Along {
 }
 
 /// Returns the chart of energies against amplitudes, with a line for each mode and its fitted slope if there is one.
-fn energies(context: &Context<'_>, found: &[Along]) -> Chart {
-    let point = |sample: &Sample| Point { x: sample.amplitude, y: sample.relaxed.state.total(), label: String::new() };
+fn energies(context: &Context<'_>, found: &[Along]) -> LineChart {
+    let point =
+        |sample: &Sample| DataPoint { x: sample.amplitude, y: sample.relaxed.state.total(), label: String::new() };
     let series = |along: &Along| {
         let above = along.samples().iter().filter(|sample| !sample.below_rounding());
         let slope = fit::exponent(&along.fitted()).map(|slope| format!(", slope {}", rounded(slope.value, 4)));
         Series { name: along.legend() + &slope.unwrap_or_default(), points: above.map(point).collect() }
     };
     let below = found.iter().flat_map(Along::samples).filter(|sample| sample.below_rounding());
-    Chart {
+    LineChart {
         title: context.file.title(),
         x: "amplitude of the mode".to_owned(),
         y: context.units().energy(),
         series: found.iter().map(series).collect(),
         rounding: below.map(point).collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }
 }
 
@@ -253,14 +254,15 @@ fn energies(context: &Context<'_>, found: &[Along]) -> Chart {
 fn table(assembly: &Assembly, found: &[Along]) -> Table {
     let uniform = if assembly.tiling().periodic { &[] } else { assembly.sheet().edges.as_slice() };
     let mut table = Table::new("mode,k11,k22,k12,amplitude")
-        .with(Solution::columns([]))
+        .with(EnergiesAndResiduals::columns([]))
         .with(["iterations", "rounds"])
         .with_edges("rest", uniform.iter().map(|edge| &edge.key));
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
             let relaxed = &sample.relaxed;
             let residuals = [relaxed.residual_force, relaxed.residual_length];
-            let solution = Solution::new(energies::columns(assembly.terms(), &relaxed.state), Some(residuals));
+            let solution =
+                EnergiesAndResiduals::new(energies::columns(assembly.terms(), &relaxed.state), Some(residuals));
             let mode = [0, 1, 2].map(|k| along.curvature.map(|curvature| curvature[k]).into());
             let first = [number.into()].into_iter().chain(mode).chain([sample.amplitude.into()]);
             let rounds = [sample.iterations, sample.rounds].map(Value::from);

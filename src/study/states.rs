@@ -7,7 +7,7 @@ use crate::output::artifact::Artifact;
 use crate::output::figure::{Annotations, sheet};
 use crate::output::paraview;
 use crate::output::picture::Picture;
-use crate::output::table::{Solution, StateRow, Table};
+use crate::output::table::{EnergiesAndResiduals, StateRow, Table};
 use crate::scene::spec::Draw;
 
 /// A state to be written or drawn, with its residuals and self-intersections.
@@ -42,7 +42,7 @@ fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
     StateRow {
         step: Some(step as i64),
         shape: cylinder(assembly.drawn(), &state.coordinates),
-        solution: Solution::new(energies::columns(assembly.terms(), state), shown.residuals),
+        solution: EnergiesAndResiduals::new(energies::columns(assembly.terms(), state), shown.residuals),
         self_intersecting: shown.marks.as_ref().map(|marks| marks.any),
         fold: cell_angles(context, state),
         ..StateRow::default()

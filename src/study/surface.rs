@@ -6,15 +6,15 @@ use super::trace::enter_folded;
 use super::{Answer, Context, NoAnswer, StudyError, StudyResult, energies, states, supported};
 use crate::analysis::chart::screw_coordinates;
 use crate::analysis::state::{Cylinder, State};
-use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
+use crate::analysis::surface::{FoldedSurface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::{Assembly, Configuration, Domain, Gauge, Terms};
 use crate::numerics::worst;
 use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
-use crate::output::figure::surface::{self as figure, PathPoint};
+use crate::output::figure::surface::{self as figure, TrajectoryPoint};
 use crate::output::strain_space::StrainSurface;
-use crate::output::table::{Solution, StateRow, Table};
+use crate::output::table::{EnergiesAndResiduals, StateRow, Table};
 use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
 use crate::scene::values::Count;
 use crate::scene::{Located, SceneFile};
@@ -87,7 +87,7 @@ pub(crate) fn curvature_of_cell(assembly: &Assembly) -> f64 {
 }
 
 /// Returns the reason for which a surface is incomplete; `None` if it is complete.
-fn reason(surface: &Surface) -> Option<String> {
+fn reason(surface: &FoldedSurface) -> Option<String> {
     match surface.coverage {
         Coverage::Complete if surface.lost > 0 => Some(format!(
             "along {} of the ways away from spatially periodic states no folded state was found: what lies there may be missing",
@@ -115,7 +115,7 @@ struct States {
 
 /// Returns the states of a surface. If the observer asks to stop, the surface is reduced to the states computed by
 /// then, or to its first `KEPT` ones.
-fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) -> States {
+fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut FoldedSurface) -> States {
     let mut model = unlocked.model(Gauge::Held);
     let mut finder = context.self_intersection();
     let (mut states, mut crossing) = (Vec::new(), Vec::new());
@@ -142,7 +142,7 @@ fn add_files(
     answer: &mut Answer,
     context: &Context<'_>,
     unlocked: &Assembly,
-    (surface, max_curvature): (&mut Surface, f64),
+    (surface, max_curvature): (&mut FoldedSurface, f64),
 ) {
     let found = states_of(context, unlocked, surface);
     let surface = &*surface;
@@ -163,7 +163,10 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
         sign: Some(i64::from(point.branch.1)),
         step: Some(k as i64),
         shape: Some(Cylinder::from(&point.shape)),
-        solution: Solution { energy: energies::columns_if_any(terms, state), ..Solution::default() },
+        solution: EnergiesAndResiduals {
+            energy: energies::columns_if_any(terms, state),
+            ..EnergiesAndResiduals::default()
+        },
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
         fold: point.angles.clone(),
         ..StateRow::default()
@@ -171,7 +174,7 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
 }
 
 /// Returns the surface in the space of lattice strains, with the rows of the table as its data.
-fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurface {
+fn mesh(assembly: &Assembly, surface: &FoldedSurface, rows: &[StateRow]) -> StrainSurface {
     let shapes = || surface.points.iter().map(|point| &point.shape);
     let fold = |(number, edge): (usize, &Edge)| {
         (Table::edge_column("fold", &edge.key), surface.points.iter().map(|point| point.angles[number]).collect())
@@ -196,7 +199,7 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         let studies = context.file.scene.studies.iter().map(|study| &study.name.0);
         let before = studies.take_while(|study| *study != name).filter_map(|study| context.earlier.paths.get(study));
         let mut paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
-        let on_curve = |k: usize| PathPoint::new(mesh.points[k], mesh.curvature[k], mesh.theta[k]);
+        let on_curve = |k: usize| TrajectoryPoint::new(mesh.points[k], mesh.curvature[k], mesh.theta[k]);
         paths.extend(mesh.segments.iter().map(|segment| segment.map(on_curve).to_vec()));
         let caption = context.caption(format!("all folded states up to a curvature of {}", rounded(max_curvature, 4)));
         answer.add(format!("{name}.svg"), figure::svg(&mesh, &paths, &caption));
@@ -209,13 +212,13 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
 }
 
 /// Returns the pieces of a trajectory whose absolute curvature is at most `max_curvature`.
-fn within(path: &[PathPoint], max_curvature: f64) -> Vec<Vec<PathPoint>> {
-    let outside = |point: &PathPoint| !(point.curvature.abs() <= max_curvature);
+fn within(path: &[TrajectoryPoint], max_curvature: f64) -> Vec<Vec<TrajectoryPoint>> {
+    let outside = |point: &TrajectoryPoint| !(point.curvature.abs() <= max_curvature);
     let pieces = path.split(outside).filter(|piece| piece.len() > 1);
-    pieces.map(<[PathPoint]>::to_vec).collect()
+    pieces.map(<[TrajectoryPoint]>::to_vec).collect()
 }
 
-fn summary(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
+fn summary(surface: &FoldedSurface, options: &SurfaceOptions) -> SurfaceSummary {
     let coverage = match surface.coverage {
         _ if surface.negative.is_some() && surface.points.is_empty() => "no-real-branch",
         Coverage::Complete if surface.lost > 0 => "open",

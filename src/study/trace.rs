@@ -14,9 +14,9 @@ use crate::analysis::state::{Cylinder, State};
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
 use crate::model::{Assembly, Configuration, Domain, Gauge, Model};
 use crate::numerics::worst;
-use crate::output::figure::surface::{self, PathPoint};
+use crate::output::figure::surface::{self, TrajectoryPoint};
 use crate::output::strain_space::StrainSurface;
-use crate::output::table::{Solution, StateRow};
+use crate::output::table::{EnergiesAndResiduals, StateRow};
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{CreaseAngle, Draw, Engine, TraceSpec};
 use crate::solver::continuation;
@@ -112,7 +112,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
         finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown).any)
     };
     let mut step = 0;
-    let mut observe = |_: (usize, i8), point: &continuation::Point| {
+    let mut observe = |_: (usize, i8), point: &continuation::CurvePoint| {
         step += 1;
         context.step_with_residual(step, None, point.residual)
     };
@@ -207,8 +207,8 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
     let mut lines = Vec::new();
     for path in paths {
         let (own, rest) = rows.split_at(path.len());
-        let point = |shape: Cylinder| PathPoint::new(shape.strain.into(), shape.curvature, shape.theta);
-        lines.push(own.iter().filter_map(|row| row.shape).map(point).collect::<Vec<PathPoint>>());
+        let point = |shape: Cylinder| TrajectoryPoint::new(shape.strain.into(), shape.curvature, shape.theta);
+        lines.push(own.iter().filter_map(|row| row.shape).map(point).collect::<Vec<TrajectoryPoint>>());
         rows = rest;
     }
     if context.draws(Draw::Svg) && !lines.iter().all(Vec::is_empty) {
@@ -251,7 +251,7 @@ fn row(
         step: Some(step as i64),
         arc_length: Some(folded.arc_length),
         shape,
-        solution: Solution::new(energies::columns_if_any(assembly.terms(), state), residuals),
+        solution: EnergiesAndResiduals::new(energies::columns_if_any(assembly.terms(), state), residuals),
         self_intersecting,
         seam: is_tube(assembly).then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
         fold: state.fold_angle.clone(),

@@ -18,7 +18,7 @@ use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landsc
 use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_around};
 use crate::model::{Assembly, Domain, Gauge};
 use crate::numerics::{larger, worst};
-use crate::output::figure::chart::{self, Chart, Point, Series};
+use crate::output::figure::chart::{self, DataPoint, LineChart, Series};
 use crate::output::figure::rounded;
 use crate::output::table::{Table, Value};
 use crate::scene::spec::{Draw, WellsSpec};
@@ -314,7 +314,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     }
     if !passes.is_empty() {
         let state = "energies along the paths down from passes to wells; a dashed line marks the pass";
-        let charts: Vec<Chart> = passes.iter().map(|barrier| path_chart(context, found, barrier)).collect();
+        let charts: Vec<LineChart> = passes.iter().map(|barrier| path_chart(context, found, barrier)).collect();
         answer.add(format!("{name}.svg"), chart::panels(&charts, &context.caption(state)));
     } else if let Some(lowest) = all.first() {
         let state = format!("well 0, energy {}", rounded(found.wells[0].settled.energy, 5));
@@ -333,20 +333,20 @@ fn heights(passes: &[&Barrier]) -> Table {
 
 /// Returns the chart of energies along the descents from a pass to the wells that it joins, in the sheet's own bars,
 /// and of the energy of the pass.
-fn path_chart(context: &Context<'_>, found: &FoundWells, barrier: &Barrier) -> Chart {
+fn path_chart(context: &Context<'_>, found: &FoundWells, barrier: &Barrier) -> LineChart {
     let ([from, to], last) = (barrier.joins, barrier.path.len() - 1);
     let label = |at: usize| match at {
         0 => format!("well {from}"),
         at if at == last => format!("well {to}"),
         _ => String::new(),
     };
-    let point = |(at, &(x, y)): (usize, &(f64, f64))| Point { x, y, label: label(at) };
-    let points: Vec<Point> = barrier.path.iter().enumerate().map(point).collect();
+    let point = |(at, &(x, y)): (usize, &(f64, f64))| DataPoint { x, y, label: label(at) };
+    let points: Vec<DataPoint> = barrier.path.iter().enumerate().map(point).collect();
     let top = points.iter().max_by(|a, b| a.y.total_cmp(&b.y)).map_or(0.0, |top| top.x);
     let summary = found.barrier(barrier.between, Ok(barrier));
     let level = |energy: f64| {
         let above = energy - found.wells[from].settled.energy;
-        Point {
+        DataPoint {
             x: top,
             y: energy,
             label: format!("pass at {}, {} above well {from}", rounded(energy, 5), rounded(above, 5)),
@@ -362,12 +362,12 @@ fn path_chart(context: &Context<'_>, found: &FoundWells, barrier: &Barrier) -> C
         Some(last) if barrier.singular => format!(" in bars of {}", rounded(last.stiffness, 3)),
         _ => String::new(),
     };
-    Chart {
+    LineChart {
         title: format!("well {from} to well {to}{sought}"),
         x: format!("length of the path over the pass{bars}"),
         y: context.units().energy(),
         series: vec![Series { name: String::new(), points }],
         levels: summary.energy.map(level).into_iter().collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }
 }

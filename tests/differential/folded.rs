@@ -7,7 +7,7 @@ use foldwell::analysis::along::{cylinder_errors, relax_along};
 use foldwell::analysis::landscape::fit::{agrees, coefficient};
 use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet};
-use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
+use foldwell::analysis::surface::{FoldedSurface, SurfaceOptions, surface};
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::EdgeKind;
@@ -96,7 +96,7 @@ fn covered(cell: &Assembly, traced: &[Traced], report: &mut Report, what: &str) 
 }
 
 /// Distance of fold angles to the nearest state of a surface, whole turns taken off.
-fn nearest(surface: &Surface, angles: &[f64]) -> f64 {
+fn nearest(surface: &FoldedSurface, angles: &[f64]) -> f64 {
     let turned = |a: &f64, b: &f64| a - b - TAU * ((a - b) / TAU).round();
     let square = |other: &[f64]| angles.iter().zip(other).map(|(a, b)| turned(a, b).powi(2)).sum::<f64>();
     surface.points.iter().map(|point| square(&point.angles)).fold(f64::INFINITY, f64::min).sqrt()

@@ -5,7 +5,7 @@ use foldwell::analysis::relax::RelaxError;
 use foldwell::analysis::trace::TraceError;
 use foldwell::model::AssemblyError;
 use foldwell::output::OutputError;
-use foldwell::output::figure::chart::Chart;
+use foldwell::output::figure::chart::LineChart;
 use foldwell::run::RunError;
 use foldwell::sheet::SheetError;
 use serde::Serialize;
@@ -68,7 +68,7 @@ pub struct Findings {
     /// Diagrams of error against run time.
     pub diagrams: Vec<Diagram>,
     /// Other charts.
-    pub charts: Vec<Chart>,
+    pub charts: Vec<LineChart>,
     /// Tables.
     pub tables: Vec<ReportTable>,
 }

@@ -1,6 +1,6 @@
 //! Error against run time of methods at several settings.
 
-use foldwell::output::figure::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{DataPoint, LineChart, Series};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -40,15 +40,15 @@ pub struct Diagram {
 
 impl Diagram {
     /// Returns the diagram as a chart.
-    pub fn chart(&self) -> Chart {
-        let point = |s: &Setting| Point { x: s.error, y: s.seconds, label: s.label.clone() };
+    pub fn chart(&self) -> LineChart {
+        let point = |s: &Setting| DataPoint { x: s.error, y: s.seconds, label: s.label.clone() };
         let series = |m: &Method| Series { name: m.name.clone(), points: m.settings.iter().map(point).collect() };
-        Chart {
+        LineChart {
             title: self.title.clone(),
             x: self.error.clone(),
             y: "seconds".into(),
             series: self.methods.iter().map(series).collect(),
-            ..Chart::default()
+            ..LineChart::default()
         }
     }
 

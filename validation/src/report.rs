@@ -5,7 +5,7 @@ use super::experiment::Performed;
 use super::findings::ReportTable;
 use super::precision::{Diagram, Setting};
 use super::verdict::{compare, numbers_at};
-use foldwell::output::figure::chart::Chart;
+use foldwell::output::figure::chart::LineChart;
 use serde::Serialize;
 
 /// A claim that was checked.
@@ -63,7 +63,7 @@ pub struct Report {
     pub diagrams: Vec<Diagram>,
     /// Other charts; their numbers are also in the tables.
     #[serde(skip)]
-    pub charts: Vec<Chart>,
+    pub charts: Vec<LineChart>,
     /// Tables of the measurements.
     pub tables: Vec<ReportTable>,
 }

@@ -42,7 +42,7 @@ pub enum DerivativeError {
 
 /// A derivative by extrapolated differences, with its estimated error.
 #[derive(Clone, Copy, Debug)]
-struct Estimate {
+struct ExtrapolatedDerivative {
     value: f64,
     error: f64,
 }
@@ -79,7 +79,8 @@ pub fn check_jacobian(
     if (rows, columns) != (components, variables) {
         return Err(DerivativeError::Shape { rows, columns, components, variables });
     }
-    let estimates: Vec<Vec<Estimate>> = (0..columns).map(|column| differentiate(&function, point, column)).collect();
+    let estimates: Vec<Vec<ExtrapolatedDerivative>> =
+        (0..columns).map(|column| differentiate(&function, point, column)).collect();
     let overall = largest(estimates.iter().flatten().map(|estimate| estimate.value));
     for (row, value) in values.iter().enumerate() {
         let in_row = largest(estimates.iter().map(|column| column[row].value));
@@ -102,8 +103,13 @@ fn scale(point: &[f64]) -> f64 {
     if largest > 0.0 { largest } else { 1.0 }
 }
 
-fn judge(estimate: Estimate, found: f64, allowed: f64, [row, column]: [usize; 2]) -> Result<(), DerivativeError> {
-    let Estimate { value: expected, error } = estimate;
+fn judge(
+    estimate: ExtrapolatedDerivative,
+    found: f64,
+    allowed: f64,
+    [row, column]: [usize; 2],
+) -> Result<(), DerivativeError> {
+    let ExtrapolatedDerivative { value: expected, error } = estimate;
     match (error <= allowed, (found - expected).abs() <= allowed) {
         (false, _) => Err(DerivativeError::Unresolved { row, column, error, allowed }),
         (true, false) => Err(DerivativeError::Entry { row, column, expected, found, allowed }),
@@ -112,7 +118,11 @@ fn judge(estimate: Estimate, found: f64, allowed: f64, [row, column]: [usize; 2]
 }
 
 /// The derivative of all components along one variable.
-fn differentiate(function: &impl Fn(&[f64]) -> Vec<f64>, point: &[f64], variable: usize) -> Vec<Estimate> {
+fn differentiate(
+    function: &impl Fn(&[f64]) -> Vec<f64>,
+    point: &[f64],
+    variable: usize,
+) -> Vec<ExtrapolatedDerivative> {
     let mut step = FIRST_STEP * scale(point);
     let mut tables: Vec<Extrapolation> = Vec::new();
     for _ in 0..LEVELS {
@@ -134,12 +144,12 @@ fn differentiate(function: &impl Fn(&[f64]) -> Vec<f64>, point: &[f64], variable
 /// The triangle of extrapolated difference quotients of one component: each new row halves the step.
 struct Extrapolation {
     row: Vec<f64>,
-    best: Estimate,
+    best: ExtrapolatedDerivative,
 }
 
 impl Default for Extrapolation {
     fn default() -> Self {
-        Self { row: Vec::new(), best: Estimate { value: f64::NAN, error: f64::INFINITY } }
+        Self { row: Vec::new(), best: ExtrapolatedDerivative { value: f64::NAN, error: f64::INFINITY } }
     }
 }
 
@@ -154,7 +164,7 @@ impl Extrapolation {
             let value = fine + (fine - coarse) / (weight - 1.0);
             let error = (value - fine).abs().max((value - coarse).abs()) + rounding;
             if error < self.best.error {
-                self.best = Estimate { value, error };
+                self.best = ExtrapolatedDerivative { value, error };
             }
             self.row.push(value);
         }

@@ -74,7 +74,7 @@ impl Tearing {
         }
         let blocks = |(list, clique): (usize, usize)| separable_blocks(cliques[list], clique, node);
         let graph = order::neighbours(node, cliques, blocks);
-        let tree = Tree::new(order::nodes(&graph), &graph);
+        let tree = EliminationTree::new(order::nodes(&graph), &graph);
         let separated = |place: &(usize, usize)| blocks(*place).is_some_and(|nodes| tree.separates(nodes));
         let torn: Vec<_> = order::places(cliques).filter(separated).collect();
         let numbers = tree.numbers(node, torn.iter().map(|&(list, clique)| (cliques[list], clique)));
@@ -211,7 +211,7 @@ struct Numbers {
 }
 
 /// The elimination tree of the nodes of a graph.
-struct Tree {
+struct EliminationTree {
     /// Node at each place of the order, and place of each node.
     order: Vec<u32>,
     place: Vec<usize>,
@@ -221,7 +221,7 @@ struct Tree {
     size: Vec<usize>,
 }
 
-impl Tree {
+impl EliminationTree {
     fn new(order: Vec<u32>, neighbours: &[Vec<u32>]) -> Self {
         let count = order.len();
         let mut place = vec![NONE; count];

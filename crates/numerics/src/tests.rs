@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use std::sync::Arc;
 
 /// A symmetric matrix of random cliques, with an unknown twice in some and fixed members in others.
-struct Sample {
+struct RandomCliques {
     pattern: SparsityPattern,
     cliques: Cliques,
     values: Vec<f64>,
@@ -19,7 +19,7 @@ struct Sample {
     node: Vec<u32>,
 }
 
-fn sample(size: usize, seed: u64, diagonal: f64) -> Sample {
+fn sample(size: usize, seed: u64, diagonal: f64) -> RandomCliques {
     let mut numbers = ChaCha8Rng::seed_from_u64(seed);
     let mut cliques = Cliques::new();
     for _ in 0..2 * size {
@@ -48,7 +48,7 @@ fn sample(size: usize, seed: u64, diagonal: f64) -> Sample {
         }
         slots.add_block(k, 1.0, &block, &mut values);
     }
-    Sample { pattern, cliques, values, dense, node: (0..size as u32).collect() }
+    RandomCliques { pattern, cliques, values, dense, node: (0..size as u32).collect() }
 }
 
 /// Claim: scattering blocks through slots is adding them to a dense matrix, repeated and fixed members included; the
@@ -56,7 +56,7 @@ fn sample(size: usize, seed: u64, diagonal: f64) -> Sample {
 #[test]
 fn blocks_add_up() {
     for seed in 0..5 {
-        let Sample { pattern, values, dense, .. } = sample(40, seed, 0.0);
+        let RandomCliques { pattern, values, dense, .. } = sample(40, seed, 0.0);
         assert!((pattern.to_dense(&values) - &dense).amax() < 1e-14);
         let x: Vec<f64> = (0..40).map(|k| (k as f64).sin()).collect();
         let mut y = vec![0.0; 40];
@@ -73,7 +73,7 @@ fn blocks_add_up() {
 fn inertia_and_solution() {
     for (size, seed) in [(10, 1), (DENSE_LIMIT, 2), (DENSE_LIMIT + 1, 3), (200, 4), (300, 5)] {
         for diagonal in [0.0, 0.7, 3.0, 20.0] {
-            let Sample { pattern, cliques, values, dense, node } = sample(size, seed, diagonal);
+            let RandomCliques { pattern, cliques, values, dense, node } = sample(size, seed, diagonal);
             let mut factor = Factor::new(&pattern, &node, &[&cliques]).unwrap();
             let inertia = factor.factor(&pattern, &values).unwrap();
             let expected = symmetric_eigenvalues(&dense).unwrap().iter().filter(|v| **v < 0.0).count();
@@ -92,7 +92,7 @@ const RIGHT: std::ops::Range<u32> = 9..12;
 
 /// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the
 /// wings of a hinge uncoupled and random outer products besides, some of weight zero.
-struct Hinges {
+struct RandomHinges {
     pattern: SparsityPattern,
     node: Vec<u32>,
     cliques: Cliques,
@@ -122,7 +122,7 @@ fn grid(width: u32, height: u32, tube: bool) -> Vec<[u32; 4]> {
     hinges
 }
 
-fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hinges {
+fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> RandomHinges {
     let mut numbers = ChaCha8Rng::seed_from_u64(seed);
     let (vertices, mut cliques) = (width * height, Cliques::new());
     for points in grid(width, height, tube) {
@@ -149,7 +149,7 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
         weights.push(weight);
         gradients.extend(gradient);
     }
-    Hinges { pattern, node, cliques, weights, gradients, values }
+    RandomHinges { pattern, node, cliques, weights, gradients, values }
 }
 
 /// Claim: a torn factorization counts the negative eigenvalues of the matrix itself and solves with it; on sheets, and
@@ -158,7 +158,7 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
 fn torn_inertia_and_solution() {
     for (width, height, tube, open) in [(12, 9, false, 20), (3, 80, true, 1), (2, 30, true, 0), (1, 30, true, 0)] {
         for (seed, diagonal) in [(1, 0.0), (2, 2.0), (3, 8.0)] {
-            let Hinges { pattern, node, cliques, weights, gradients, values } =
+            let RandomHinges { pattern, node, cliques, weights, gradients, values } =
                 hinges(width, height, tube, seed, diagonal);
             let tearing = Arc::new(Tearing::new(&pattern, &node, &[&cliques]).unwrap());
             assert!(tearing.open() >= open, "{width} x {height}: {} open", tearing.open());
@@ -181,11 +181,11 @@ fn torn_inertia_and_solution() {
 /// 6,400 vertices is seen to need, rounded up.
 #[test]
 fn tearing_saves() {
-    let Hinges { pattern, node, cliques, .. } = hinges(80, 80, false, 1, 0.0);
+    let RandomHinges { pattern, node, cliques, .. } = hinges(80, 80, false, 1, 0.0);
     let torn = TornFactor::of(&Arc::new(Tearing::new(&pattern, &node, &[&cliques]).unwrap())).unwrap();
     let whole = Factor::new(&pattern, &node, &[&cliques]).unwrap();
     assert!((torn.stored() as f64) < 0.85 * whole.stored() as f64, "{} of {}", torn.stored(), whole.stored());
-    let Hinges { pattern, node, cliques, .. } = hinges(4, 5, false, 1, 0.0);
+    let RandomHinges { pattern, node, cliques, .. } = hinges(4, 5, false, 1, 0.0);
     assert_eq!(Tearing::new(&pattern, &node, &[&cliques]).unwrap().open(), 0);
 }
 
@@ -193,7 +193,7 @@ fn tearing_saves() {
 #[test]
 fn what_cannot_be_factored() {
     for size in [10, 100] {
-        let Sample { pattern, cliques, mut values, node, .. } = sample(size, 7, 1.0);
+        let RandomCliques { pattern, cliques, mut values, node, .. } = sample(size, 7, 1.0);
         let mut factor = Factor::new(&pattern, &node, &[&cliques]).unwrap();
         values[3] = f64::NAN;
         assert_eq!(factor.factor(&pattern, &values), Err(FactorError::NotFinite));
@@ -243,7 +243,7 @@ fn rank_and_range() {
 /// Tolerance: 1e-13 was asked for, relative to the largest.
 #[test]
 fn largest_eigenvalues() {
-    let Sample { dense, .. } = sample(120, 21, 0.0);
+    let RandomCliques { dense, .. } = sample(120, 21, 0.0);
     let square = &dense * &dense;
     let (values, vectors) =
         eigen::largest(120, 6, |x| Some((&square * nalgebra::DVector::from_column_slice(x)).as_slice().to_vec()))

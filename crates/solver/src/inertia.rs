@@ -200,7 +200,7 @@ pub fn in_words(count: Option<usize>) -> String {
 }
 
 /// One motion that meets the stiff measures: `R dx = C dt`.
-struct Motion {
+struct ConstrainedMotion {
     dx: Vec<f64>,
     dt: Vec<f64>,
     /// The Hessian times `dx`.
@@ -212,7 +212,7 @@ struct Motions<'a> {
     tangent: &'a mut Tangent,
     /// Multiple of the identity that is added to the Hessian.
     zero: f64,
-    found: Vec<Motion>,
+    found: Vec<ConstrainedMotion>,
     /// The lower triangle of `dx H dx + dt C dt` between them.
     energies: Vec<Vec<f64>>,
 }
@@ -252,7 +252,7 @@ impl<'a> Motions<'a> {
 
     /// The motion that a force makes, without its parts along those already found; `None` where nothing is left of it,
     /// or where it does not meet the measures.
-    fn next_motion(&mut self, force: &[f64]) -> Option<Motion> {
+    fn next_motion(&mut self, force: &[f64]) -> Option<ConstrainedMotion> {
         let nothing = vec![0.0; self.tangent.compliance.len()];
         let step = self.tangent.solve(force, &nothing, SOLVED);
         let (mut dx, mut dt) = self.across_the_others(step.dx, step.dt)?;
@@ -274,7 +274,7 @@ impl<'a> Motions<'a> {
         let mut product = vec![0.0; dx.len()];
         symmetric_product(self.tangent.at.pattern(), &self.tangent.at.hessian, &dx, &mut product);
         add_scaled(&mut product, self.zero, &dx);
-        Some(Motion { dx, dt, force: product })
+        Some(ConstrainedMotion { dx, dt, force: product })
     }
 
     /// A motion without its parts along those already found, scaled to length 1; `None` where next to nothing is left.
@@ -306,10 +306,10 @@ impl<'a> Motions<'a> {
     }
 
     /// Adds a motion, and its row of `dx H dx + dt C dt`.
-    fn push(&mut self, motion: Motion) {
+    fn push(&mut self, motion: ConstrainedMotion) {
         self.found.push(motion);
         let [.., last] = self.found.as_slice() else { return };
-        let entry = |other: &Motion| {
+        let entry = |other: &ConstrainedMotion| {
             let stretched = last.dt.iter().zip(&other.dt).zip(&self.tangent.compliance).map(|((a, b), c)| a * b * c);
             dot_blocked(&last.dx, &other.force) + stretched.sum::<f64>()
         };

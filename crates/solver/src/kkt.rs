@@ -230,7 +230,7 @@ impl KktSystem {
         let force_unit = f64::max(norm_blocked(force), FORCE_UNIT_PER_PULL * pull(at, &dt));
         let stretch_unit = norm_blocked(&right.1) + STRETCH_UNIT_PER_LENGTH * norm_blocked(&dx);
         let start = Pair(dx, multiplied(&dt, &at.sizes));
-        let mut equations = Equations { system: self, at };
+        let mut equations = AugmentedSystem { system: self, at };
         let corrected = corrections::correct(&mut equations, &right, start, [force_unit, stretch_unit], until);
         let (Pair(dx, dt), residual) = (corrected.found, corrected.residual);
         Increment { dx, dt: divided(&dt, &at.sizes), residual }
@@ -243,7 +243,7 @@ impl KktSystem {
         let (dx, dt) = self.apply(&right.0, stretch);
         let units = [pull(at, &dt), norm_blocked(&right.1)];
         let start = Pair(dx, multiplied(&dt, &at.sizes));
-        let mut equations = Equations { system: self, at };
+        let mut equations = AugmentedSystem { system: self, at };
         corrections::correct(&mut equations, &right, start, units, (enough, IMPATIENT)).residual
     }
 }
@@ -289,12 +289,12 @@ pub(super) fn multiplied(v: &[f64], sizes: &[f64]) -> Vec<f64> {
 
 /// The true system and its augmented form. Stretches are divided by the natural sizes of the measures' gradients and
 /// tensions multiplied by them: then all stretches are lengths, and all tensions forces.
-struct Equations<'a> {
+struct AugmentedSystem<'a> {
     system: &'a mut KktSystem,
     at: &'a Linearization,
 }
 
-impl NearlySolved for Equations<'_> {
+impl NearlySolved for AugmentedSystem<'_> {
     fn product(&self, Pair(dx, dt): &Pair) -> Pair {
         let dt = &divided(dt, &self.at.sizes);
         let rows = self.at.rows();

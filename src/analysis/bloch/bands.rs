@@ -26,17 +26,17 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub struct DynamicalMatrix {
     vertices: usize,
-    elements: Vec<Element>,
+    elements: Vec<ElementStiffness>,
 }
 
 /// The second derivatives of the energy of a bar or hinge by the coordinates of its points, row by row.
 #[derive(Clone, Debug)]
-struct Element {
+struct ElementStiffness {
     corners: Vec<Corner>,
     hessian: DenseMatrix,
 }
 
-impl Element {
+impl ElementStiffness {
     /// A spring at rest, with the gradient of its measure.
     fn at_rest(corners: Vec<Corner>, gradient: &[f64], stiffness: f64) -> Self {
         let n = gradient.len();
@@ -86,7 +86,7 @@ impl DynamicalMatrix {
             let (length, direction) = (along.norm(), along.normalize());
             let gradient: Vec<f64> = (-direction).iter().chain(direction.iter()).copied().collect();
             if edge.key.has_bar() {
-                elements.push(Element::at_rest(vec![i, j], &gradient, stiffnesses.bars / length));
+                elements.push(ElementStiffness::at_rest(vec![i, j], &gradient, stiffnesses.bars / length));
             }
             let hinge = match edge.kind {
                 EdgeKind::Crease => stiffnesses.creases,
@@ -96,7 +96,7 @@ impl DynamicalMatrix {
             if let ([Some(left), Some(right)], true) = (edge.wings, hinge > 0.0) {
                 let corners = [i, j, left, right];
                 let gradient = fold_angle_gradient(&corners.map(|corner| sheet.position(corner))).1;
-                elements.push(Element::at_rest(corners.to_vec(), gradient.as_slice(), hinge * length));
+                elements.push(ElementStiffness::at_rest(corners.to_vec(), gradient.as_slice(), hinge * length));
             }
         }
         Ok(Self { vertices: sheet.vertices.len(), elements })
@@ -114,7 +114,7 @@ impl DynamicalMatrix {
                 return Err(BlochError::RigidElement { kind: element.kind().name() });
             }
             element.local(coordinates, true, &mut local);
-            elements.push(Element::stretched(&element, &local));
+            elements.push(ElementStiffness::stretched(&element, &local));
         }
         Ok(Self { vertices: (coordinates.len() - model.domain().shared()) / 3, elements })
     }
@@ -122,7 +122,7 @@ impl DynamicalMatrix {
     /// The same with the mass of each vertex of the cell, positive: its eigenvalues are squared angular frequencies.
     #[must_use]
     pub fn with_masses(mut self, masses: &[f64]) -> Self {
-        for Element { corners, hessian } in &mut self.elements {
+        for ElementStiffness { corners, hessian } in &mut self.elements {
             let per_root = |k: usize| 1.0 / masses[corners[k / 3].vertex].sqrt();
             *hessian = DenseMatrix::from_fn(hessian.nrows(), hessian.ncols(), |row, column| {
                 hessian[(row, column)] * per_root(row) * per_root(column)
@@ -135,7 +135,7 @@ impl DynamicalMatrix {
     pub fn at(&self, q: [f64; 2]) -> ComplexMatrix {
         let z = q.map(|q| Complex::from_polar(1.0, q));
         let mut matrix = ComplexMatrix::zeros(3 * self.vertices, 3 * self.vertices);
-        for Element { corners, hessian } in &self.elements {
+        for ElementStiffness { corners, hessian } in &self.elements {
             for (a, from) in corners.iter().enumerate() {
                 for (b, to) in corners.iter().enumerate() {
                     let phase = power(z, from.shift).conj() * power(z, to.shift);

@@ -10,7 +10,7 @@
 
 use super::rigidity::TERM;
 use super::root::Root;
-use super::singular::Search;
+use super::singular::SingularSearch;
 use super::{Laurent, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, eigenvalues};
 use crate::numerics::dense::small::inverse;
@@ -156,7 +156,7 @@ impl Steps {
             let root = Root { z: z[a], condition: self.condition, multiplicity: self.all.len() };
             return Some(vec![root; self.all.len()]);
         }
-        let mut search = Search::new(rigidity);
+        let mut search = SingularSearch::new(rigidity);
         let near = |step: &Complex<f64>| {
             let mut at = z;
             at[a] *= step.exp();

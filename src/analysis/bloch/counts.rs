@@ -15,7 +15,7 @@ const ZERO: f64 = 1e-11;
 
 /// The numbers at one wavenumber.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Counts {
+pub struct ZeroModeCounts {
     /// The wavenumbers, radians per cell.
     pub q: [f64; 2],
     /// Zero modes.
@@ -29,15 +29,15 @@ pub struct Counts {
     pub gap: f64,
 }
 
-impl Counts {
+impl ZeroModeCounts {
     /// The numbers at a wavenumber.
     ///
     /// ```
-    /// use foldwell::analysis::bloch::{Counts, Rigidity};
+    /// use foldwell::analysis::bloch::{Rigidity, ZeroModeCounts};
     /// use foldwell::sheet::generate::{Pattern, Random, generate};
     ///
     /// let sheet = generate(&Pattern::Random(Random::default()))?;
-    /// let found = Counts::at(&Rigidity::of_sheet(&sheet, false)?, [0.0, 0.0])?;
+    /// let found = ZeroModeCounts::at(&Rigidity::of_sheet(&sheet, false)?, [0.0, 0.0])?;
     /// assert_eq!((found.zero_modes, found.self_stresses), (3, 3));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -5,7 +5,7 @@
 //! sign.
 
 use super::root::Root;
-use super::singular::Search;
+use super::singular::SingularSearch;
 use super::{BlochError, Determinant, Laurent, Rigidity, cluster};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};
 use crate::numerics::{larger, worst};
@@ -82,7 +82,7 @@ impl Decay {
     /// leads from two others stays as it is, and so does one from which it leads nowhere.
     pub fn refined(mut self, determinant: &Determinant, rigidity: &Rigidity) -> Self {
         let together = self.refine_clusters(&determinant.polynomial, rigidity);
-        let mut search = Search::new(rigidity);
+        let mut search = SingularSearch::new(rigidity);
         let corrected = |(k, root): (usize, &Root)| {
             let wanted = root.condition > WELL_KNOWN && !together.contains(&k);
             if wanted { search.root(self.at(root.z), 1 - self.along) } else { None }

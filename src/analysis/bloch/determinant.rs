@@ -6,7 +6,7 @@
 //! are opposite.
 
 use super::laurent::Laurent;
-use super::{BlochError, Counts, Rigidity};
+use super::{BlochError, Rigidity, ZeroModeCounts};
 use crate::numerics::DenseMatrix;
 use crate::numerics::complex::ComplexMatrix;
 use nalgebra::Complex;
@@ -58,7 +58,7 @@ impl Determinant {
         let polynomial = cropped(&coefficients, twice);
         let error = difference(rigidity, &polynomial, absolute)? / largest;
         if !(error <= UNKNOWN) {
-            let at = |turns: [f64; 2]| Counts::at(rigidity, turns.map(|turn| TAU * turn));
+            let at = |turns: [f64; 2]| ZeroModeCounts::at(rigidity, turns.map(|turn| TAU * turn));
             let counts = COMPARED.into_iter().map(at).collect::<Result<Vec<_>, _>>()?;
             return Err(match counts.iter().map(|count| count.zero_modes).min() {
                 Some(zero_modes) if zero_modes > 0 => BlochError::Vanishes { compared: COMPARED.len(), zero_modes },

@@ -27,7 +27,7 @@ mod touching;
 pub mod zero_lines;
 pub(crate) mod zone;
 
-pub use counts::Counts;
+pub use counts::ZeroModeCounts;
 pub use decay::Decay;
 pub use density::Density;
 pub use determinant::Determinant;

@@ -46,7 +46,7 @@ impl Row {
 
 /// The rigidity matrix between two vectors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Pairing {
+pub(crate) struct RigidityProduct {
     /// `left^H R right`.
     pub value: Complex<f64>,
     /// Its derivatives by `log z1` and `log z2`.
@@ -154,8 +154,13 @@ impl Rigidity {
 
     /// `left^H R(z1, z2) right`, its derivatives by `log z1` and `log z2`, and the sum of the magnitudes of the
     /// products that make it; rows by `left`, columns by `right`.
-    pub(crate) fn pairing(&self, z: [Complex<f64>; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Pairing {
-        let mut found = Pairing::default();
+    pub(crate) fn pairing(
+        &self,
+        z: [Complex<f64>; 2],
+        left: &[Complex<f64>],
+        right: &[Complex<f64>],
+    ) -> RigidityProduct {
+        let mut found = RigidityProduct::default();
         for (row, weight) in self.rows.iter().zip(left) {
             for (corner, direction) in &row.terms {
                 let moved = &right[3 * corner.vertex..][..3];

@@ -10,7 +10,7 @@
 //! right to second order near by: one factorization gives a Newton step and the error of the point where it leads
 //! (A. Griewank, G. W. Reddien, IMA J. Numer. Anal. 4, 295 (1984)).
 
-use super::rigidity::Pairing;
+use super::rigidity::RigidityProduct;
 use super::root::Root;
 use super::{Rigidity, exact_pairing};
 use crate::numerics::complex::{ComplexVector, solve_with_adjoint};
@@ -28,12 +28,12 @@ const FARTHEST: f64 = 0.2;
 const LEANING: f64 = 4.0;
 
 /// A search for singular matrices; it keeps the borders of the last, which serve near by.
-pub(crate) struct Search<'a> {
+pub(crate) struct SingularSearch<'a> {
     rigidity: &'a Rigidity,
     borders: [ComplexVector; 2],
 }
 
-impl<'a> Search<'a> {
+impl<'a> SingularSearch<'a> {
     /// For a square rigidity matrix.
     pub(crate) fn new(rigidity: &'a Rigidity) -> Self {
         // directions that no symmetry of a cell prefers
@@ -51,7 +51,7 @@ impl<'a> Search<'a> {
         let start = z[a];
         for _ in 0..ROUNDS {
             let pair = self.null_pair(z)?;
-            let (before, mut at) = (z[a], Pairing::default());
+            let (before, mut at) = (z[a], RigidityProduct::default());
             for _ in 0..STEPS {
                 at = self.pairing(z, &pair);
                 z[a] *= (-at.value / at.slopes[a]).exp();
@@ -97,7 +97,7 @@ impl<'a> Search<'a> {
         None
     }
 
-    fn pairing(&self, z: [Complex<f64>; 2], [left, right]: &[ComplexVector; 2]) -> Pairing {
+    fn pairing(&self, z: [Complex<f64>; 2], [left, right]: &[ComplexVector; 2]) -> RigidityProduct {
         self.rigidity.pairing(z, left.as_slice(), right.as_slice())
     }
 
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn cramers_rule() {
         let rigidity = random(3);
-        let search = Search::new(&rigidity);
+        let search = SingularSearch::new(&rigidity);
         let matrix = rigidity.at(Z);
         let [b, c] = &search.borders;
         let pair = solved(&matrix, &search.borders).unwrap();
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn roots_are_singular() {
         let rigidity = random(4);
-        let mut search = Search::new(&rigidity);
+        let mut search = SingularSearch::new(&rigidity);
         let pair = search.null_pair(Z).unwrap();
         for a in 0..2 {
             let moved = |step: f64| {

@@ -15,7 +15,7 @@ mod region;
 
 use super::extrema::hidden;
 use super::laurent::wavenumber;
-use super::singular::Search;
+use super::singular::SingularSearch;
 use super::touching::touched;
 use super::zone::{Zone, reduced};
 use super::{BlochError, Rigidity};
@@ -85,7 +85,7 @@ impl ZeroLines {
     /// The lines with their points corrected on the matrix of which the zone has the determinant, where the polynomial
     /// knows them worse than to 1e-12; the error of a point is that of the better of the two.
     pub fn refined(mut self, zone: &Zone, rigidity: &Rigidity) -> Self {
-        let mut search = Search::new(rigidity);
+        let mut search = SingularSearch::new(rigidity);
         for line in &mut self.lines {
             line.residual = 0.0;
             let last = line.points.len() - 1;
@@ -324,7 +324,7 @@ impl<'a> Tracer<'a> {
 }
 
 /// A point near a zero line moved onto it, and its error: by the matrix where the polynomial does not know it well.
-fn corrected_on_matrix(zone: &Zone, search: &mut Search<'_>, q: [f64; 2], longest: f64) -> ([f64; 2], f64) {
+fn corrected_on_matrix(zone: &Zone, search: &mut SingularSearch<'_>, q: [f64; 2], longest: f64) -> ([f64; 2], f64) {
     let (value, gradient) = zone.at(q);
     let known = (value.abs() + zone.uncertainty(q)) / norm(gradient);
     if known <= EXACT {

@@ -101,12 +101,12 @@ pub struct Samples {
     course: TaylorPath,
     /// Coordinates that are held against rigid motions in the drawn sheet: the course is one of the others.
     gauge: Vec<bool>,
-    last: Place,
+    last: SettledState,
 }
 
 /// Where a sheet settles at an amplitude.
 #[derive(Clone)]
-struct Place {
+struct SettledState {
     amplitude: f64,
     at: HeldState,
     /// The energy and its rate by the amplitude, the torque on the mode; not numbers where they may be rounding.
@@ -116,7 +116,7 @@ struct Place {
     off_course: f64,
 }
 
-impl Place {
+impl SettledState {
     /// Whether the energy can have grown as a power of the amplitude from that at another place on: the sheet has then
     /// not gone over to another minimum. From the drawn state on it grows about as the fourth power, or the sixth.
     fn continues(&self, from: &Self) -> bool {
@@ -139,7 +139,7 @@ impl Samples {
         let mut held = held.clone();
         let at = HeldState { x: held.drawn(), ..held.still() };
         let gauge = held.model.held();
-        Self { held, course, gauge, last: Place { amplitude: 0.0, at, energy: 0.0, rate: 0.0, off_course: 0.0 } }
+        Self { held, course, gauge, last: SettledState { amplitude: 0.0, at, energy: 0.0, rate: 0.0, off_course: 0.0 } }
     }
 
     /// The sample at an amplitude, from the last one; by way of amplitudes in between where one step leads to another
@@ -179,7 +179,7 @@ impl Samples {
 
     /// The sample at an amplitude, in one step from the last one.
     fn step_to(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
-        let Place { amplitude: from, at: mut place, .. } = self.last.clone();
+        let SettledState { amplitude: from, at: mut place, .. } = self.last.clone();
         let before = self.held.model.coordinates(&place.x);
         if self.held.model.held() == self.gauge {
             self.course.advance(&mut place, from, amplitude);
@@ -210,7 +210,7 @@ impl Samples {
                 let rate = self.rate(&place);
                 let off = |other: &[f64]| norm_blocked(&moved(&sample.relaxed.state.coordinates, -1.0, other));
                 let off_course = off(&predicted) / off(&before);
-                self.last = Place { amplitude, at: place, energy, rate, off_course };
+                self.last = SettledState { amplitude, at: place, energy, rate, off_course };
                 return Ok(sample);
             }
         }

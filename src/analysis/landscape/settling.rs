@@ -21,7 +21,7 @@ pub(crate) type TermValues = (Vec<f64>, Vec<f64>);
 
 /// How a sheet settles.
 #[derive(Clone, Debug)]
-pub(crate) struct Response {
+pub(crate) struct SettlingResponse {
     /// What unknowns, tensions and rest angles across the modes move by.
     pub place: HeldState,
     /// How far every soft hinge is off rest.
@@ -30,7 +30,7 @@ pub(crate) struct Response {
     open: Vec<f64>,
 }
 
-impl Response {
+impl SettlingResponse {
     /// How far hinges are off, and tensions.
     fn parts(&self) -> (&[f64], &[f64]) {
         (&self.off, &self.place.tension)
@@ -50,7 +50,7 @@ pub(crate) struct Settling<'a> {
     /// Directions of the rest angles across the modes.
     directions: Vec<TermValues>,
     /// Responses to them.
-    free: Vec<Response>,
+    free: Vec<SettlingResponse>,
     /// Energies of pairs of these responses: the Hessian of the energy in the rest angles.
     hessian: DenseMatrix,
     /// Accuracy of the linear solves that is asked for.
@@ -90,7 +90,11 @@ impl<'a> Settling<'a> {
 
     /// Where hinges that are off rest by `off` and stiff measures that are longer by `stretch` settle under these
     /// forces on the unknowns, at given rest angles.
-    fn respond(&mut self, (off, stretch): (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
+    fn respond(
+        &mut self,
+        (off, stretch): (&[f64], &[f64]),
+        force: Option<&[f64]>,
+    ) -> Result<SettlingResponse, LandscapeError> {
         let model = &self.held.model;
         let forces: Vec<f64> = self.stiffness().iter().zip(off).map(|(stiffness, off)| -stiffness * off).collect();
         let mut force = force.map_or_else(|| vec![0.0; model.layout().unknowns], <[f64]>::to_vec);
@@ -107,11 +111,15 @@ impl<'a> Settling<'a> {
         for (((open, stretch), t), c) in open.iter_mut().zip(stretch).zip(&found.dt).zip(model.compliance()) {
             *open += stretch - c * t;
         }
-        Ok(Response { place: HeldState { x: found.dx, tension: found.dt, ..self.held.still() }, off, open })
+        Ok(SettlingResponse { place: HeldState { x: found.dx, tension: found.dt, ..self.held.still() }, off, open })
     }
 
     /// The same with the rest angles across the modes settling too.
-    pub(crate) fn settle(&mut self, off: (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
+    pub(crate) fn settle(
+        &mut self,
+        off: (&[f64], &[f64]),
+        force: Option<&[f64]>,
+    ) -> Result<SettlingResponse, LandscapeError> {
         let mut response = self.respond(off, force)?;
         let torques = DVector::from_fn(self.free.len(), |j, _| self.torque(response.parts(), j));
         let rest = self.absorb(&torques)?;
@@ -163,12 +171,13 @@ impl<'a> Settling<'a> {
 
     /// Twice the energy of a pair of responses. With the work of tensions on what is left open it is stationary where
     /// they are exact: the error is of second order in what linear solves have left.
-    pub(crate) fn product(&self, a: &Response, b: &Response) -> f64 {
+    pub(crate) fn product(&self, a: &SettlingResponse, b: &SettlingResponse) -> f64 {
         let hinges = a.off.iter().zip(&b.off).zip(self.stiffness()).map(|((a, b), k)| k * a * b);
         let bars =
             a.place.tension.iter().zip(&b.place.tension).zip(self.held.model.compliance()).map(|((a, b), c)| c * a * b);
-        let work =
-            |a: &Response, b: &Response| -> f64 { a.place.tension.iter().zip(&b.open).map(|(t, open)| t * open).sum() };
+        let work = |a: &SettlingResponse, b: &SettlingResponse| -> f64 {
+            a.place.tension.iter().zip(&b.open).map(|(t, open)| t * open).sum()
+        };
         hinges.sum::<f64>() + bars.sum::<f64>() + work(a, b) + work(b, a)
     }
 

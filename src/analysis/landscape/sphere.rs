@@ -45,14 +45,14 @@ pub fn point([k11, k22, k12]: [f64; 3]) -> Vec3 {
 }
 
 /// A net on the sphere: `rings` from each pole to the equator.
-pub struct Net {
+pub struct SphereNet {
     /// Its directions: a pole, ring after ring, the other pole.
     pub directions: Vec<Direction>,
     /// Triangles, seen from outside counter-clockwise.
     pub triangles: Vec<[usize; 3]>,
 }
 
-impl Net {
+impl SphereNet {
     /// With this number of rings from pole to equator, and four times as many points on each.
     pub fn new(rings: usize) -> Self {
         let (around, between) = (4 * rings, 2 * rings - 1);

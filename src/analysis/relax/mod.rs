@@ -13,7 +13,7 @@ use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step};
 use certainty::{CERTAIN, uncertainty};
 pub use options::{IntrinsicFailure, Method, RelaxOptions};
 use recorder::KeptState;
-pub use routes::soft_bars::BranchChoice;
+pub use routes::soft_bars::FoldingBranch;
 use routes::{ROUTES, fold_angles, straight_screw};
 pub use run::RouteTried;
 use run::{Ending, Run};
@@ -51,7 +51,7 @@ pub struct Relaxed {
     /// Why fold angles were given up, if they were tried as unknowns.
     pub intrinsic_failure: Option<IntrinsicFailure>,
     /// The branch on which a flat or singular start was left; `None` for other starts.
-    pub branch_choice: Option<BranchChoice>,
+    pub branch_choice: Option<FoldingBranch>,
     /// Which steps of the history were made with bars that stretch, to leave a singular start.
     pub soft_steps: Range<usize>,
     /// The states on the way that [`RelaxOptions::keep_every`] asks for.
@@ -188,7 +188,7 @@ fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
 /// The answer of a relaxation that ended in an equilibrium, and the model with its unknowns there.
 fn relaxed(run: Run<'_>, found: Equilibrium) -> (Relaxed, Model, Vec<f64>) {
     let Run { mut model, start, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
-    let branch_choice = BranchChoice::of(&model, &found.x, &start.angles, !soft_steps.is_empty());
+    let branch_choice = FoldingBranch::of(&model, &found.x, &start.angles, !soft_steps.is_empty());
     let settled = tension::settle(&model, &found);
     let found = with_least_tensions(&model, found, &settled);
     let found = straight_screw::counted(&mut model, found);

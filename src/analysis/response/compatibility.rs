@@ -22,7 +22,7 @@ pub(super) const MACROSCOPIC: usize = 6;
 
 /// Rates of the measures of some elements, all of them lengths: a fold angle counts times the root of the cell's area,
 /// so that no unit decides which of them matter.
-pub(super) struct Rates {
+pub(super) struct MeasureRates {
     /// Per unit velocity of the vertices of the cell: a row for each element, three columns for each vertex.
     pub by_vertices: DenseMatrix,
     /// Per unit of `[e11, e22, e12, k11, k22, k12]`.
@@ -37,7 +37,7 @@ pub(super) fn units(length: f64) -> [f64; MACROSCOPIC] {
     [1.0, 1.0, SQRT_2, length, length, SQRT_2 * length]
 }
 
-impl Rates {
+impl MeasureRates {
     /// Returns the rates by motions of the cell in which vertex 0 does not move: the velocities of the other vertices,
     /// then strain and curvature in their norm, lengths in this unit.
     pub(super) fn by_motions(&self, length: f64) -> DenseMatrix {
@@ -52,7 +52,7 @@ impl Rates {
 }
 
 /// Returns the rates of the measures of these elements of a cell.
-pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates {
+pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> MeasureRates {
     let (vertices, length) = (cell.sheet.vertices.len(), cell.area().sqrt());
     let mut terms = 0.0;
     let mut by_vertices = DenseMatrix::zeros(elements.len(), 3 * vertices);
@@ -74,7 +74,7 @@ pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates 
             }
         }
     }
-    Rates { by_vertices, by_lattice, terms }
+    MeasureRates { by_vertices, by_lattice, terms }
 }
 
 /// Returns the lattice motions at these rates of `[e11, e22, e12, k11, k22, k12]`.

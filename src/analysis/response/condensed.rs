@@ -65,7 +65,7 @@ struct Weighted {
 
 /// The springs of a cell at rest.
 #[derive(Clone)]
-pub(super) struct Springs {
+pub(super) struct CellSprings {
     rigid: Weighted,
     bars: Weighted,
     hinges: Weighted,
@@ -94,7 +94,7 @@ impl Weighted {
     }
 }
 
-impl Springs {
+impl CellSprings {
     /// Collects the springs of these elements.
     pub(super) fn new(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Self {
         let (area, found) = (cell.area(), rates(cell, elements));
@@ -151,7 +151,7 @@ pub(super) struct Condensed {
 
 impl Condensed {
     /// Minimises the energy of springs over the motions of the vertices.
-    pub(super) fn new(springs: &Springs) -> Result<Self, ResponseError> {
+    pub(super) fn new(springs: &CellSprings) -> Result<Self, ResponseError> {
         let allowed = null_space_of_sums(&springs.rigid.rates, springs.terms)?.basis;
         let lattice = allowed.rows(allowed.nrows() - MACROSCOPIC, MACROSCOPIC).into_owned();
         // motions that change a bar's length, and the others

@@ -11,7 +11,7 @@ use super::result::{LatticeMotions, Response};
 use crate::analysis::state::cylinder;
 use crate::kinematics::metric::LatticeFrame;
 use crate::math::Vec3;
-use crate::model::{Assembly, Domain, Gauge, Local, Model, Site, Terms, Turns};
+use crate::model::{Assembly, Domain, Gauge, Local, Model, ScrewTurns, Site, Terms};
 use crate::numerics::dense;
 use crate::solver::{HessianKind, Linearization, Problem};
 use nalgebra::{DVector, Matrix2};
@@ -49,7 +49,7 @@ struct Rolled<'a> {
     /// Chords from vertex 0 in the frame of the coordinates.
     chords: [Vec3; 2],
     /// The screw motions.
-    turns: Turns,
+    turns: ScrewTurns,
     /// Translations of the two lattice vectors along and across the axis at height 0.
     steps: [[f64; 2]; 2],
 }
@@ -61,7 +61,7 @@ impl<'a> Rolled<'a> {
         let chords = [[1, 0], [0, 1]].map(|shift| at(shift) - at([0, 0]));
         let shared = &coordinates[coordinates.len() - 6..];
         let (turns, steps) =
-            (Turns::new(shared), [0, 1].map(|a| along_and_across(shared[0], [shared[4 + a], shared[2 + a]])));
+            (ScrewTurns::new(shared), [0, 1].map(|a| along_and_across(shared[0], [shared[4 + a], shared[2 + a]])));
         Self { assembly, coordinates, hinges, chords, turns, steps }
     }
 

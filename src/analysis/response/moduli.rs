@@ -7,7 +7,7 @@
 //! bend the sheet in two directions, which have none.
 
 use super::cell::{CellElement, PeriodicCell};
-use super::condensed::{Condensed, ModuliMatrices, Principal, Springs};
+use super::condensed::{CellSprings, Condensed, ModuliMatrices, Principal};
 use super::error::ResponseError;
 use crate::model::{Assembly, Configuration, Gauge};
 
@@ -91,7 +91,7 @@ pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf,
     if !(off <= AT_REST) {
         return Ok(ModuliOf::UnderStress { off });
     }
-    let springs = Springs::new(&cell, &elements);
+    let springs = CellSprings::new(&cell, &elements);
     let own = Condensed::new(&springs)?;
     let limit = Condensed::new(&springs.of_bars())?;
     let (mut rigid_modes, mut softest) = (own.rigid_modes()?, own.softest()?);

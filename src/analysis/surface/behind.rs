@@ -5,7 +5,7 @@
 
 use super::SurfaceOptions;
 use super::folding::SurfaceClosure;
-use super::starts::{self, Starts, SurfaceStart};
+use super::starts::{self, SurfaceStart, SurfaceStarts};
 use super::tip;
 use crate::solver::atlas::Chart;
 
@@ -14,7 +14,7 @@ use crate::solver::atlas::Chart;
 /// tell the nappes.
 pub(super) fn starts(
     folding: &SurfaceClosure<'_>,
-    known: &mut Starts,
+    known: &mut SurfaceStarts,
     options: &SurfaceOptions,
     (charts, triangles): (&[Chart], &[[usize; 3]]),
 ) -> Vec<Vec<f64>> {
@@ -24,7 +24,7 @@ pub(super) fn starts(
             continue;
         }
         match of_tip(folding, &tip, options) {
-            Some(Starts { list, lost, .. }) => {
+            Some(SurfaceStarts { list, lost, .. }) => {
                 known.lost += lost;
                 let first = known.list.iter().map(|start| start.line + 1).max().unwrap_or(0);
                 let added = list.into_iter().enumerate();
@@ -38,7 +38,7 @@ pub(super) fn starts(
 }
 
 /// A state on every nappe of a spatially periodic state that is the tip of a cone; `None` where it is something else.
-fn of_tip(folding: &SurfaceClosure<'_>, tip: &[f64], options: &SurfaceOptions) -> Option<Starts> {
+fn of_tip(folding: &SurfaceClosure<'_>, tip: &[f64], options: &SurfaceOptions) -> Option<SurfaceStarts> {
     let (mut folding, second_order) = folding.leaving(tip).ok()?;
     let cone = second_order.count() == second_order.quadrics.len() + 2 && !second_order.quadrics.is_empty();
     let found = starts::starts(&mut folding, &second_order, options).ok()?.ok()?;

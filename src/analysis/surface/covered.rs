@@ -34,7 +34,7 @@ pub struct SurfacePoint {
 
 /// A triangulated surface of folded states.
 #[derive(Clone, Debug, Default)]
-pub struct Surface {
+pub struct FoldedSurface {
     /// Its states; where charts meet the largest curvature, states are exactly there.
     pub points: Vec<SurfacePoint>,
     /// Triangles of states, the same way round on each piece where `oriented`. Across the end of a period (2 pi) the
@@ -65,7 +65,7 @@ pub struct Surface {
     /// Whether two surfaces cross at the drawn state, along a curve of spatially periodic states.
     pub crossing: bool,
     /// Then the states of that curve on the edges of triangles that go over it.
-    pub seam: Vec<Seam>,
+    pub seam: Vec<SeamState>,
     /// Dimension of the states: 2, or 1 where they are a curve. Then there are no triangles.
     pub dimension: usize,
     /// Neighbours on a curve.
@@ -96,7 +96,7 @@ pub enum Negative {
     NoRay,
 }
 
-impl Surface {
+impl FoldedSurface {
     /// Keeps the first states and the triangles among them.
     pub(crate) fn truncate(&mut self, kept: usize) {
         self.points.truncate(kept);
@@ -112,7 +112,7 @@ impl Surface {
 
 /// A state on the curve, between two neighbours on one surface.
 #[derive(Clone, Debug)]
-pub struct Seam {
+pub struct SeamState {
     /// Fold angles of all edges.
     pub angles: Vec<f64>,
     /// The states between which it lies, by number.

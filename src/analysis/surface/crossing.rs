@@ -5,7 +5,7 @@
 //! by Newton's method from between. An energy is lowest along the curve where its slope along the tangent vanishes, and
 //! is lowest on both surfaces there when it rises along each of the four ways that leave the curve.
 
-use super::covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
+use super::covered::{FoldedSurface, Negative, SeamState, SurfaceOptions, SurfacePoint};
 use super::folding::SurfaceClosure;
 use super::starts::starts;
 use super::tip::periodic_near;
@@ -37,7 +37,7 @@ pub struct Lowest {
 }
 
 /// The states of the curve on the edges of a triangulation that go over it.
-pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triangles: &[[usize; 3]]) -> Vec<Seam> {
+pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triangles: &[[usize; 3]]) -> Vec<SeamState> {
     let on_edge = |between: [usize; 2]| {
         let [a, b] = between.map(|k| &points[k]);
         let [from, to] = [a, b].map(|point| point.shape.screw.towards_axis());
@@ -48,12 +48,12 @@ pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triang
         let part = from.norm() / (from.norm() + to.norm());
         let middle: Vec<f64> = a.angles.iter().zip(&b.angles).map(|(a, b)| a + part * (b - a)).collect();
         let x = periodic_near(folding, folding.folding(&middle))?;
-        Some(Seam { angles: folding.all(&x), between })
+        Some(SeamState { angles: folding.all(&x), between })
     };
     uses_of_sides(triangles).into_keys().filter_map(on_edge).collect()
 }
 
-impl Surface {
+impl FoldedSurface {
     /// Where a quadratic energy is lowest along the curve on which two surfaces cross, near a state of it; `None` where
     /// that is not found.
     pub(crate) fn lowest_on_crossing(

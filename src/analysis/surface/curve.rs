@@ -4,7 +4,7 @@
 //! spatially periodic, and closure alone has three null vectors at each: the condition that the lattice does not turn
 //! leaves one.
 
-use super::covered::{Negative, Surface, SurfaceOptions};
+use super::covered::{FoldedSurface, Negative, SurfaceOptions};
 use super::error::SurfaceError;
 use super::folding::SurfaceClosure;
 use super::{cell, sign};
@@ -12,11 +12,15 @@ use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections, Spa
 use crate::model::Assembly;
 use crate::numerics::GoOn;
 use crate::solver::atlas::{Coverage, Surface as _};
-use crate::solver::continuation::{CurveOptions, End, Point, follow};
+use crate::solver::continuation::{CurveOptions, CurvePoint, End, follow};
 use std::f64::consts::TAU;
 
 /// The curve of folded states; no states where no direction is real.
-pub(super) fn curve(assembly: &Assembly, options: &SurfaceOptions, observe: GoOn<'_>) -> Result<Surface, SurfaceError> {
+pub(super) fn curve(
+    assembly: &Assembly,
+    options: &SurfaceOptions,
+    observe: GoOn<'_>,
+) -> Result<FoldedSurface, SurfaceError> {
     let (closure, embedding, second_order) = cell::of(assembly)?;
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let periodic = SpatiallyPeriodic(&embedding);
@@ -29,7 +33,7 @@ pub(super) fn curve(assembly: &Assembly, options: &SurfaceOptions, observe: GoOn
         RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),
         _ => None,
     };
-    let mut found = Surface { dimension: 1, closed: true, ..Surface::nothing(negative, options.radius) };
+    let mut found = FoldedSurface { dimension: 1, closed: true, ..FoldedSurface::nothing(negative, options.radius) };
     found.lost = usize::from(directions != RealDirections::Listed);
     let mut from = Vec::new();
     let mut arrived: Vec<usize> = Vec::new();
@@ -51,7 +55,7 @@ pub(super) fn curve(assembly: &Assembly, options: &SurfaceOptions, observe: GoOn
     Ok(found)
 }
 
-impl Surface {
+impl FoldedSurface {
     /// Adds the states along a ray.
     fn follow(
         &mut self,
@@ -74,7 +78,7 @@ impl Surface {
             count += 1;
             observe(count)
         };
-        let mut indicators = |_: &mut _, point: &Point, out: &mut Vec<f64>| out.push(folding.limit(&point.x));
+        let mut indicators = |_: &mut _, point: &CurvePoint, out: &mut Vec<f64>| out.push(folding.limit(&point.x));
         let found = follow(closing, start, tangent, &limits, &mut indicators, &mut observe);
         let closed = matches!(found.end, End::Closed(_));
         let inner = found.points.len() - usize::from(closed);

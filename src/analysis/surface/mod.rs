@@ -28,7 +28,7 @@ use crate::kinematics::KinematicsError;
 use crate::model::Assembly;
 use crate::numerics::GoOn;
 use crate::solver::atlas::{self, Atlas, Chart, Coverage};
-pub use covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
+pub use covered::{FoldedSurface, Negative, SeamState, SurfaceOptions, SurfacePoint};
 pub use crossing::Lowest;
 pub use error::SurfaceError;
 use folding::SurfaceClosure;
@@ -46,7 +46,11 @@ const REACH: f64 = 2.0;
 ///
 /// # Errors
 /// [`SurfaceError`] where the folded states are neither, or their directions are not established.
-pub fn surface(assembly: &Assembly, options: &SurfaceOptions, observe: GoOn<'_>) -> Result<Surface, SurfaceError> {
+pub fn surface(
+    assembly: &Assembly,
+    options: &SurfaceOptions,
+    observe: GoOn<'_>,
+) -> Result<FoldedSurface, SurfaceError> {
     match on_surface(assembly, options, observe) {
         Err(SurfaceError::Curve) => curve::curve(assembly, options, observe),
         found => found,
@@ -58,7 +62,7 @@ pub(super) fn on_surface(
     assembly: &Assembly,
     options: &SurfaceOptions,
     observe: GoOn<'_>,
-) -> Result<Surface, SurfaceError> {
+) -> Result<FoldedSurface, SurfaceError> {
     let (closure, embedding, second_order) = cell::of(assembly)?;
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
     if modes == quadrics + 1 {
@@ -72,7 +76,7 @@ pub(super) fn on_surface(
     let mut starts = match starts::starts(&mut folding, &second_order, options)? {
         Ok(starts) => starts,
         Err(Negative::OneDirection) => return Err(SurfaceError::Curve),
-        Err(negative) => return Ok(Surface::nothing(Some(negative), options.radius)),
+        Err(negative) => return Ok(FoldedSurface::nothing(Some(negative), options.radius)),
     };
     let charts = atlas::CoverOptions {
         tolerance: options.tolerance,
@@ -83,7 +87,7 @@ pub(super) fn on_surface(
     folding.crossing = starts.crossing;
     let atlas = cover(&mut folding, (&mut starts, options), charts, observe)?;
     let radius = charts.radius;
-    let found = Surface { radius, ..put_together(&folding, atlas, &starts, observe)? };
+    let found = FoldedSurface { radius, ..put_together(&folding, atlas, &starts, observe)? };
     if found.points.is_empty() && found.coverage != Coverage::Interrupted {
         return Err(SurfaceError::NothingWithin { max_curvature: options.max_curvature, reach: starts.reach });
     }
@@ -94,7 +98,7 @@ pub(super) fn on_surface(
 /// one are not taken for neighbours of those of the other.
 fn cover(
     folding: &mut SurfaceClosure<'_>,
-    (starts, options): (&mut starts::Starts, &SurfaceOptions),
+    (starts, options): (&mut starts::SurfaceStarts, &SurfaceOptions),
     mut charts: atlas::CoverOptions,
     observe: GoOn<'_>,
 ) -> Result<Atlas, atlas::AtlasError> {
@@ -131,9 +135,9 @@ fn cover(
 fn put_together(
     folding: &SurfaceClosure<'_>,
     mut atlas: Atlas,
-    starts: &starts::Starts,
+    starts: &starts::SurfaceStarts,
     observe: GoOn<'_>,
-) -> Result<Surface, KinematicsError> {
+) -> Result<FoldedSurface, KinematicsError> {
     let branch = starts::branches(&atlas, &starts.list);
     let tip::Left { border, open, nappes } = tip::close(folding, &mut atlas);
     let coverage = match atlas.coverage {
@@ -147,7 +151,7 @@ fn put_together(
     // nappes meet in pairs: where one has none opposite, that is missing
     let odd = nappes.iter().filter(|count| *count % 2 == 1 && coverage.is_whole() && !crossing).count();
     let lost = starts.lost + reached.iter().filter(|start| start.is_none()).count() + odd;
-    let mut surface = Surface {
+    let mut surface = FoldedSurface {
         triangles,
         coverage,
         gaps,
@@ -156,7 +160,7 @@ fn put_together(
         tips,
         lost,
         crossing,
-        ..Surface::nothing(None, 0.0)
+        ..FoldedSurface::nothing(None, 0.0)
     };
     for (k, chart) in atlas.charts.iter().enumerate() {
         let stopped = surface.coverage == Coverage::Interrupted;

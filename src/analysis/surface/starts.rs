@@ -15,8 +15,8 @@ use crate::kinematics::{KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
 use crate::sheet::pieces;
-use crate::solver::atlas::{Atlas, Section, Surface as _};
-use crate::solver::continuation::{CurveOptions, Point, follow};
+use crate::solver::atlas::{Atlas, HyperplaneSection, Surface as _};
+use crate::solver::continuation::{CurveOptions, CurvePoint, follow};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 
@@ -41,7 +41,7 @@ pub(super) struct SurfaceStart {
 }
 
 /// States from which the surface is begun.
-pub(super) struct Starts {
+pub(super) struct SurfaceStarts {
     pub list: Vec<SurfaceStart>,
     /// Distance from the drawn state, in fold angles, of the nearest one; infinite where the drawn state is itself the
     /// start.
@@ -55,7 +55,7 @@ pub(super) struct Starts {
 }
 
 /// A real direction, and the normal of a hyperplane on which it is a simple solution; both in the basis of the modes.
-struct Direction {
+struct FoldingDirection {
     along: DVector<f64>,
     normal: DVector<f64>,
 }
@@ -65,11 +65,11 @@ pub(super) fn starts(
     folding: &mut SurfaceClosure<'_>,
     second_order: &SecondOrder,
     settings: &SurfaceOptions,
-) -> Result<Result<Starts, Negative>, SurfaceError> {
+) -> Result<Result<SurfaceStarts, Negative>, SurfaceError> {
     let (directions, unknown) = match &second_order.quadrics[..] {
         [] => {
             let list = vec![SurfaceStart { x: folding.drawn.clone(), sign: 1, line: 0 }];
-            return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, tips: Vec::new(), crossing: false }));
+            return Ok(Ok(SurfaceStarts { list, reach: f64::INFINITY, lost: 0, tips: Vec::new(), crossing: false }));
         }
         [quadric] => match of_one_quadric(quadric)? {
             Ok(directions) => (directions, 0),
@@ -78,16 +78,21 @@ pub(super) fn starts(
         _ => on_sections(second_order)?,
     };
     let crossing = second_order.quadrics.len() == 1 && directions.len() == 2;
-    let mut found =
-        Starts { list: Vec::new(), reach: f64::INFINITY, lost: unknown, tips: vec![folding.drawn.clone()], crossing };
-    for (line, Direction { along, normal }) in directions.iter().enumerate() {
+    let mut found = SurfaceStarts {
+        list: Vec::new(),
+        reach: f64::INFINITY,
+        lost: unknown,
+        tips: vec![folding.drawn.clone()],
+        crossing,
+    };
+    for (line, FoldingDirection { along, normal }) in directions.iter().enumerate() {
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
             let tangent = along.iter().map(|entry| sign * entry).collect();
             // surfaces that cross: half a chart away, so that the next chart on the other side is so too
             let part = if crossing { 0.5 } else { 1.0 };
             match follow_out(folding, settings, tangent, (&normal, part)) {
-                Some(Point { x, arc_length, .. }) => {
+                Some(CurvePoint { x, arc_length, .. }) => {
                     let sign = if folding.shape(&x)?.curvature < 0.0 { -1 } else { 1 };
                     // beyond the limit: half of it is met so near that it could not be located
                     let reach = if folding.limit(&x) > 0.0 { 0.0 } else { arc_length };
@@ -111,11 +116,11 @@ fn follow_out(
     settings: &SurfaceOptions,
     tangent: Vec<f64>,
     (normal, part): (&[f64], f64),
-) -> Option<Point> {
+) -> Option<CurvePoint> {
     let SurfaceOptions { tolerance, radius, .. } = *settings;
     let options = CurveOptions { tolerance, length: part * radius, stops: vec![0], ..CurveOptions::default() };
     let drawn = folding.drawn.clone();
-    let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
+    let mut section = HyperplaneSection::new(folding, drawn.clone(), normal.to_vec());
     let found = follow(
         &mut section,
         drawn,
@@ -129,7 +134,7 @@ fn follow_out(
 
 /// Simple directions on the zeros of one quadric of three motions: one line on a cone, one on each of two planes that
 /// meet in the null direction, on the plane across it. What is established where no plane of directions is real.
-fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negative>, SurfaceError> {
+fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<FoldingDirection>, Negative>, SurfaceError> {
     let found = symmetric_eigen(quadric).map_err(KinematicsError::from)?;
     let zero = ZERO * found.values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
     let [positive, negative] =
@@ -138,7 +143,7 @@ fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negati
     let directions = |[one, other, across]: [usize; 3], ways: &[f64]| {
         let [one_size, other_size] = [one, other].map(|k| found.values[k].abs().sqrt());
         let along = |way: &f64| (vector(one) * other_size + vector(other) * (way * one_size)).normalize();
-        ways.iter().map(|way| Direction { along: along(way), normal: vector(across) }).collect()
+        ways.iter().map(|way| FoldingDirection { along: along(way), normal: vector(across) }).collect()
     };
     let none = (0..found.values.len()).find(|k| !positive.contains(k) && !negative.contains(k));
     match (&positive[..], &negative[..], none) {
@@ -160,7 +165,7 @@ fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negati
 /// That every hyperplane has none does not say that there are none: a small curve of directions is missed by most.
 /// Beside them the number of those that are multiple, of which second order says no more, and of hyperplanes on which
 /// not all are known.
-fn on_sections(second_order: &SecondOrder) -> Result<(Vec<Direction>, usize), SurfaceError> {
+fn on_sections(second_order: &SecondOrder) -> Result<(Vec<FoldingDirection>, usize), SurfaceError> {
     let count = second_order.count();
     let (mut found, mut multiple, mut unknown) = (Vec::new(), 0, 0);
     for seed in 0..SECTIONS {
@@ -178,7 +183,7 @@ fn on_sections(second_order: &SecondOrder) -> Result<(Vec<Direction>, usize), Su
         multiple += rays.iter().filter(|ray| ray.sign == 1 && ray.multiplicity > 1).count();
         unknown += usize::from(directions != RealDirections::Listed);
         let simple = rays.into_iter().filter(|ray| ray.sign == 1 && ray.multiplicity == 1);
-        found.extend(simple.map(|ray| Direction { along: ray.direction.into(), normal: normal.clone() }));
+        found.extend(simple.map(|ray| FoldingDirection { along: ray.direction.into(), normal: normal.clone() }));
     }
     if found.is_empty() {
         return Err(SurfaceError::NoneMet { sections: SECTIONS as usize, multiple });

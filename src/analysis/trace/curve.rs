@@ -5,7 +5,7 @@ use crate::analysis::tube::SeamPlace;
 use crate::kinematics::tube::Condition;
 use crate::kinematics::{Closing, Displacement, Embedding, Shape};
 use crate::sheet::Seam;
-use crate::solver::continuation::Point;
+use crate::solver::continuation::CurvePoint;
 use std::f64::consts::TAU;
 
 /// Rates of strains, per arc length, up to which they are rounding errors: such a strain has no turning points.
@@ -51,12 +51,12 @@ pub(super) struct Known {
 impl Watched<'_, '_> {
     /// Asks whether faces of the first state pass through each other.
     pub fn look_at_start(&mut self, closing: &Closing<'_>, x: Vec<f64>) {
-        let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
+        let start = CurvePoint { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
         let state = self.folded(closing, &start);
         self.crosses = self.intersects.as_mut().is_some_and(|intersects| intersects(&state));
     }
 
-    pub fn folded(&mut self, closing: &Closing<'_>, point: &Point) -> Folded {
+    pub fn folded(&mut self, closing: &Closing<'_>, point: &CurvePoint) -> Folded {
         let (angles, rates) = (closing.angles(&point.x), closing.rates(&point.tangent));
         let placement = self.embedding.place(&angles);
         let positions = placement.positions.clone();
@@ -67,8 +67,13 @@ impl Watched<'_, '_> {
     }
 
     /// The states at these points; fewer where `go_on` says to stop.
-    pub fn states(&mut self, closing: &Closing<'_>, points: &[Point], go_on: &mut dyn FnMut() -> bool) -> Vec<Folded> {
-        let goes_on = |(k, _): &(usize, &Point)| *k == 0 || k % OBSERVED > 0 || go_on();
+    pub fn states(
+        &mut self,
+        closing: &Closing<'_>,
+        points: &[CurvePoint],
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Vec<Folded> {
+        let goes_on = |(k, _): &(usize, &CurvePoint)| *k == 0 || k % OBSERVED > 0 || go_on();
         points.iter().enumerate().take_while(goes_on).map(|(_, point)| self.folded(closing, point)).collect()
     }
 
@@ -116,7 +121,7 @@ impl Watched<'_, '_> {
     }
 
     /// Appends the values whose sign changes are located.
-    pub fn indicators(&mut self, closing: &Closing<'_>, point: &Point, out: &mut Vec<f64>) {
+    pub fn indicators(&mut self, closing: &Closing<'_>, point: &CurvePoint, out: &mut Vec<f64>) {
         let state = self.folded(closing, point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
         // what a straight state has of curvature is rounding

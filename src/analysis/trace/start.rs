@@ -8,7 +8,7 @@ use crate::model::{Assembly, Domain};
 use crate::sheet::{Seam, SeamKept};
 
 /// The first state of trajectories, with its rays.
-pub(super) struct Start<'a> {
+pub(super) struct TraceStart<'a> {
     /// Fold angles of all edges in radians, zero where there is no hinge.
     pub angles: Vec<f64>,
     /// The rays to follow.
@@ -22,7 +22,7 @@ pub(super) struct Start<'a> {
 }
 
 /// Finds the rays of the drawn state, or of the tube from which the assembly starts.
-pub(super) fn start(assembly: &Assembly) -> Result<Start<'_>, TraceError> {
+pub(super) fn start(assembly: &Assembly) -> Result<TraceStart<'_>, TraceError> {
     let angles = assembly.start_angles().iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     if let Domain::Tube { seam, kept, .. } = assembly.domain() {
         return of_tube(assembly, angles, (*seam, *kept));
@@ -33,12 +33,16 @@ pub(super) fn start(assembly: &Assembly) -> Result<Start<'_>, TraceError> {
         RealDirections::NotEstablished if found.rays.is_empty() => return Err(TraceError::NotEstablished),
         _ => {}
     }
-    Ok(Start { angles, rays: found.rays, directions: found.directions, planar, tube: None })
+    Ok(TraceStart { angles, rays: found.rays, directions: found.directions, planar, tube: None })
 }
 
 /// Counts the motions of a tube that keep its closing conditions. Where there is none, the Jacobian of closure and
 /// conditions has full column rank: the tube is rigid. One motion that keeps one condition makes two rays.
-fn of_tube(assembly: &Assembly, angles: Vec<f64>, (seam, kept): (Seam, SeamKept)) -> Result<Start<'_>, TraceError> {
+fn of_tube(
+    assembly: &Assembly,
+    angles: Vec<f64>,
+    (seam, kept): (Seam, SeamKept),
+) -> Result<TraceStart<'_>, TraceError> {
     let tube = Tube::new(assembly.sheet(), seam.lattice_vector())?;
     let is_kept = |condition: &Condition| match condition {
         Condition::Turn => kept.turn,
@@ -64,5 +68,5 @@ fn of_tube(assembly: &Assembly, angles: Vec<f64>, (seam, kept): (Seam, SeamKept)
         }
         (motions, _) => return Err(TraceError::MotionsOfTube { motions, closed: kept.is_closed() }),
     };
-    Ok(Start { angles, rays, directions: RealDirections::Listed, planar: false, tube })
+    Ok(TraceStart { angles, rays, directions: RealDirections::Listed, planar: false, tube })
 }

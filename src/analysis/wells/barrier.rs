@@ -123,12 +123,12 @@ pub fn barrier(
     if let Some(term) = assembly.terms().first_not_linear() {
         return Err(BarrierError::NotLinear { term: term.to_owned() });
     }
-    way(&mut Search { assembly, wells, between, go_on }, LEGS)
+    way(&mut BarrierSearch { assembly, wells, between, go_on }, LEGS)
 }
 
 /// The highest pass on the way between the two wells of a search: the one that is found, or where this joins other wells,
 /// a higher one on the rest of the way from these. That is sought so many times in turn at most.
-fn way(search: &mut Search<'_>, legs: usize) -> Result<Barrier, BarrierError> {
+fn way(search: &mut BarrierSearch<'_>, legs: usize) -> Result<Barrier, BarrierError> {
     let between = search.between;
     let mut highest = search.lowest_pass()?;
     let (pass, joins @ [a, b]) = (highest.pass.energy, highest.joins);
@@ -143,14 +143,14 @@ fn way(search: &mut Search<'_>, legs: usize) -> Result<Barrier, BarrierError> {
 }
 
 /// The search for a barrier between two of the wells.
-struct Search<'a> {
+struct BarrierSearch<'a> {
     assembly: &'a Assembly,
     wells: &'a [Well],
     between: [usize; 2],
     go_on: &'a mut dyn FnMut() -> bool,
 }
 
-impl Search<'_> {
+impl BarrierSearch<'_> {
     /// The lowest pass that is found on paths between the wells, whichever wells it joins.
     fn lowest_pass(&mut self) -> Result<Barrier, BarrierError> {
         let Self { assembly, wells, between, .. } = *self;

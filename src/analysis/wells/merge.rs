@@ -5,7 +5,7 @@
 //! A translation counts where it leaves stiffnesses, rest angles and locked angles as they are. Angles are not taken
 //! modulo whole turns, because the energy is not: a crease wound once more is another well, and passes through itself.
 
-use super::placement::Placement;
+use super::placement::PlacementConditions;
 use super::settle::Settled;
 use crate::analysis::state::State;
 use crate::model::{Assembly, Gauge, Hinges, Spring, Stiffness};
@@ -82,7 +82,7 @@ pub struct Comparison {
     translations: Vec<Vec<usize>>,
     /// The rest angle of each edge, and the distance from it within which its hinge hardly pulls.
     slack: Vec<[f64; 2]>,
-    placement: Option<Placement>,
+    placement: Option<PlacementConditions>,
 }
 
 /// Returns for each edge the rest angle of its hinge and the distance from it within which the hinge pulls less than
@@ -106,7 +106,11 @@ fn slack(assembly: &Assembly) -> Vec<[f64; 2]> {
 impl Comparison {
     /// Prepares the test for the states of a sheet.
     pub fn new(assembly: &Assembly) -> Self {
-        Self { translations: translations(assembly), slack: slack(assembly), placement: Placement::new(assembly) }
+        Self {
+            translations: translations(assembly),
+            slack: slack(assembly),
+            placement: PlacementConditions::new(assembly),
+        }
     }
 
     /// Smallest over the translations of the largest difference of two lists of fold angles of all edges; angles at which

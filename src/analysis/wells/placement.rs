@@ -27,9 +27,9 @@ const DEPENDENT: f64 = 1e-12;
 
 /// The conditions that pins, guides and parts impose on the position of a sheet as a whole.
 #[derive(Clone, Debug)]
-pub(crate) struct Placement(Assembly);
+pub(crate) struct PlacementConditions(Assembly);
 
-impl Placement {
+impl PlacementConditions {
     /// Returns the conditions for the pins, guides and parts of a patch; `None` if two states of the same fold angles are
     /// always one.
     pub(crate) fn new(assembly: &Assembly) -> Option<Self> {

@@ -96,7 +96,7 @@ impl Opening {
 
 /// A step from a face over an edge to the next.
 #[derive(Clone, Copy)]
-struct Step {
+struct FaceStep {
     edge: usize,
     to: usize,
     /// Whether the step leads from the right to the left face.
@@ -111,10 +111,10 @@ struct Step {
 /// openings.
 pub(super) fn openings(edges: &[HingedEdge], inside: &[usize], position: &impl Fn(Corner) -> Vec3) -> Vec<Opening> {
     let (beside, faces) = faces_beside(edges);
-    let mut steps: Vec<Vec<Step>> = vec![Vec::new(); faces];
+    let mut steps: Vec<Vec<FaceStep>> = vec![Vec::new(); faces];
     for (edge, [left, right]) in beside.iter().enumerate().filter_map(|(edge, pair)| Some((edge, (*pair)?))) {
-        steps[right].push(Step { edge, to: left, leftwards: true });
-        steps[left].push(Step { edge, to: right, leftwards: false });
+        steps[right].push(FaceStep { edge, to: left, leftwards: true });
+        steps[left].push(FaceStep { edge, to: right, leftwards: false });
     }
     let Some(ways) = ways(&steps) else { return Vec::new() };
     let vertices = edges.iter().flat_map(|edge| edge.ends).map(|end| end.vertex + 1).max().unwrap_or(0);
@@ -150,8 +150,8 @@ fn faces_beside(edges: &[HingedEdge]) -> (Vec<Option<[usize; 2]>>, usize) {
 }
 
 /// The shortest way from the first face to each; `None` where a face is not reached.
-fn ways(steps: &[Vec<Step>]) -> Option<Vec<Vec<Step>>> {
-    let mut ways: Vec<Option<Vec<Step>>> = vec![None; steps.len()];
+fn ways(steps: &[Vec<FaceStep>]) -> Option<Vec<Vec<FaceStep>>> {
+    let mut ways: Vec<Option<Vec<FaceStep>>> = vec![None; steps.len()];
     *ways.first_mut()? = Some(Vec::new());
     let mut waiting = VecDeque::from([0]);
     while let Some(face) = waiting.pop_front() {
@@ -166,20 +166,20 @@ fn ways(steps: &[Vec<Step>]) -> Option<Vec<Vec<Step>>> {
 }
 
 /// The loop over an edge from its right to its left face and back along the tree, without what both ways share.
-fn round(ways: &[Vec<Step>], edge: usize, [left, right]: [usize; 2]) -> Vec<Step> {
+fn round(ways: &[Vec<FaceStep>], edge: usize, [left, right]: [usize; 2]) -> Vec<FaceStep> {
     let [there, back] = [&ways[right], &ways[left]];
     let shared = there.iter().zip(back).take_while(|(a, b)| a.edge == b.edge).count();
-    let across = Step { edge, to: left, leftwards: true };
-    let reversed = back[shared..].iter().rev().map(|step| Step { leftwards: !step.leftwards, ..*step });
+    let across = FaceStep { edge, to: left, leftwards: true };
+    let reversed = back[shared..].iter().rev().map(|step| FaceStep { leftwards: !step.leftwards, ..*step });
     there[shared..].iter().copied().chain([across]).chain(reversed).collect()
 }
 
 impl Opening {
-    fn new(steps: &[Step], edges: &[HingedEdge], position: &impl Fn(Corner) -> Vec3) -> Self {
+    fn new(steps: &[FaceStep], edges: &[HingedEdge], position: &impl Fn(Corner) -> Vec3) -> Self {
         let ends: Vec<[Vec3; 2]> = steps.iter().map(|step| edges[step.edge].ends.map(position)).collect();
         let centre = ends.iter().flatten().sum::<Vec3>() / (2 * ends.len()) as f64;
         let unit = ends.iter().flatten().map(|end| (end - centre).norm()).fold(0.0, f64::max);
-        let turn = |(step, [from, to]): (&Step, &[Vec3; 2])| {
+        let turn = |(step, [from, to]): (&FaceStep, &[Vec3; 2])| {
             let edge = &edges[step.edge];
             let drawn = match edge.wings {
                 [Some(left), Some(right)] => fold_angle([*from, *to, position(left), position(right)]),

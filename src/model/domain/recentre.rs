@@ -73,7 +73,7 @@ fn lay(lattice: [Complex<f64>; 2], shared: &mut [f64]) {
 mod tests {
     use super::*;
     use crate::math::Vec3;
-    use crate::model::{Domain, Site, Turns};
+    use crate::model::{Domain, ScrewTurns, Site};
     use nalgebra::Rotation3;
 
     /// Claim: moving the axis shifts every copy of every vertex by the same height, whatever the curvature, so that
@@ -116,7 +116,7 @@ mod tests {
                     assert!(off.norm() < 1e-12, "{kappa} {site:?} {off}");
                 }
             }
-            let Turns { direction, theta, .. } = Turns::new(&new[6..]);
+            let ScrewTurns { direction, theta, .. } = ScrewTurns::new(&new[6..]);
             assert!(theta.iter().chain([&direction]).all(|angle| angle.abs() <= 4.0), "{new:?}");
         }
     }

@@ -13,7 +13,7 @@ pub(super) type Pulled = SMatrix<f64, { 12 + MOST_SHARED }, { 12 + MOST_SHARED }
 
 /// The two screw motions of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Turns {
+pub(crate) struct ScrewTurns {
     /// Direction of the axis: its angle from x, in radians.
     pub direction: f64,
     /// Curvature: the inverse of the height of the axis above z = 0.
@@ -22,7 +22,7 @@ pub(crate) struct Turns {
     pub theta: [f64; 2],
 }
 
-impl Turns {
+impl ScrewTurns {
     /// Computes the screw motions from the shared coordinates of a screw.
     pub(crate) fn new(shared: &[f64]) -> Self {
         let (direction, kappa) = (shared[0], shared[1]);

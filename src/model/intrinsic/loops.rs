@@ -43,7 +43,7 @@ pub(super) struct Topology {
 
 /// A step of a loop at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Step {
+pub(super) enum LoopStep {
     /// Over an edge, from its right to its left seen from the vertex; `-1` for the other way.
     Cross { edge: usize, sign: f64 },
     /// Through a triangle with these edges, between the first and the second of them; `-1` for clockwise.
@@ -57,13 +57,13 @@ pub(super) enum Step {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rim {
     edges: Vec<[usize; 2]>,
-    steps: Vec<Vec<Step>>,
+    steps: Vec<Vec<LoopStep>>,
 }
 
 /// The steps of a condition on angles and lengths, and what has to come of them.
 #[derive(Clone, Debug)]
-pub(super) struct Condition {
-    pub steps: Vec<Step>,
+pub(super) struct LoopCondition {
+    pub steps: Vec<LoopStep>,
     /// The edge without face whose length the steps have to bridge; `None` for a loop that has to close.
     pub bridge: Option<usize>,
 }
@@ -75,12 +75,12 @@ impl Rim {
     }
 
     /// Returns the steps once round.
-    pub(super) fn round(&self) -> Vec<Step> {
+    pub(super) fn round(&self) -> Vec<LoopStep> {
         self.steps.concat()
     }
 
     /// Returns the steps from a vertex to another, which begin with a step along an edge.
-    fn way(&self, from: usize, to: usize) -> Option<Vec<Step>> {
+    fn way(&self, from: usize, to: usize) -> Option<Vec<LoopStep>> {
         let first = self.edges.iter().position(|edge| edge[0] == from)?;
         let last = self.edges.iter().position(|edge| edge[1] == to)?;
         let count = (last + self.len() - first) % self.len() + 1;
@@ -186,7 +186,7 @@ impl Topology {
     }
 
     /// Returns the loops round all interior vertices.
-    pub(super) fn rounds(&self) -> Result<Vec<Vec<Step>>, Unsupported> {
+    pub(super) fn rounds(&self) -> Result<Vec<Vec<LoopStep>>, Unsupported> {
         let interior = |v: &usize| {
             let mut around = self.neighbours[*v].iter();
             let closed = |&u: &usize| [[*v, u], [u, *v]].iter().all(|ends| self.directed[ends].left.is_some());
@@ -195,14 +195,14 @@ impl Topology {
         (0..self.vertices()).filter(interior).map(|v| self.round(v)).collect()
     }
 
-    fn round(&self, v: usize) -> Result<Vec<Step>, Unsupported> {
+    fn round(&self, v: usize) -> Result<Vec<LoopStep>, Unsupported> {
         let first = self.neighbours[v][0];
         let (mut at, mut steps) = (first, vec![]);
         for count in 1.. {
             let Directed { edge, left } = self.edge(v, at)?;
             let next = left.ok_or(Unsupported::Topology)?;
-            steps.push(Step::Cross { edge, sign: 1.0 });
-            steps.push(Step::Sector { edges: self.triangle(v, at, next)?, sign: 1.0 });
+            steps.push(LoopStep::Cross { edge, sign: 1.0 });
+            steps.push(LoopStep::Sector { edges: self.triangle(v, at, next)?, sign: 1.0 });
             at = next;
             if at == first {
                 let whole = count == self.neighbours[v].len();
@@ -238,14 +238,14 @@ impl Topology {
 
     /// Returns the ways along a rim from one end to the other of the edges without face that join two vertices of
     /// triangles. Other edges without face have to hold a vertex of no triangle, alone or in pairs.
-    pub(super) fn bridges(&self, rims: &[Rim]) -> Result<Vec<Condition>, Unsupported> {
+    pub(super) fn bridges(&self, rims: &[Rim]) -> Result<Vec<LoopCondition>, Unsupported> {
         let (mut bridges, mut held) = (vec![], vec![0; self.vertices()]);
         for &[i, j] in &self.loose {
             match [i, j].map(|v| self.is_in_triangle(v)) {
                 [true, true] => {
                     let ways = rims.iter().flat_map(|rim| [rim.way(i, j), rim.way(j, i)]).flatten();
                     let steps = ways.min_by_key(Vec::len).ok_or(Unsupported::Topology)?;
-                    bridges.push(Condition { steps, bridge: Some(self.number(i, j)?) });
+                    bridges.push(LoopCondition { steps, bridge: Some(self.number(i, j)?) });
                 }
                 [true, false] => held[j] += 1,
                 [false, true] => held[i] += 1,
@@ -262,19 +262,19 @@ impl Topology {
     }
 
     /// Adds the steps from one edge of a rim to the next, clockwise through the triangles at the vertex between them.
-    fn along_rim(&self, [from, at]: [usize; 2], steps: &mut Vec<Step>) -> Result<[usize; 2], Unsupported> {
+    fn along_rim(&self, [from, at]: [usize; 2], steps: &mut Vec<LoopStep>) -> Result<[usize; 2], Unsupported> {
         let mut spoke = from;
         loop {
             // the triangle on the right of the spoke, seen from `at`
             let next = self.edge(spoke, at)?.left.ok_or(Unsupported::Topology)?;
-            steps.push(Step::Sector { edges: self.triangle(at, spoke, next)?, sign: -1.0 });
+            steps.push(LoopStep::Sector { edges: self.triangle(at, spoke, next)?, sign: -1.0 });
             let edge = self.number(at, next)?;
             spoke = next;
             if self.edge(next, at)?.left.is_none() {
-                steps.push(Step::Along { edge });
+                steps.push(LoopStep::Along { edge });
                 return Ok([at, next]);
             }
-            steps.push(Step::Cross { edge, sign: -1.0 });
+            steps.push(LoopStep::Cross { edge, sign: -1.0 });
         }
     }
 }

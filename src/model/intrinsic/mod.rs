@@ -20,18 +20,18 @@ use super::problem::Model;
 use crate::solver::constrained::{Block, Blocks, ConstrainedProblem};
 use crate::solver::{Problem, Start};
 pub use loops::Unsupported;
-use loops::{Condition, Step, Topology};
-use word::{Corner, Ends, Factor, Value, Word};
+use loops::{LoopCondition, LoopStep, Topology};
+use word::{EdgeValue, Ends, FrameMotion, TriangleAngle, Word};
 
 /// A patch in fold angles and lengths.
 #[derive(Debug)]
 pub struct IntrinsicModel {
     topology: Topology,
-    conditions: Vec<Condition>,
+    conditions: Vec<LoopCondition>,
     mean_edge: f64,
     /// Fold angle of each edge; rims have the fixed angle 0.
-    angles: Vec<Value>,
-    lengths: Vec<Value>,
+    angles: Vec<EdgeValue>,
+    lengths: Vec<EdgeValue>,
     target: Vec<f64>,
     compliance: Vec<f64>,
     words: Vec<Word>,
@@ -52,15 +52,15 @@ impl IntrinsicModel {
         let (mut target, mut compliance) = (vec![], vec![]);
         let mut value = |spring: Spring| {
             if spring.stiffness.is_infinite() {
-                return Value::Fixed(spring.rest);
+                return EdgeValue::Fixed(spring.rest);
             }
             target.push(spring.rest);
             compliance.push(1.0 / spring.stiffness);
-            Value::Variable(target.len() as u32 - 1)
+            EdgeValue::Variable(target.len() as u32 - 1)
         };
-        let angles: Vec<Value> =
-            hinges.into_iter().map(|spring| spring.map_or(Value::Fixed(0.0), &mut value)).collect();
-        let lengths: Vec<Value> = bars.into_iter().map(&mut value).collect();
+        let angles: Vec<EdgeValue> =
+            hinges.into_iter().map(|spring| spring.map_or(EdgeValue::Fixed(0.0), &mut value)).collect();
+        let lengths: Vec<EdgeValue> = bars.into_iter().map(&mut value).collect();
         let conditions = conditions(&topology)?;
         let mean_edge = model.unit_of_length();
         let (words, blocks) = words(&conditions, &angles, &lengths, mean_edge);
@@ -70,7 +70,7 @@ impl IntrinsicModel {
     /// Returns the number of interior vertices.
     pub fn interior_vertices(&self) -> usize {
         let along_edges =
-            |condition: &&Condition| condition.steps.iter().any(|step| matches!(step, Step::Along { .. }));
+            |condition: &&LoopCondition| condition.steps.iter().any(|step| matches!(step, LoopStep::Along { .. }));
         self.conditions.len() - self.conditions.iter().filter(along_edges).count()
     }
 
@@ -80,7 +80,7 @@ impl IntrinsicModel {
         let all = model.coordinates(x);
         for element in model.elements() {
             let values = if element.is_angle() { &self.angles } else { &self.lengths };
-            if let Some(Value::Variable(variable)) = element.edge().map(|edge| values[edge]) {
+            if let Some(EdgeValue::Variable(variable)) = element.edge().map(|edge| values[edge]) {
                 z[variable as usize] = element.value(&all);
             }
         }
@@ -96,8 +96,8 @@ impl IntrinsicModel {
     /// minus the product of its transposed Jacobian, by all angles and all lengths, and the multipliers.
     fn forces(&self, z: &[f64], multipliers: &[f64]) -> [Vec<f64>; 2] {
         let edges = self.angles.len();
-        let variable = |k: usize| Value::Variable(k as u32);
-        let [angles, lengths]: [Vec<Value>; 2] =
+        let variable = |k: usize| EdgeValue::Variable(k as u32);
+        let [angles, lengths]: [Vec<EdgeValue>; 2] =
             [(0..edges).map(variable).collect(), (edges..2 * edges).map(variable).collect()];
         let (words, blocks) = words(&self.conditions, &angles, &lengths, self.mean_edge);
         let all = self.measures(z).concat();
@@ -215,7 +215,7 @@ fn collected(model: &Model) -> Result<Collected, Unsupported> {
 
 /// Returns the conditions: the loops round the interior vertices, those along all rims but the longest, which is the
 /// outer one and closes if all others do, and the bridges between two vertices of a rim.
-fn conditions(topology: &Topology) -> Result<Vec<Condition>, Unsupported> {
+fn conditions(topology: &Topology) -> Result<Vec<LoopCondition>, Unsupported> {
     let mut rims = topology.rims()?;
     if !topology.is_disk(rims.len()) {
         return Err(Unsupported::Topology);
@@ -225,31 +225,31 @@ fn conditions(topology: &Topology) -> Result<Vec<Condition>, Unsupported> {
         rims.remove(outer);
     }
     let rounds = topology.rounds()?.into_iter().chain(rims.iter().map(loops::Rim::round));
-    Ok(rounds.map(|steps| Condition { steps, bridge: None }).chain(bridges).collect())
+    Ok(rounds.map(|steps| LoopCondition { steps, bridge: None }).chain(bridges).collect())
 }
 
 /// Returns the conditions as products of motions, in these variables, and the variables of each.
-fn words(conditions: &[Condition], angles: &[Value], lengths: &[Value], unit: f64) -> (Vec<Word>, Blocks) {
+fn words(conditions: &[LoopCondition], angles: &[EdgeValue], lengths: &[EdgeValue], unit: f64) -> (Vec<Word>, Blocks) {
     let mut blocks = Blocks::default();
     let words = conditions.iter().map(|condition| {
         let mut variables: Vec<u32> = Vec::new();
-        let mut own = |value: Value| {
-            let Value::Variable(variable) = value else { return value };
+        let mut own = |value: EdgeValue| {
+            let EdgeValue::Variable(variable) = value else { return value };
             let place = variables.iter().position(|v| *v == variable).unwrap_or_else(|| {
                 variables.push(variable);
                 variables.len() - 1
             });
-            Value::Variable(place as u32)
+            EdgeValue::Variable(place as u32)
         };
         let (mut factors, mut ends) = (vec![], Ends::Round);
         for step in &condition.steps {
             match *step {
-                Step::Cross { edge, sign } => factors.push(Factor::Fold { angle: own(angles[edge]), sign }),
-                Step::Sector { edges, sign } => factors.push(sector(edges.map(|edge| own(lengths[edge])), sign)),
-                Step::Along { edge } => {
+                LoopStep::Cross { edge, sign } => factors.push(FrameMotion::Fold { angle: own(angles[edge]), sign }),
+                LoopStep::Sector { edges, sign } => factors.push(sector(edges.map(|edge| own(lengths[edge])), sign)),
+                LoopStep::Along { edge } => {
                     ends = Ends::Rim { unit };
-                    factors.push(Factor::Shift { length: own(lengths[edge]) });
-                    factors.push(Factor::Turn { sine: 0.0, cosine: -1.0 });
+                    factors.push(FrameMotion::Shift { length: own(lengths[edge]) });
+                    factors.push(FrameMotion::Turn { sine: 0.0, cosine: -1.0 });
                 }
             }
         }
@@ -265,8 +265,10 @@ fn words(conditions: &[Condition], angles: &[Value], lengths: &[Value], unit: f6
 }
 
 /// Returns the rotation through a triangle with these sides, evaluated once if they are fixed.
-fn sector(lengths: [Value; 3], sign: f64) -> Factor {
-    let [Value::Fixed(a), Value::Fixed(b), Value::Fixed(c)] = lengths else { return Factor::Sector { lengths, sign } };
-    let corner = Corner::new([a, b, c]);
-    Factor::Turn { sine: sign * corner.sine, cosine: corner.cosine }
+fn sector(lengths: [EdgeValue; 3], sign: f64) -> FrameMotion {
+    let [EdgeValue::Fixed(a), EdgeValue::Fixed(b), EdgeValue::Fixed(c)] = lengths else {
+        return FrameMotion::Sector { lengths, sign };
+    };
+    let corner = TriangleAngle::new([a, b, c]);
+    FrameMotion::Turn { sine: sign * corner.sine, cosine: corner.cosine }
 }

@@ -1,7 +1,7 @@
 //! Positions of the vertices of a patch, from its fold angles and lengths.
 
 use super::loops::{Directed, Topology};
-use super::word::Corner;
+use super::word::TriangleAngle;
 use crate::math::{Vec2, Vec3};
 use crate::numerics::dense::small::nearest_rotation;
 use nalgebra::Matrix3;
@@ -42,7 +42,7 @@ fn unfold(topology: &Topology, first: [usize; 2], angles: &[f64], lengths: &[f64
         reached.extend([[j, k], [k, i]]);
         // the triangle in its own plane
         let sides = [length(i, j), length(i, k), length(j, k)];
-        let corner = Corner::new(sides);
+        let corner = TriangleAngle::new(sides);
         let corners = [Vec2::zeros(), Vec2::new(sides[0], 0.0), sides[1] * Vec2::new(corner.cosine, corner.sine)];
         let direction = |v: Vec2| along * v.x + across * v.y;
         for (vertex, corner) in [i, j, k].into_iter().zip(corners) {

@@ -48,7 +48,7 @@ fn drawn_patches_meet_their_conditions() {
             }
             let of_rows = |rows| intrinsic.words.iter().filter(|word| word.rows() == rows).count();
             assert_eq!(of_rows(6), openings);
-            let folds = intrinsic.angles.iter().filter(|angle| matches!(angle, Value::Variable(_))).count();
+            let folds = intrinsic.angles.iter().filter(|angle| matches!(angle, EdgeValue::Variable(_))).count();
             let rim = intrinsic.topology.rims().unwrap().iter().map(loops::Rim::len).max().unwrap();
             // E_int - 3 V_int - 6 h = rim - 3 - 3 h, and rims of openings of four edges
             let free = folds - 3 * of_rows(3) - 6 * openings;

@@ -16,23 +16,23 @@ use nalgebra::Matrix3;
 
 /// A number of an edge that is fixed, or a variable: its place among those of the sheet, or of a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Value {
+pub(super) enum EdgeValue {
     Variable(u32),
     Fixed(f64),
 }
 
 /// One motion of the frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Factor {
+pub(super) enum FrameMotion {
     /// Rotation about x by a fold angle times `sign`.
-    Fold { angle: Value, sign: f64 },
+    Fold { angle: EdgeValue, sign: f64 },
     /// Rotation about z by `sign` times the angle of a triangle between its sides `lengths[0]` and `lengths[1]`,
     /// opposite to `lengths[2]`.
-    Sector { lengths: [Value; 3], sign: f64 },
+    Sector { lengths: [EdgeValue; 3], sign: f64 },
     /// Rotation about z by a fixed angle.
     Turn { sine: f64, cosine: f64 },
     /// Translation along x.
-    Shift { length: Value },
+    Shift { length: EdgeValue },
 }
 
 /// What has to come of a product of motions. Positions are divided by a unit of length.
@@ -43,13 +43,13 @@ pub(super) enum Ends {
     /// The identity: six rows.
     Rim { unit: f64 },
     /// A position at this distance: one row.
-    Bridge { length: Value, unit: f64 },
+    Bridge { length: EdgeValue, unit: f64 },
 }
 
 /// A product of motions and what has to come of it.
 #[derive(Clone, Debug)]
 pub(super) struct Word {
-    pub(super) factors: Vec<Factor>,
+    pub(super) factors: Vec<FrameMotion>,
     pub(super) ends: Ends,
 }
 
@@ -63,7 +63,7 @@ struct Rate {
     hessian: Option<Matrix3<f64>>,
 }
 
-impl Value {
+impl EdgeValue {
     /// Returns the number, of these variables.
     pub(super) fn get(&self, z: &[f64]) -> f64 {
         match *self {
@@ -144,7 +144,7 @@ impl Word {
     }
 
     /// Puts the distance of the product's position minus a length into `out`.
-    fn bridge(&self, rates: &[Rate], place: &Vec3, (length, unit): (Value, f64), z: &[f64], out: &mut Block) {
+    fn bridge(&self, rates: &[Rate], place: &Vec3, (length, unit): (EdgeValue, f64), z: &[f64], out: &mut Block) {
         out.values.push((place.norm() - length.get(z)) / unit);
         let towards = place.normalize();
         for rate in rates {
@@ -152,7 +152,7 @@ impl Word {
                 out.jacobian[variable] += factor * towards.dot(&rate.linear) / unit;
             }
         }
-        if let Value::Variable(variable) = length {
+        if let EdgeValue::Variable(variable) = length {
             out.jacobian[variable as usize] -= 1.0 / unit;
         }
     }
@@ -218,7 +218,7 @@ fn add_product(first: &Rate, second: &Rate, same: bool, amount: f64, out: &mut [
     }
 }
 
-impl Factor {
+impl FrameMotion {
     /// Returns how the product changes with this factor, if it varies. `axes` are x and z of the frame before it.
     fn rate(&self, z: &[f64], [x, up]: [Vec3; 2], place: &Vec3, want_hessian: bool) -> Option<Rate> {
         let about = |axis: Vec3| (axis, place.cross(&axis));
@@ -230,16 +230,16 @@ impl Factor {
             hessian: None,
         };
         match self {
-            Self::Fold { angle: Value::Variable(angle), sign } => Some(of_one(about(x), *angle, *sign)),
+            Self::Fold { angle: EdgeValue::Variable(angle), sign } => Some(of_one(about(x), *angle, *sign)),
             Self::Sector { lengths, sign } => {
                 let (angular, linear) = about(up);
-                let corner = Corner::new(lengths.map(|length| length.get(z)));
+                let corner = TriangleAngle::new(lengths.map(|length| length.get(z)));
                 let gradient = corner.gradient();
                 let hessian = want_hessian.then(|| *sign * corner.hessian(&gradient));
                 let places = lengths.map(|length| length.place());
                 Some(Rate { angular, linear, places, gradient: gradient.map(|g| sign * g), hessian })
             }
-            Self::Shift { length: Value::Variable(length) } => Some(of_one((Vec3::zeros(), x), *length, 1.0)),
+            Self::Shift { length: EdgeValue::Variable(length) } => Some(of_one((Vec3::zeros(), x), *length, 1.0)),
             _ => None,
         }
     }
@@ -249,7 +249,7 @@ impl Factor {
         match self {
             Self::Fold { angle, sign } => turn(frame, [1, 2], (sign * angle.get(z)).sin_cos()),
             Self::Sector { lengths, sign } => {
-                let corner = Corner::new(lengths.map(|length| length.get(z)));
+                let corner = TriangleAngle::new(lengths.map(|length| length.get(z)));
                 turn(frame, [0, 1], (sign * corner.sine, corner.cosine));
             }
             Self::Turn { sine, cosine } => turn(frame, [0, 1], (*sine, *cosine)),
@@ -266,13 +266,13 @@ fn turn(frame: &mut Matrix3<f64>, [a, b]: [usize; 2], (sine, cosine): (f64, f64)
 }
 
 /// The angle of a triangle between sides of lengths `a` and `b`, opposite to `c`.
-pub(super) struct Corner {
+pub(super) struct TriangleAngle {
     sides: [f64; 3],
     pub(super) sine: f64,
     pub(super) cosine: f64,
 }
 
-impl Corner {
+impl TriangleAngle {
     /// Sine and cosine; not numbers if no triangle has these sides.
     pub(super) fn new(sides: [f64; 3]) -> Self {
         let [a, b, c] = sides;

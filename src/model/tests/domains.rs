@@ -1,6 +1,6 @@
 //! Tests of the chain rule of every domain: gradient and Hessian in an element's coordinates.
 
-use super::{Numbers, symmetric};
+use super::{RandomNumbers, symmetric};
 use crate::math::Vec3;
 use crate::model::gauge::{choose, rigid_motions};
 use crate::model::measure::{FoldAngle, Length, Measure};
@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Rotation3};
 use std::f64::consts::{PI, TAU};
 
 /// The coordinates of four vertices of a cell, followed by the shared coordinates.
-fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
+fn state(numbers: &mut RandomNumbers, domain: &Domain, kappa: f64) -> Vec<f64> {
     let mut x: Vec<f64> = [0.0, 0.0, 0.0, 0.9, 0.1, 0.2, 0.2, 0.8, -0.1, 1.1, 1.0, 0.1].to_vec();
     x.iter_mut().for_each(|c| *c += numbers.within(0.1));
     match domain {
@@ -103,7 +103,7 @@ fn patch_and_tori() {
     let lattice = [Vec3::new(2.0, 0.1, 0.05), Vec3::new(0.3, 1.9, -0.1)];
     for domain in [Domain::Patch, Domain::FixedTorus(lattice), Domain::FreeTorus] {
         for seed in 0..6 {
-            let x = state(&mut Numbers::new(seed), &domain, 0.0);
+            let x = state(&mut RandomNumbers::new(seed), &domain, 0.0);
             check_all(&domain, &x, &format!("{domain:?}, seed {seed}"));
         }
     }
@@ -139,7 +139,7 @@ impl CellMaps for Helix {
 fn a_domain_of_ones_own() {
     let domain = Domain::Own(OwnDomain::new(Helix));
     for seed in 0..6 {
-        let x = state(&mut Numbers::new(seed), &domain, 0.0);
+        let x = state(&mut RandomNumbers::new(seed), &domain, 0.0);
         check_all(&domain, &x, &format!("a helix, seed {seed}"));
         let motions = rigid_motions(&domain, &x, true);
         assert_eq!(choose(&motions, &vec![false; x.len()]).len(), 2);
@@ -168,7 +168,7 @@ fn tubes_with_every_condition() {
         for kept in KEPT {
             let domain = tube(seam, kept);
             for seed in 0..3 {
-                let x = state(&mut Numbers::new(seed), &domain, 0.0);
+                let x = state(&mut RandomNumbers::new(seed), &domain, 0.0);
                 check_all(&domain, &x, &format!("seam {seam:?}, {kept:?}, seed {seed}"));
             }
         }
@@ -181,7 +181,7 @@ fn tubes_with_every_condition() {
 fn a_closed_tube_comes_back_to_itself() {
     for seam in [[0, 5], [1, 4], [4, -2], [-6, 3]] {
         let domain = tube(seam, SeamKept::BOTH);
-        let x = state(&mut Numbers::new(3), &domain, 0.0);
+        let x = state(&mut RandomNumbers::new(3), &domain, 0.0);
         for n in [[0, 0], [1, 0], [2, -1], [-3, 4]] {
             let around = [n[0] + seam[0], n[1] + seam[1]];
             assert_eq!(domain.point(&x, site(1, n)), domain.point(&x, site(1, around)), "{seam:?} {n:?}");
@@ -201,7 +201,7 @@ fn a_closed_tube_comes_back_to_itself() {
 fn screws_of_any_curvature() {
     for kappa in [0.0, 1e-9, -1e-9, 1e-4, 0.07, -0.3, 0.8, 1.1] {
         for seed in 0..4 {
-            let x = state(&mut Numbers::new(seed), &Domain::Screw, kappa);
+            let x = state(&mut RandomNumbers::new(seed), &Domain::Screw, kappa);
             check_all(&Domain::Screw, &x, &format!("kappa {kappa:e}, seed {seed}"));
         }
     }
@@ -212,7 +212,7 @@ fn screws_of_any_curvature() {
 /// chart. Tolerance: rounding of the radius.
 #[test]
 fn screws_turn_about_their_axis() {
-    let mut numbers = Numbers::new(9);
+    let mut numbers = RandomNumbers::new(9);
     for kappa in [0.0, 1e-3, 0.2, -0.7] {
         let x = state(&mut numbers, &Domain::Screw, kappa);
         let s = &x[12..];

@@ -1,6 +1,6 @@
 //! Tests of length and fold angle: every entry of gradient and Hessian, also for nearly degenerate elements.
 
-use super::{Numbers, symmetric};
+use super::{RandomNumbers, symmetric};
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use crate::model::measure::{FoldAngle, Length, Measure};
@@ -53,7 +53,7 @@ fn check_along<M: Measure<N, D> + Default, const N: usize, const D: usize>(
     let points: [Vec3; N] = points(x);
     let pairs = (0..N).flat_map(|i| (0..i).map(move |j| (i, j)));
     let size = pairs.map(|(i, j)| (points[i] - points[j]).norm()).fold(f64::INFINITY, f64::min);
-    let mut numbers = Numbers::new(7);
+    let mut numbers = RandomNumbers::new(7);
     let [v, w] = [numbers.many(D, size), numbers.many(D, size)].map(|v| SVector::<f64, D>::from_column_slice(&v));
     let series = |start: &[f64]| {
         let at = |place: usize| Taylor([start[place], v[place], w[place], 0.0, 0.0]);
@@ -82,7 +82,7 @@ fn check_along<M: Measure<N, D> + Default, const N: usize, const D: usize>(
 
 /// The hinge `[i, j, left, right]` at a random place, with an edge of length `edge`, wings of these heights over the
 /// edge, and a given fold angle.
-fn hinge(numbers: &mut Numbers, edge: f64, heights: [f64; 2], angle: f64) -> Vec<f64> {
+fn hinge(numbers: &mut RandomNumbers, edge: f64, heights: [f64; 2], angle: f64) -> Vec<f64> {
     let feet = [0.5 + numbers.within(0.4), 0.5 + numbers.within(0.4)];
     let half = 0.5 * angle;
     let local = [
@@ -101,7 +101,7 @@ fn hinge(numbers: &mut Numbers, edge: f64, heights: [f64; 2], angle: f64) -> Vec
 /// differences.
 #[test]
 fn lengths() {
-    let mut numbers = Numbers::new(1);
+    let mut numbers = RandomNumbers::new(1);
     for _ in 0..40 {
         check::<Length, 2, 6>(&numbers.many(6, 1.0), "random");
         let mut short = numbers.many(6, 1.0);
@@ -114,7 +114,7 @@ fn lengths() {
 /// Claim: gradient and Hessian of fold angles are right at random points. Source: extrapolated differences.
 #[test]
 fn fold_angles_at_random() {
-    let mut numbers = Numbers::new(2);
+    let mut numbers = RandomNumbers::new(2);
     for k in 0..60 {
         check::<FoldAngle, 4, 12>(&numbers.many(12, 1.0), &format!("random {k}"));
     }
@@ -125,7 +125,7 @@ fn fold_angles_at_random() {
 /// differences.
 #[test]
 fn fold_angles_flat_and_folded() {
-    let mut numbers = Numbers::new(3);
+    let mut numbers = RandomNumbers::new(3);
     for angle in [0.0, 1e-9, -1e-9, 1e-5, PI / 2.0, PI - 1e-6, 1e-6 - PI, 3.0, -3.0] {
         for _ in 0..6 {
             let x = hinge(&mut numbers, 1.0, [0.8, 0.6], angle);
@@ -140,7 +140,7 @@ fn fold_angles_flat_and_folded() {
 /// hundredth as long as the wings are high. Source: extrapolated differences.
 #[test]
 fn fold_angles_of_needles() {
-    let mut numbers = Numbers::new(4);
+    let mut numbers = RandomNumbers::new(4);
     for (edge, heights) in [(1.0, [0.01, 0.8]), (1.0, [0.7, 0.01]), (1.0, [0.01, 0.01]), (0.01, [0.9, 0.7])] {
         for angle in [1e-9, 0.4, -2.0, PI - 1e-6] {
             let x = hinge(&mut numbers, edge, heights, angle);
@@ -170,7 +170,7 @@ fn by_wings(x: &[Taylor; 12]) -> Taylor {
 /// a wing.
 #[test]
 fn fold_angles_by_power_series() {
-    let mut numbers = Numbers::new(5);
+    let mut numbers = RandomNumbers::new(5);
     for angle in [0.0, 1e-9, 0.3, -1.7, 2.9, PI - 1e-6] {
         for heights in [[0.8, 0.6], [0.1, 0.7]] {
             let x = hinge(&mut numbers, 1.0, heights, angle);

@@ -14,9 +14,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// Random numbers that are the same on every machine.
-struct Numbers(ChaCha8Rng);
+struct RandomNumbers(ChaCha8Rng);
 
-impl Numbers {
+impl RandomNumbers {
     fn new(seed: u64) -> Self {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }

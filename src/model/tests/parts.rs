@@ -1,6 +1,6 @@
 //! Tests of rigid parts and drives: derivatives by poses, rigid motions, and the rates by a driven quantity.
 
-use super::Numbers;
+use super::RandomNumbers;
 use super::whole::check;
 use crate::math::{Vec3, rotation};
 use crate::model::{
@@ -22,7 +22,7 @@ fn patch() -> Assembly {
 
 /// Bars, creases and facets, loads on parts and beside them, a lock and a guide.
 fn terms(assembly: &Assembly, parts: Vec<Part>) -> Terms {
-    let mut numbers = Numbers::new(11);
+    let mut numbers = RandomNumbers::new(11);
     let (tiling, angles) = (assembly.tiling(), assembly.drawn_angles());
     let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
     let hinges = |stiffness: f64| Some(Hinges { stiffness: stiffness.into(), rest: rest.clone() });
@@ -57,7 +57,7 @@ fn derivatives_by_poses() {
     for free in [ALL, [false; 6], [false, false, true, false, false, true], [true, true, false, true, true, false]] {
         for turned in [0.0, 0.8] {
             let mut model = assembly.with_terms(terms(&assembly, parts(free))).model(Gauge::Held);
-            let mut numbers = Numbers::new(3);
+            let mut numbers = RandomNumbers::new(3);
             let x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(turned)).collect();
             model.start_from(model.coordinates(&x));
             check(&mut model, &mut numbers, &format!("parts free {free:?}, turned by {turned}"));
@@ -175,7 +175,7 @@ fn check_rates(model: Model, quantity: Driven) {
     let drawn = model.values(&model.start());
     let drive = Drive { quantity, to: 0.37 };
     let mut driven = DrivenModel::new(model, &drive, drawn, false).unwrap();
-    let mut numbers = Numbers::new(5);
+    let mut numbers = RandomNumbers::new(5);
     let x: Vec<f64> = driven.model.start().iter().map(|x| x + numbers.within(0.05)).collect();
     let tension = numbers.many(driven.layout().stiff.len(), 1.0);
     let home = driven.parameter() + 0.1 * driven.parameter_scale();

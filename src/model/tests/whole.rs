@@ -1,6 +1,6 @@
 //! Tests of the whole model on every domain: gradient, Jacobian and Hessian against its own energy and gaps.
 
-use super::Numbers;
+use super::RandomNumbers;
 use crate::math::Vec3;
 use crate::model::{Assembly, Boundary, Gauge, Hinges, Laws, Model, OfStrain, Ogden, RIGID, Stiffening, Terms};
 use crate::numerics::dense;
@@ -21,7 +21,7 @@ fn sheet(boundary: Boundary) -> Assembly {
 }
 
 /// Terms with bars, creases, facets and two locks, and on a patch a pin and loads.
-fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) -> Terms {
+fn terms(assembly: &Assembly, numbers: &mut RandomNumbers, creases: f64, facets: f64) -> Terms {
     let (tiling, angles) = (assembly.tiling(), assembly.drawn_angles());
     let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
     let hinges = |stiffness: f64| Some(Hinges { stiffness: stiffness.into(), rest: rest.clone() });
@@ -56,7 +56,7 @@ fn linearized(model: &Model, x: &[f64], tension: &[f64], kind: HessianKind) -> L
     at
 }
 
-pub(super) fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
+pub(super) fn check(model: &mut Model, numbers: &mut RandomNumbers, what: &str) {
     let x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.05)).collect();
     // the sizes of a screw's unknowns belong to this state
     let x = model.start_from(model.coordinates(&x));
@@ -91,7 +91,7 @@ fn derivatives_on_every_domain() {
             for (gauge, laws) in
                 [Gauge::Held, Gauge::Free].into_iter().flat_map(|gauge| [(gauge, Laws::default()), (gauge, laws())])
             {
-                let mut numbers = Numbers::new(7);
+                let mut numbers = RandomNumbers::new(7);
                 // what a law stores beyond a much stiffer spring is too large for differences
                 let creases = if laws.first().is_some() { creases.min(2e4) } else { creases };
                 let terms = Terms { laws: laws.clone(), ..terms(&assembly, &mut numbers, creases, facets) };
@@ -111,7 +111,7 @@ fn derivatives_on_a_curved_screw() {
         let mut curved = assembly.drawn().coordinates.clone();
         let shared = curved.len() - 5;
         curved[shared] = kappa;
-        let mut numbers = Numbers::new(8);
+        let mut numbers = RandomNumbers::new(8);
         let terms = terms(&assembly, &mut numbers, 1.0, 3.0);
         let mut model = assembly.with_terms(terms).model(Gauge::Held);
         model.rebase_gauge(curved);

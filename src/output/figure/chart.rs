@@ -25,7 +25,7 @@ const COINCIDENT: f64 = 3.0;
 
 /// The content of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Chart {
+pub struct LineChart {
     /// Title.
     pub title: String,
     /// Quantity and unit along the horizontal axis.
@@ -35,9 +35,9 @@ pub struct Chart {
     /// The series, each drawn as marks joined by a line.
     pub series: Vec<Series>,
     /// Points whose values may be rounding errors: drawn hollow, and not joined to others.
-    pub rounding: Vec<Point>,
+    pub rounding: Vec<DataPoint>,
     /// Points with a ring and a dashed horizontal line; their labels are printed below the title.
-    pub levels: Vec<Point>,
+    pub levels: Vec<DataPoint>,
 }
 
 /// A sequence of points.
@@ -46,12 +46,12 @@ pub struct Series {
     /// Name in the legend.
     pub name: String,
     /// The points, joined in this order.
-    pub points: Vec<Point>,
+    pub points: Vec<DataPoint>,
 }
 
 /// A point of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Point {
+pub struct DataPoint {
     /// Value along the horizontal axis.
     pub x: f64,
     /// Value along the vertical axis.
@@ -61,12 +61,12 @@ pub struct Point {
 }
 
 /// Returns the figure of one chart with logarithmic axes.
-pub fn svg(chart: &Chart) -> String {
+pub fn svg(chart: &LineChart) -> String {
     alone(chart).finish()
 }
 
 /// Draws one chart with logarithmic axes.
-pub(crate) fn alone(chart: &Chart) -> Canvas {
+pub(crate) fn alone(chart: &LineChart) -> Canvas {
     let caption = Caption { title: chart.title.clone(), state: String::new() };
     let mut canvas = Canvas::new(HEIGHT, &caption);
     let names = chart.series.iter().map(|series| Font::SMALL.width(&series.name) + 60.0);
@@ -88,7 +88,7 @@ pub(crate) fn alone(chart: &Chart) -> Canvas {
 }
 
 /// Draws charts with linear axes, side by side under a common caption.
-pub(crate) fn panels(charts: &[Chart], caption: &Caption) -> Canvas {
+pub(crate) fn panels(charts: &[LineChart], caption: &Caption) -> Canvas {
     let columns = charts.len().clamp(1, COLUMNS);
     let rows = charts.len().div_ceil(columns).max(1);
     let mut canvas = Canvas::new(TOP + ROW * rows as f64, caption);
@@ -108,19 +108,19 @@ pub(crate) fn panels(charts: &[Chart], caption: &Caption) -> Canvas {
 
 /// A chart in its frame.
 struct Plot<'a> {
-    chart: &'a Chart,
+    chart: &'a LineChart,
     frame: Area,
     axes: [Axis; 2],
     /// Points of each series that have a position, and their positions.
-    series: Vec<Vec<(PaperPoint, &'a Point)>>,
+    series: Vec<Vec<(PaperPoint, &'a DataPoint)>>,
 }
 
 impl<'a> Plot<'a> {
-    fn new(chart: &'a Chart, scale: Scale, frame: Area) -> Self {
+    fn new(chart: &'a LineChart, scale: Scale, frame: Area) -> Self {
         let joined = chart.series.iter().flat_map(|series| &series.points);
-        let points: Vec<&Point> = joined.chain(&chart.rounding).chain(&chart.levels).collect();
+        let points: Vec<&DataPoint> = joined.chain(&chart.rounding).chain(&chart.levels).collect();
         let probe = Axis::around(scale, std::iter::empty(), 0.0);
-        let has = |point: &&&Point| probe.has(point.x) && probe.has(point.y);
+        let has = |point: &&&DataPoint| probe.has(point.x) && probe.has(point.y);
         let axes = [
             Axis::around(scale, points.iter().filter(has).map(|point| point.x), 0.0),
             Axis::around(scale, points.iter().filter(has).map(|point| point.y), 0.0),
@@ -135,7 +135,7 @@ impl<'a> Plot<'a> {
     }
 
     /// Returns the position of a point; `None` if it has no position on one of the axes.
-    fn place(&self, point: &Point) -> Option<PaperPoint> {
+    fn place(&self, point: &DataPoint) -> Option<PaperPoint> {
         let Area { low: [left, top], high: [right, bottom] } = self.frame;
         let [x, y] = &self.axes;
         let there = x.has(point.x) && y.has(point.y);
@@ -162,9 +162,9 @@ impl<'a> Plot<'a> {
     }
 
     /// Draws the line and the marks of a series; the more of the later series coincide with it, the wider they are.
-    fn join(&self, canvas: &mut Canvas, points: &[(PaperPoint, &Point)], number: usize) {
+    fn join(&self, canvas: &mut Canvas, points: &[(PaperPoint, &DataPoint)], number: usize) {
         let near = |[a, b]: [PaperPoint; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= COINCIDENT;
-        let lies_on = |other: &&Vec<(PaperPoint, &Point)>| {
+        let lies_on = |other: &&Vec<(PaperPoint, &DataPoint)>| {
             !points.is_empty() && points.iter().all(|(a, _)| other.iter().any(|(b, _)| near([*a, *b])))
         };
         let wider = self.series[number + 1..].iter().filter(lies_on).count() as f64;
@@ -245,12 +245,12 @@ mod tests {
     use super::*;
 
     fn series(values: &[(f64, f64)]) -> Series {
-        let points = values.iter().map(|&(x, y)| Point { x, y, label: "a < b".into() }).collect();
+        let points = values.iter().map(|&(x, y)| DataPoint { x, y, label: "a < b".into() }).collect();
         Series { name: "s".into(), points }
     }
 
-    fn chart(values: &[(f64, f64)]) -> Chart {
-        Chart { title: "t & u".into(), series: vec![series(values)], ..Chart::default() }
+    fn chart(values: &[(f64, f64)]) -> LineChart {
+        LineChart { title: "t & u".into(), series: vec![series(values)], ..LineChart::default() }
     }
 
     fn linear(values: &[(f64, f64)]) -> String {
@@ -301,15 +301,15 @@ mod tests {
     #[test]
     fn labels_stand_clear() {
         let hill = [(0.0, 0.0), (0.5, 1.0), (1.0, 0.2)];
-        let pass = Point { x: 0.5, y: 1.1, label: "pass 1.1".into() };
-        let mut chart = Chart { levels: vec![pass], x: "x".into(), y: "y".into(), ..chart(&hill) };
+        let pass = DataPoint { x: 0.5, y: 1.1, label: "pass 1.1".into() };
+        let mut chart = LineChart { levels: vec![pass], x: "x".into(), y: "y".into(), ..chart(&hill) };
         chart.series.push(series(&hill));
         let canvas = panels(&[chart.clone(), chart.clone(), chart.clone(), chart.clone()], &Caption::default());
         assert_eq!(canvas.crowded(), 0);
         let text = canvas.finish();
         assert_eq!([text.matches(">pass 1.1<").count(), text.matches(" r=\"9\"").count()], [4, 12]);
         assert!(text.matches(">a &lt; b</text>").count() >= 8);
-        let steep = Chart { title: "x".repeat(200), ..self::chart(&[(1.0, 1.0), (1.1, 1e3), (1.2, 1e9)]) };
+        let steep = LineChart { title: "x".repeat(200), ..self::chart(&[(1.0, 1.0), (1.1, 1e3), (1.2, 1e9)]) };
         assert_eq!(alone(&steep).crowded(), 0);
     }
 
@@ -318,8 +318,8 @@ mod tests {
     #[test]
     fn what_has_no_logarithm_is_left_out() {
         for values in [&[(0.0, 1.0), (f64::NAN, 1.0), (1.0, -1.0), (2.0, f64::INFINITY), (3.0, 2.0)][..], &[]] {
-            let rounding = vec![Point { x: 1.0, y: 1e-17, label: "below".into() }];
-            let text = svg(&Chart { rounding, ..chart(values) });
+            let rounding = vec![DataPoint { x: 1.0, y: 1e-17, label: "below".into() }];
+            let text = svg(&LineChart { rounding, ..chart(values) });
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
             assert_eq!(discs(&text).len(), values.len().min(1) + 1);
             assert!(text.contains(">rounding<"));

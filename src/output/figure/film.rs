@@ -1,14 +1,14 @@
 //! The frames of a film: figures of states in one view and on one scale, each sheet in the middle.
 
 use super::projection::Projection;
-use super::sheet::{Frame, Pen, ROOM, Shape, shapes};
+use super::sheet::{FigureFrame, FigureShape, Pen, ROOM, shapes};
 use crate::math::{Vec3, bounds};
 use crate::output::Picture;
 
 /// The view that all frames of a film share.
 pub(crate) struct FilmView {
     view: Projection,
-    frame: Frame,
+    frame: FigureFrame,
     pen: Pen,
 }
 
@@ -19,7 +19,7 @@ impl FilmView {
         let front = pictures.get(front)?;
         let view = Projection::of(&front.points, &front.triangles);
         let placed: Vec<Vec<Vec3>> = pictures.iter().map(|picture| placed(&view, picture)).collect();
-        let frame = Frame::around(placed.iter().flatten(), ROOM);
+        let frame = FigureFrame::around(placed.iter().flatten(), ROOM);
         let pens: Vec<Pen> =
             pictures.iter().zip(&placed).map(|(picture, sheet)| Pen::new(picture, &frame, sheet)).collect();
         let sharpest = pens.iter().map(|pen| pen.sharpest).fold(0.0, f64::max);
@@ -32,7 +32,7 @@ impl FilmView {
     }
 
     /// Returns the faces and edges of a state from back to front.
-    pub(crate) fn shapes(&self, picture: &Picture) -> Vec<Shape> {
+    pub(crate) fn shapes(&self, picture: &Picture) -> Vec<FigureShape> {
         shapes(picture, &self.frame, &self.view, &self.pen, &placed(&self.view, picture))
     }
 }

@@ -33,12 +33,12 @@ pub(crate) struct Piece {
     /// Index of the triangle or line of which it is a part.
     pub item: usize,
     /// Plane of a triangle; `None` for lines.
-    plane: Option<Plane>,
+    plane: Option<TrianglePlane>,
 }
 
 /// The plane of the points `p` with `normal . p = height`; the normal points to the side of the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
+struct TrianglePlane {
     normal: Vec3,
     height: f64,
 }
@@ -91,7 +91,7 @@ impl Limits {
 impl Piece {
     /// Makes a triangle of three corners, or a line of two.
     pub(crate) fn new(corners: Vec<Vec3>, item: usize) -> Self {
-        let plane = (corners.len() > 2).then(|| Plane::through([corners[0], corners[1], corners[2]])).flatten();
+        let plane = (corners.len() > 2).then(|| TrianglePlane::through([corners[0], corners[1], corners[2]])).flatten();
         Self { corners, item, plane }
     }
 
@@ -104,17 +104,17 @@ impl Piece {
     }
 
     /// Whether the piece has corners behind a plane and in front of it.
-    fn sides(&self, plane: &Plane, limits: &Limits) -> [bool; 2] {
+    fn sides(&self, plane: &TrianglePlane, limits: &Limits) -> [bool; 2] {
         let above = || self.corners.iter().map(|corner| plane.above(corner));
         [above().any(|d| d < -limits.length), above().any(|d| d > limits.length)]
     }
 
     /// Returns the parts in front of a plane and behind it; `None` if the piece lies on one side of it.
-    fn cut_by(&self, plane: &Plane, limits: &Limits) -> Option<[Self; 2]> {
+    fn cut_by(&self, plane: &TrianglePlane, limits: &Limits) -> Option<[Self; 2]> {
         (self.sides(plane, limits) == [true, true]).then(|| [1.0, -1.0].map(|sign| self.part(plane, sign)))
     }
 
-    fn part(&self, plane: &Plane, sign: f64) -> Self {
+    fn part(&self, plane: &TrianglePlane, sign: f64) -> Self {
         let mut corners = clipped(&self.corners, |corner| sign * plane.above(&corner), |p, q, part| p + (q - p) * part);
         if self.is_line() {
             corners.truncate(2);
@@ -124,7 +124,7 @@ impl Piece {
 
     /// Returns the depth (coordinate towards the eye) of the piece at a point of the figure.
     fn depth_at(&self, [x, y]: PaperPoint) -> f64 {
-        if let Some(Plane { normal, height }) = self.plane {
+        if let Some(TrianglePlane { normal, height }) = self.plane {
             return (height - normal.x * x - normal.y * y) / normal.z;
         }
         let [a, b] = [self.corners[0], self.corners[1]];
@@ -135,7 +135,7 @@ impl Piece {
     }
 }
 
-impl Plane {
+impl TrianglePlane {
     fn through([a, b, c]: [Vec3; 3]) -> Option<Self> {
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
         let normal = normal * if normal.z < 0.0 { -1.0 } else { 1.0 };
@@ -150,7 +150,7 @@ impl Plane {
 /// Cuts pieces that pass through each other: the smaller one by the plane of the other.
 fn apart(pieces: Vec<Piece>, limits: &Limits) -> Vec<Piece> {
     let size = |k: usize| if pieces[k].is_line() { 0.0 } else { turn(&pieces[k].corners).abs() };
-    let mut cuts: Vec<Vec<Plane>> = vec![Vec::new(); pieces.len()];
+    let mut cuts: Vec<Vec<TrianglePlane>> = vec![Vec::new(); pieces.len()];
     for [a, b] in close_pairs(&pieces) {
         if order(&pieces[a], &pieces[b], limits) == Order::Through {
             let [small, large] = if size(a) < size(b) { [a, b] } else { [b, a] };
@@ -363,15 +363,15 @@ fn cut(group: Vec<Piece>, limits: &Limits, ordered: &mut Vec<Piece>) {
 }
 
 /// Returns the plane of a triangle among the pieces that cuts the fewest of them; `None` if no cut is needed.
-fn fewest_cuts(pieces: &[Piece], limits: &Limits) -> Option<Plane> {
+fn fewest_cuts(pieces: &[Piece], limits: &Limits) -> Option<TrianglePlane> {
     if pieces.len() < 2 {
         return None;
     }
     // the corners of a thin piece may have moved off its plane by rounding
-    let is_flat = |piece: &Piece, plane: &Plane| piece.sides(plane, limits) == [false, false];
+    let is_flat = |piece: &Piece, plane: &TrianglePlane| piece.sides(plane, limits) == [false, false];
     let planes = pieces.iter().filter_map(|piece| piece.plane.filter(|plane| is_flat(piece, plane)));
-    let planes: Vec<Plane> = planes.collect();
-    let cuts = |plane: &Plane| pieces.iter().filter(|piece| piece.sides(plane, limits) == [true, true]).count();
+    let planes: Vec<TrianglePlane> = planes.collect();
+    let cuts = |plane: &TrianglePlane| pieces.iter().filter(|piece| piece.sides(plane, limits) == [true, true]).count();
     let every = planes.len().div_ceil(TRIED).max(1);
     planes.into_iter().step_by(every).min_by_key(cuts)
 }

@@ -28,14 +28,14 @@ const FLAT: f64 = 1e-6;
 const WEDGE: f64 = 150.0;
 
 /// Colours of one side of the sheet in full light and away from the light.
-pub(crate) struct Side {
+pub(crate) struct SideColours {
     pub light: Colour,
     dark: Colour,
 }
 
-pub(crate) const FRONT: Side = Side { light: Colour(255, 251, 240), dark: Colour(124, 136, 164) };
-pub(crate) const BACK: Side = Side { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
-pub(crate) const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
+pub(crate) const FRONT: SideColours = SideColours { light: Colour(255, 251, 240), dark: Colour(124, 136, 164) };
+pub(crate) const BACK: SideColours = SideColours { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
+pub(crate) const CROSSING: SideColours = SideColours { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
 
 /// Returns the figure of a state, with annotations.
 ///
@@ -53,7 +53,7 @@ fn drawn(picture: &Picture, added: &Annotations, caption: &Caption) -> Canvas {
     let sheet: Vec<Vec3> = picture.points.iter().map(place).collect();
     let shadow: Vec<Vec3> = shadow_on_floor(picture, &view).iter().map(place).collect();
     let arrows: Vec<[Vec3; 2]> = added.arrows(&picture.points).iter().map(|ends| ends.map(|end| place(&end))).collect();
-    let frame = Frame::around(sheet.iter().chain(&shadow).chain(arrows.iter().flatten()), HEAD);
+    let frame = FigureFrame::around(sheet.iter().chain(&shadow).chain(arrows.iter().flatten()), HEAD);
     let mut canvas = Canvas::new(frame.height + LEGEND, caption);
     paint_shadow(&mut canvas, picture, &frame, &shadow);
     paint_sheet(&mut canvas, picture, &frame, &view, &sheet);
@@ -73,7 +73,7 @@ fn drawn(picture: &Picture, added: &Annotations, caption: &Caption) -> Canvas {
 }
 
 /// The mapping from the plane of projection to the figure.
-pub(super) struct Frame {
+pub(super) struct FigureFrame {
     left: f64,
     top: f64,
     scale: f64,
@@ -82,7 +82,7 @@ pub(super) struct Frame {
     filled: bool,
 }
 
-impl Frame {
+impl FigureFrame {
     /// Fits the points into the width of the figure, and into a height of at most three quarters of the width, below a
     /// head of this height.
     pub(super) fn around<'a>(places: impl Iterator<Item = &'a Vec3>, head: f64) -> Self {
@@ -119,7 +119,7 @@ fn shadow_on_floor(picture: &Picture, view: &Projection) -> Vec<Vec3> {
     picture.points.iter().map(drop).collect()
 }
 
-fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &Frame, shadow: &[Vec3]) {
+fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &FigureFrame, shadow: &[Vec3]) {
     let finite = picture.triangles.iter().filter(|triangle| triangle.iter().all(|&point| is_finite(&shadow[point])));
     let alike = |triangle: &[usize; 3]| {
         let [a, b, c] = triangle.map(|point| frame.on_paper(&shadow[point]));
@@ -130,16 +130,16 @@ fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &Frame, shadow: &
     canvas.shadow(&finite.map(alike).collect::<Vec<_>>(), SHADOW);
 }
 
-fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &Projection, sheet: &[Vec3]) {
+fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &FigureFrame, view: &Projection, sheet: &[Vec3]) {
     canvas.group(TILE);
-    for Shape { places, closed, style } in shapes(picture, frame, view, &Pen::new(picture, frame, sheet), sheet) {
+    for FigureShape { places, closed, style } in shapes(picture, frame, view, &Pen::new(picture, frame, sheet), sheet) {
         if closed { canvas.polygon(&places, style) } else { canvas.line(&places, style) }
     }
     canvas.end();
 }
 
 /// A polygon or a line of a figure.
-pub(crate) struct Shape {
+pub(crate) struct FigureShape {
     /// Its corners.
     pub places: Vec<PaperPoint>,
     /// Whether it is a polygon.
@@ -149,14 +149,20 @@ pub(crate) struct Shape {
 }
 
 /// Returns the faces and edges of a state from back to front; `sheet` are its points as the projection places them.
-pub(super) fn shapes(picture: &Picture, frame: &Frame, view: &Projection, pen: &Pen, sheet: &[Vec3]) -> Vec<Shape> {
+pub(super) fn shapes(
+    picture: &Picture,
+    frame: &FigureFrame,
+    view: &Projection,
+    pen: &Pen,
+    sheet: &[Vec3],
+) -> Vec<FigureShape> {
     let corners = |points: &[usize]| points.iter().map(|&point| sheet[point]).collect();
     let faces = picture.triangles.iter().map(|triangle| corners(triangle));
     let lines = picture.lines.iter().map(|line| corners(line));
     let pieces = faces.chain(lines).enumerate().map(|(item, corners)| Piece::new(corners, item));
     let shape = |Piece { corners, item, .. }: &Piece| {
         let line = item.checked_sub(picture.triangles.len());
-        Shape {
+        FigureShape {
             places: corners.iter().map(|corner| frame.on_paper(corner)).collect(),
             closed: line.is_none(),
             style: line.map_or_else(|| Style::tile(shade(picture, view, *item)), |line| pen.style(picture, line)),
@@ -188,7 +194,7 @@ pub(super) struct Pen {
 }
 
 impl Pen {
-    pub(super) fn new(picture: &Picture, frame: &Frame, sheet: &[Vec3]) -> Self {
+    pub(super) fn new(picture: &Picture, frame: &FigureFrame, sheet: &[Vec3]) -> Self {
         let length = |&[a, b]: &[usize; 2]| (sheet[a] - sheet[b]).xy().norm();
         let lengths = picture.lines.iter().map(length).filter(|length| length.is_finite());
         let mean = lengths.sum::<f64>() / picture.lines.len().max(1) as f64;
@@ -237,7 +243,7 @@ fn fold_range(picture: &Picture) -> [f64; 2] {
 }
 
 /// Draws a bar of a round length. In a parallel projection, lines parallel to the paper have this scale everywhere.
-fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
+fn scale_bar(canvas: &mut Canvas, frame: &FigureFrame) {
     if !frame.filled {
         return;
     }
@@ -251,7 +257,7 @@ fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
 
 /// Draws the scale of fold angles, from the sharpest mountain to the sharpest valley, as wedges; of a flat sheet, what
 /// the colours of its letters mean.
-fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
+fn legend(canvas: &mut Canvas, picture: &Picture, frame: &FigureFrame) {
     let [mountain, valley] = fold_range(picture);
     let sharpest = valley.max(-mountain);
     let level = frame.height + LEGEND / 2.0 - 14.0;
@@ -380,7 +386,7 @@ mod tests {
     #[test]
     fn scale() {
         let places = [Vec3::zeros(), Vec3::new(8.0, 4.0, 0.0)];
-        let frame = Frame::around(places.iter(), HEAD);
+        let frame = FigureFrame::around(places.iter(), HEAD);
         let mut canvas = Canvas::new(100.0, &Caption::default());
         scale_bar(&mut canvas, &frame);
         let [a, b] = places.map(|place| frame.on_paper(&place));

@@ -37,7 +37,7 @@ const HIDDEN: f64 = 0.25;
 
 /// A state on a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathPoint {
+pub struct TrajectoryPoint {
     /// Lattice strains `(strain11, strain22, strain12)`.
     pub strain: Vec3,
     /// Signed curvature.
@@ -46,7 +46,7 @@ pub struct PathPoint {
     pub turn: f64,
 }
 
-impl PathPoint {
+impl TrajectoryPoint {
     /// Returns the state with these lattice strains, signed curvature, and rotation angles from a cell to the next.
     pub(crate) fn new(strain: Vec3, curvature: f64, [theta1, theta2]: [f64; 2]) -> Self {
         Self { strain, curvature, turn: larger(theta1.abs(), theta2.abs()) }
@@ -57,13 +57,13 @@ impl PathPoint {
 ///
 /// # Errors
 /// The first inconsistent array of the surface.
-pub fn svg(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -> Result<String, ShapeError> {
+pub fn svg(surface: &StrainSurface, paths: &[Vec<TrajectoryPoint>], caption: &Caption) -> Result<String, ShapeError> {
     surface.check()?;
     Ok(drawn(surface, paths, caption).finish())
 }
 
-fn drawn(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -> Canvas {
-    let scene = Scene::new(surface, paths);
+fn drawn(surface: &StrainSurface, paths: &[Vec<TrajectoryPoint>], caption: &Caption) -> Canvas {
+    let scene = StateBox::new(surface, paths);
     let apart = [(1.0, "curvature > 0"), (-1.0, "curvature < 0")];
     let sides: &[(f64, &str)] = if scene.covers_itself() { &apart } else { &[(0.0, "")] };
     let layout = if sides.len() > 1 { &TWO } else { &ONE };
@@ -83,7 +83,7 @@ fn drawn(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -
 }
 
 /// Positions of the panels and the colour bar.
-struct Layout {
+struct FigureLayout {
     height: f64,
     middles: &'static [PaperPoint],
     /// Length of a side of the box in the figure.
@@ -91,13 +91,13 @@ struct Layout {
     bar: Area,
 }
 
-const ONE: Layout = Layout {
+const ONE: FigureLayout = FigureLayout {
     height: 1010.0,
     middles: &[[560.0, 498.0]],
     scale: 530.0,
     bar: Area { low: [1080.0, 280.0], high: [1102.0, 700.0] },
 };
-const TWO: Layout = Layout {
+const TWO: FigureLayout = FigureLayout {
     height: 780.0,
     middles: &[[312.0, 390.0], [830.0, 390.0]],
     scale: 330.0,
@@ -113,7 +113,7 @@ fn is_on(side: f64, curvature: f64) -> bool {
 type Stretch = ([Vec3; 2], f64);
 
 /// The states in a box with sides of length 1 and its centre at 0.
-struct Scene<'a> {
+struct StateBox<'a> {
     axes: [Axis; 3],
     view: Projection,
     /// Coordinates x and y, 0.5 or -0.5, of the sides of the box that face the eye; the eye is above the box.
@@ -125,8 +125,8 @@ struct Scene<'a> {
     largest: Result<f64, f64>,
 }
 
-impl<'a> Scene<'a> {
-    fn new(surface: &'a StrainSurface, paths: &[Vec<PathPoint>]) -> Self {
+impl<'a> StateBox<'a> {
+    fn new(surface: &'a StrainSurface, paths: &[Vec<TrajectoryPoint>]) -> Self {
         let along = || paths.iter().flatten();
         let strains = || surface.points.iter().copied().chain(along().map(|point| point.strain));
         let axes = axes_around(strains);
@@ -134,7 +134,7 @@ impl<'a> Scene<'a> {
         let near = [0, 1].map(|k| if axes[k].middle() > 0.0 { -0.5 } else { 0.5 });
         let boxed = |strain: &Vec3| Vec3::from_fn(|k, _| axes[k].part(strain[k]) - 0.5);
         let places = surface.points.iter().map(boxed).collect();
-        let stretch = |ends: &[PathPoint]| {
+        let stretch = |ends: &[TrajectoryPoint]| {
             ([boxed(&ends[0].strain), boxed(&ends[1].strain)], one_sided_mean(&[ends[0].curvature, ends[1].curvature]))
         };
         let stretches = paths.iter().flat_map(|path| path.windows(2).map(stretch)).collect();
@@ -395,11 +395,11 @@ mod tests {
         triangles.filter(|line| line.contains("stroke=")).count()
     }
 
-    fn point(x: f64, y: f64, curvature: f64) -> PathPoint {
-        PathPoint { strain: Vec3::new(x, 0.0, y), curvature, turn: curvature }
+    fn point(x: f64, y: f64, curvature: f64) -> TrajectoryPoint {
+        TrajectoryPoint { strain: Vec3::new(x, 0.0, y), curvature, turn: curvature }
     }
 
-    fn alone(paths: &[Vec<PathPoint>]) -> String {
+    fn alone(paths: &[Vec<TrajectoryPoint>]) -> String {
         svg(&StrainSurface::default(), paths, &caption("")).unwrap()
     }
 
@@ -438,7 +438,7 @@ mod tests {
             theta: vec![[0.1; 2]; 6],
             ..StrainSurface::default()
         };
-        let scene = Scene::new(&surface, &[]);
+        let scene = StateBox::new(&surface, &[]);
         let text = svg(&surface, &[], &caption("")).unwrap();
         let place = |face: usize| text.find(&format!("fill=\"{}\"", scene.lit(&surface.triangles[face]))).unwrap();
         assert!(place(1) < place(0), "the upper one is painted last");
@@ -448,7 +448,7 @@ mod tests {
     /// their size; values that are small but above rounding are drawn.
     #[test]
     fn rounding_is_drawn_as_zero() {
-        let path: Vec<PathPoint> =
+        let path: Vec<TrajectoryPoint> =
             (0..9).map(|k| point(0.1 * f64::from(k), 2e-13 * f64::from(k % 3), 1e-16 * f64::from(k))).collect();
         let text = alone(std::slice::from_ref(&path));
         assert!(
@@ -462,7 +462,7 @@ mod tests {
                 .collect::<std::collections::HashSet<_>>()
         };
         assert_eq!(colours(&text).len(), 1);
-        let small: Vec<PathPoint> = path.iter().map(|p| PathPoint { turn: 1e-3, ..*p }).collect();
+        let small: Vec<TrajectoryPoint> = path.iter().map(|p| TrajectoryPoint { turn: 1e-3, ..*p }).collect();
         assert!(colours(&alone(&[small])).len() > 3);
     }
 

@@ -26,7 +26,7 @@ pub(super) struct SheetData {
     /// Whether the displacements are velocities of a mode, to be shown with an amplitude.
     moving: bool,
     meshes: Vec<Mesh>,
-    fields: Vec<Field>,
+    fields: Vec<LineQuantity>,
     states: Vec<StateData>,
     sequences: Vec<Sequence>,
 }
@@ -46,7 +46,7 @@ struct Mesh {
 
 /// A quantity on the lines, and its range over all states.
 #[derive(Debug, Serialize)]
-struct Field {
+struct LineQuantity {
     name: &'static str,
     scale: f64,
     low: f64,
@@ -67,14 +67,14 @@ struct StateData {
     #[serde(skip_serializing_if = "Option::is_none")]
     crossing: Option<usize>,
     /// The values of each field.
-    values: Vec<Values>,
+    values: Vec<ValuePlaces>,
 }
 
 /// The places of the values of a field: one value for each line, or, where all copies of an edge have the same, one for
 /// each edge of the cell.
 #[derive(Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
-enum Values {
+enum ValuePlaces {
     Line(usize),
     Edge(usize),
 }
@@ -87,8 +87,10 @@ impl SheetData {
         let extents: Vec<(Vec3, f64)> = states.iter().map(|state| extent(&state.picture.points)).collect();
         let size = scale(extents.iter().map(|(_, size)| *size));
         let view = Projection::of(&first.points, &first.triangles);
-        let fields: Vec<_> =
-            Picture::FIELDS.iter().filter_map(|&(name, get)| Some((Field::new(name, get, states)?, get))).collect();
+        let fields: Vec<_> = Picture::FIELDS
+            .iter()
+            .filter_map(|&(name, get)| Some((LineQuantity::new(name, get, states)?, get)))
+            .collect();
         let mut meshes: Vec<Mesh> = Vec::new();
         let mut state = |(&Numbered { row, picture }, &(centre, _)): (&Numbered<'_>, &(Vec3, f64))| {
             let mesh = Mesh::new(arrays, picture);
@@ -106,7 +108,7 @@ impl SheetData {
                 crossing: crosses.then(|| arrays.marks(&picture.self_intersecting)),
                 values: fields
                     .iter()
-                    .map(|(field, get)| Values::new(arrays, picture, get(picture), field.scale))
+                    .map(|(field, get)| ValuePlaces::new(arrays, picture, get(picture), field.scale))
                     .collect(),
             }
         };
@@ -160,7 +162,7 @@ impl Mesh {
     }
 }
 
-impl Field {
+impl LineQuantity {
     /// Returns a field with its range over all states; `None` if it has no finite value.
     fn new(name: &'static str, get: OnLines, states: &[Numbered<'_>]) -> Option<Self> {
         let values = || states.iter().flat_map(|state| get(state.picture)).copied().filter(|value| value.is_finite());
@@ -170,7 +172,7 @@ impl Field {
     }
 }
 
-impl Values {
+impl ValuePlaces {
     fn new(arrays: &mut Arrays, picture: &Picture, values: &[f64], scale: f64) -> Self {
         let on_lines: Vec<f32> = values.iter().map(|value| (value / scale) as f32).collect();
         let count = picture.line_edges.iter().map(|&edge| edge.max(0) as usize + 1).max().unwrap_or(0);
@@ -220,9 +222,11 @@ mod tests {
         picture.strain = vec![0.1, 0.2, 0.2, 0.2, 0.2];
         picture.energy = vec![0.1, 0.2, 0.2, 0.2, 0.3];
         let mut arrays = Arrays::default();
-        let mut of = |values: &[f64]| Values::new(&mut arrays, &picture, values, 1.0);
-        assert!(matches!(of(&picture.strain), Values::Edge(_)) && matches!(of(&picture.energy), Values::Line(_)));
-        assert!(matches!(of(&picture.fold_angle), Values::Edge(_)));
+        let mut of = |values: &[f64]| ValuePlaces::new(&mut arrays, &picture, values, 1.0);
+        assert!(
+            matches!(of(&picture.strain), ValuePlaces::Edge(_)) && matches!(of(&picture.energy), ValuePlaces::Line(_))
+        );
+        assert!(matches!(of(&picture.fold_angle), ValuePlaces::Edge(_)));
     }
 
     /// Claim: every state is in its own middle, and knows how far that is from the middle of the first one.

@@ -17,13 +17,13 @@ const ELSEWHERE: [&str; 6] = ["name", "kind", "converged", "reason", "seconds", 
 pub(super) struct TableData {
     name: String,
     rows: usize,
-    columns: Vec<Column>,
+    columns: Vec<PageColumn>,
     /// Number of columns that are left out.
     left_out: usize,
 }
 
 #[derive(Debug, PartialEq, Serialize)]
-struct Column {
+struct PageColumn {
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     numbers: Option<Scaled>,
@@ -35,7 +35,7 @@ struct Column {
 #[derive(Debug, PartialEq, Serialize)]
 pub(super) struct Fact(String, Value);
 
-impl Column {
+impl PageColumn {
     /// Makes a column of numbers if all of its fields are numbers or empty, otherwise one of words.
     fn new(arrays: &mut Arrays, name: &str, fields: &[String]) -> Self {
         let number = |field: &String| if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() };
@@ -59,7 +59,7 @@ impl TableData {
         let field = |row: &Vec<&'_ str>, at: usize| row.get(at).map_or("", |field| field.trim()).to_owned();
         let column = |(at, name): (usize, &&str)| {
             let fields: Vec<String> = rows.iter().map(|row| field(row, at)).collect();
-            Column::new(arrays, name, &fields)
+            PageColumn::new(arrays, name, &fields)
         };
         let columns = header.iter().enumerate().take(COLUMNS).map(column).collect();
         Self { name: name.to_owned(), rows: rows.len(), columns, left_out: header.len().saturating_sub(COLUMNS) }
@@ -82,7 +82,8 @@ impl TableData {
             }
             _ => return None,
         };
-        let columns: Vec<Column> = columns.iter().map(|(name, fields)| Column::new(arrays, name, fields)).collect();
+        let columns: Vec<PageColumn> =
+            columns.iter().map(|(name, fields)| PageColumn::new(arrays, name, fields)).collect();
         (!columns.is_empty()).then(|| Self { name: name.to_owned(), rows: list.len(), columns, left_out: 0 })
     }
 }

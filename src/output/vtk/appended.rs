@@ -19,7 +19,7 @@ use crate::output::error::VtuFault;
 const LZMA: &str = "vtkLZMADataCompressor";
 
 /// How the arrays of a file are to be read.
-struct Arrays<'b> {
+struct ArrayEncoding<'b> {
     /// The bytes of the appended data, from behind the underscore on.
     appended: &'b [u8],
     is_raw: bool,
@@ -40,7 +40,7 @@ pub(super) fn inlined(bytes: &[u8]) -> Result<Cow<'_, [u8]>, VtuFault> {
     let file = head.find("<VTKFile").map_or("", |at| &head[at..]);
     let file = &file[..file.find('>').unwrap_or(file.len())];
     let compressor = attribute(file, "compressor");
-    let arrays = Arrays {
+    let arrays = ArrayEncoding {
         appended: &bytes[begin..],
         is_raw: attribute(&appended, "encoding") == Some("raw"),
         width: if attribute(file, "header_type") == Some("UInt64") { 8 } else { 4 },
@@ -86,7 +86,7 @@ fn beyond() -> VtuFault {
     VtuFault::Format("an array is beyond its end".into())
 }
 
-impl<'b> Arrays<'b> {
+impl<'b> ArrayEncoding<'b> {
     /// Returns the bytes from where an array begins, as a raw one has them; `None` if the array remains as it is.
     fn stored(&self, tag: &str, content: &str) -> Option<Result<Cow<'b, [u8]>, VtuFault>> {
         let text = match attribute(tag, "format") {

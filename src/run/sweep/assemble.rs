@@ -18,13 +18,13 @@ use crate::scene::{SceneFile, Sweep, digest};
 
 /// A row of the table: what became of a point, why, and its scalar results.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Row {
+pub struct SweepRow {
     status: PointStatus,
     reason: String,
     scalars: BTreeMap<String, String>,
 }
 
-impl Row {
+impl SweepRow {
     pub(super) fn new(found: Option<&Record>) -> Self {
         let scalars = match found {
             Some(Record::Computed(studies)) => studies.iter().flat_map(scalars::of_study).collect(),
@@ -44,22 +44,22 @@ impl Row {
 pub(super) struct Board<'a> {
     pub(super) sweep: &'a Sweep,
     pub(super) out: &'a Path,
-    rows: Mutex<Vec<Row>>,
+    rows: Mutex<Vec<SweepRow>>,
 }
 
 impl<'a> Board<'a> {
     /// The table of a sweep of which no point was looked up.
     pub(super) fn new(sweep: &'a Sweep, out: &'a Path) -> Self {
-        Self { sweep, out, rows: Mutex::new((0..sweep.len()).map(|_| Row::new(None)).collect()) }
+        Self { sweep, out, rows: Mutex::new((0..sweep.len()).map(|_| SweepRow::new(None)).collect()) }
     }
 
-    fn rows(&self) -> MutexGuard<'_, Vec<Row>> {
+    fn rows(&self) -> MutexGuard<'_, Vec<SweepRow>> {
         self.rows.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Records what was found of a point.
     pub(super) fn set(&self, index: usize, found: Option<&Record>) {
-        let row = Row::new(found);
+        let row = SweepRow::new(found);
         self.rows()[index] = row;
     }
 
@@ -132,13 +132,13 @@ pub fn assemble_at(file: &SceneFile, options: &RunOptions) -> Result<Option<Swee
 ///
 /// # Errors
 /// [`RunError`] if a file that the scene names cannot be read.
-pub fn table_of(sweep: &Sweep, rows: Vec<Option<Row>>) -> Result<(String, SweepSummary), RunError> {
-    let rows: Vec<Row> = rows.into_iter().map(|row| row.unwrap_or_else(|| Row::new(None))).collect();
+pub fn table_of(sweep: &Sweep, rows: Vec<Option<SweepRow>>) -> Result<(String, SweepSummary), RunError> {
+    let rows: Vec<SweepRow> = rows.into_iter().map(|row| row.unwrap_or_else(|| SweepRow::new(None))).collect();
     Ok((table(sweep, &rows), summary(sweep, &rows)?))
 }
 
 /// Returns the text of the table. The columns of results are those that a point has, studies in the order of the scene.
-fn table(sweep: &Sweep, rows: &[Row]) -> String {
+fn table(sweep: &Sweep, rows: &[SweepRow]) -> String {
     let columns = columns(sweep, rows);
     let header = ["point"].into_iter().chain(sweep.keys()).chain(["status", "reason"]);
     let mut text = csv_line(header.chain(columns.iter().map(String::as_str)));
@@ -151,7 +151,7 @@ fn table(sweep: &Sweep, rows: &[Row]) -> String {
     text
 }
 
-fn columns(sweep: &Sweep, rows: &[Row]) -> Vec<String> {
+fn columns(sweep: &Sweep, rows: &[SweepRow]) -> Vec<String> {
     let studies = sweep.file().scene.studies.iter();
     let order: BTreeMap<&str, usize> = studies.enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect();
     let found: BTreeSet<String> = rows.iter().flat_map(|row| row.scalars.keys().cloned()).collect();
@@ -167,15 +167,15 @@ fn columns(sweep: &Sweep, rows: &[Row]) -> Vec<String> {
     columns
 }
 
-fn summary(sweep: &Sweep, rows: &[Row]) -> Result<SweepSummary, RunError> {
+fn summary(sweep: &Sweep, rows: &[SweepRow]) -> Result<SweepSummary, RunError> {
     let with = |status: PointStatus| (0..).zip(rows).filter(move |(_, row)| row.status == status);
-    let unanswered = |(index, row): (usize, &Row)| UnansweredPoint {
+    let unanswered = |(index, row): (usize, &SweepRow)| UnansweredPoint {
         point: index,
         settings: sweep.point(index).settings.iter().map(ToString::to_string).collect(),
         status: row.status,
         reason: row.reason.clone(),
     };
-    let open = |row: &Row| matches!(row.status, PointStatus::NotConverged | PointStatus::Failed);
+    let open = |row: &SweepRow| matches!(row.status, PointStatus::NotConverged | PointStatus::Failed);
     let file = sweep.file();
     Ok(SweepSummary {
         version: env!("CARGO_PKG_VERSION"),

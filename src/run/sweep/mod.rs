@@ -26,7 +26,7 @@ use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Sweep};
 use crate::study::PreviousAnswers;
 use assemble::Board;
-pub use assemble::{Row, assemble, assemble_at, table_of};
+pub use assemble::{SweepRow, assemble, assemble_at, table_of};
 pub use place::points;
 use place::{CHECKS, POINTS, point_folder};
 use pool::Pool;
@@ -154,16 +154,16 @@ pub fn rows(
     own: &[usize],
     threads: Option<usize>,
     observer: Observer,
-) -> Result<Vec<Option<Row>>, RunError> {
+) -> Result<Vec<Option<SweepRow>>, RunError> {
     let (done, pool) = (AtomicUsize::new(0), Pool::new(threads, own.len()));
-    let found: Vec<OnceLock<Row>> = own.iter().map(|_| OnceLock::new()).collect();
+    let found: Vec<OnceLock<SweepRow>> = own.iter().map(|_| OnceLock::new()).collect();
     let report = || observer(&progress(POINTS, done.load(Ordering::Relaxed), own.len()));
     let all: Vec<usize> = (0..own.len()).collect();
     let _ended = pool.over(&all, |k| {
         let Some(record) = in_memory(&sweep.scene(own[k])?, pool.threads_of_point, &|_| report())? else {
             return Ok(ControlFlow::Break(()));
         };
-        found[k].get_or_init(|| Row::new(Some(&record)));
+        found[k].get_or_init(|| SweepRow::new(Some(&record)));
         done.fetch_add(1, Ordering::Relaxed);
         Ok(report())
     })?;

@@ -33,14 +33,14 @@ pub(super) enum Record {
 
 /// The parts of `summary.json` that say whether a point is finished.
 #[derive(Deserialize)]
-struct Computed {
+struct RecordedSummary {
     digest: String,
     studies: Vec<Map<String, Value>>,
 }
 
 /// The content of `failed.json`.
 #[derive(Serialize, Deserialize)]
-struct Failure {
+struct FailedPoint {
     /// Digest of the point's scene.
     digest: String,
     /// What the point sets, as `key=value`.
@@ -62,10 +62,10 @@ impl Record {
             return None;
         }
         let digest = digest_of(scene);
-        if let Some(found) = from_file::<Failure>(&folder.join(FAILURE)).filter(|found| found.digest == digest) {
+        if let Some(found) = from_file::<FailedPoint>(&folder.join(FAILURE)).filter(|found| found.digest == digest) {
             return Some(Self::Failed(found.reason));
         }
-        let found = from_file::<Computed>(&folder.join(SUMMARY)).filter(|found| found.digest == digest)?;
+        let found = from_file::<RecordedSummary>(&folder.join(SUMMARY)).filter(|found| found.digest == digest)?;
         let names = scene.scene.studies.iter().map(|study| Some(study.name.0.as_str()));
         let complete = names.eq(found.studies.iter().map(|study| word(study, "name")));
         let interrupted = found.studies.iter().any(|study| word(study, "reason") == Some(INTERRUPTED));
@@ -117,7 +117,7 @@ impl Record {
 /// Writes the reason for which a point could not be computed into its folder.
 pub(super) fn write_failure(scene: &SceneFile, folder: &Path, error: &RunError) -> Result<(), OutputError> {
     let (digest, settings) = (digest_of(scene), scene.settings().to_vec());
-    files::write(&folder.join(FAILURE), to_json(&Failure { digest, settings, reason: error.to_string() }))
+    files::write(&folder.join(FAILURE), to_json(&FailedPoint { digest, settings, reason: error.to_string() }))
 }
 
 /// Removes the record that an earlier run could not compute a point.

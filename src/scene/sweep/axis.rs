@@ -12,7 +12,7 @@ use std::path::PathBuf;
 pub(super) const TABLE: &str = "sweep";
 
 /// Where a value of an axis is written.
-pub(super) enum Place {
+pub(super) enum ValueLocation {
     /// In the scene.
     Span(Range<usize>),
     /// In a line of a table.
@@ -21,7 +21,7 @@ pub(super) enum Place {
 
 /// An axis with its values.
 #[derive(Clone, Debug)]
-pub(super) struct Axis {
+pub(super) struct ResolvedAxis {
     /// The paths of the keys that are set.
     pub(super) keys: Vec<String>,
     /// The place of the axis in the scene.
@@ -32,7 +32,7 @@ pub(super) struct Axis {
     table: Option<(PathBuf, Vec<usize>)>,
 }
 
-impl Axis {
+impl ResolvedAxis {
     /// Reads the values of an axis.
     pub(super) fn read(file: &SceneFile, spec: &SweepAxis) -> Result<Self, SceneError> {
         let texts = match &*spec.values {
@@ -52,7 +52,8 @@ impl Axis {
     }
 
     fn of_table(file: &SceneFile, spec: &SweepAxis, path: PathBuf) -> Result<Self, SceneError> {
-        let rows::Rows { header, rows, lines } = read_table(&path, rows::parse).map_err(|error| file.placed(error))?;
+        let rows::PointTable { header, rows, lines } =
+            read_table(&path, rows::parse).map_err(|error| file.placed(error))?;
         header.iter().try_for_each(|key| check_key(file, spec, key))?;
         Ok(Self { keys: header, span: spec.key.span(), values: rows, table: Some((path, lines)) })
     }
@@ -70,10 +71,10 @@ impl Axis {
     }
 
     /// Returns the place of a value.
-    pub(super) fn place(&self, row: usize) -> Place {
+    pub(super) fn place(&self, row: usize) -> ValueLocation {
         match &self.table {
-            Some((path, lines)) => Place::Line(path.clone(), lines.get(row).copied().unwrap_or(1)),
-            None => Place::Span(self.span.clone()),
+            Some((path, lines)) => ValueLocation::Line(path.clone(), lines.get(row).copied().unwrap_or(1)),
+            None => ValueLocation::Span(self.span.clone()),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::super::rows::{Fault, numbered_lines};
 
 /// The content of a table of points.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Rows {
+pub(super) struct PointTable {
     /// The paths of the keys.
     pub(super) header: Vec<String>,
     /// The fields of each row.
@@ -18,10 +18,10 @@ pub(super) struct Rows {
 }
 
 /// Returns the content of the text of a table of points.
-pub(super) fn parse(text: &str) -> Result<Rows, Fault> {
+pub(super) fn parse(text: &str) -> Result<PointTable, Fault> {
     let mut lines = numbered_lines(text);
     let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
-    let mut found = Rows { header: fields(header), rows: vec![], lines: vec![] };
+    let mut found = PointTable { header: fields(header), rows: vec![], lines: vec![] };
     if found.header.iter().any(String::is_empty) {
         return Err((at, TableFault::NoKey));
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
-use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
 use crate::sheet::sides::{sorted, uses_of_sides};
@@ -26,7 +26,10 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
         let is_diagonal = |edge: &Edge| edge.kind == EdgeKind::Facet && !sheet.glue.contains_key(&edge.key.whole());
         let diagonal = numbers.iter().any(|&number| is_diagonal(&sheet.edges[number]));
         if numbers.is_empty() || (diagonal && assignment != Assignment::Join) {
-            return Err(Defect::new(MeshPart::Edge(e), Problem::LooseEdge { edge: e, ends: drawn.edge_name(ends) }));
+            return Err(Defect::new(
+                MeshPart::Edge(e),
+                MeshProblem::LooseEdge { edge: e, ends: drawn.edge_name(ends) },
+            ));
         }
         for &number in with_one_hinge(sheet, numbers) {
             if assignment == Assignment::Join && sheet.edges[number].kind == EdgeKind::Crease {
@@ -40,7 +43,9 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
             // a simulator folds some creases to the other side, or the whole pattern backwards
             let is_aimed = targets.contains(&(sorted(ends), assignment));
             let found = fault(sheet, edge, (e, drawn.edge_name(ends)), assignment);
-            if let Some(problem) = found.filter(|problem| !(is_aimed && matches!(problem, Problem::OtherSide { .. }))) {
+            if let Some(problem) =
+                found.filter(|problem| !(is_aimed && matches!(problem, MeshProblem::OtherSide { .. })))
+            {
                 return Err(Defect::new(MeshPart::Edge(e), problem));
             }
             let (key, shown) = (edge.key, sheet.drawn_assignment(edge));
@@ -67,16 +72,16 @@ fn fault(
     found: &Edge,
     (edge, ends): (usize, crate::sheet::error::DrawnEdge),
     assignment: Assignment,
-) -> Option<Problem> {
+) -> Option<MeshProblem> {
     let drawn = sheet.drawn_angle(found).unwrap_or(0.0).to_degrees();
     let folded = drawn.abs() > SIDE_TOLERANCE && drawn.abs() < 180.0 - SIDE_TOLERANCE;
     match (assignment, found.kind) {
-        (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => Some(Problem::BoundaryInside { edge, ends }),
-        (Assignment::Join, EdgeKind::Boundary) => Some(Problem::JoinAtRim { edge, ends }),
+        (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => Some(MeshProblem::BoundaryInside { edge, ends }),
+        (Assignment::Join, EdgeKind::Boundary) => Some(MeshProblem::JoinAtRim { edge, ends }),
         (Assignment::Mountain | Assignment::Valley, EdgeKind::Crease)
             if folded && assignment != Assignment::of_side(drawn) =>
         {
-            Some(Problem::OtherSide { edge, ends, letter: assignment, drawn })
+            Some(MeshProblem::OtherSide { edge, ends, letter: assignment, drawn })
         }
         _ => None,
     }

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, EdgeKey};
 use crate::sheet::sides;
@@ -60,7 +60,7 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
     cuts.retain(|key, _| uses.get(key) == Some(&2));
     let Some(&edge) = cuts.values().min().filter(|_| drawn.is_repeated()) else { return Ok(cuts) };
     let ends = drawn.edge_name(drawn.assignments[edge].0);
-    Err(Defect::new(MeshPart::Edge(edge), Problem::PeriodicCut { edge, ends }))
+    Err(Defect::new(MeshPart::Edge(edge), MeshProblem::PeriodicCut { edge, ends }))
 }
 
 /// Returns the number of polygons that have each edge.
@@ -123,7 +123,7 @@ pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, polygons: &[V
     let apart = at.iter().position(|wedges| fans(polygons, wedges, &Cuts::new()).len() > 1);
     let Some(vertex) = apart else { return Ok(()) };
     let home = identified.homes[vertex];
-    Err(Defect::new(MeshPart::Vertex(home), Problem::NonManifoldVertex { vertex: drawn.name(home) }))
+    Err(Defect::new(MeshPart::Vertex(home), MeshProblem::NonManifoldVertex { vertex: drawn.name(home) }))
 }
 
 /// Checks that the two sides of every cut have become two edges.
@@ -143,7 +143,7 @@ fn check_open(
         let [i, j] = key.ends().map(|end| Corner { vertex: origin(end.vertex), ..end });
         if let Some(&edge) = cuts.get(&EdgeKey::new(i, j).0) {
             let ends = drawn.edge_name(drawn.assignments[edge].0);
-            return Err(Defect::new(MeshPart::Edge(edge), Problem::ClosedCut { edge, ends }));
+            return Err(Defect::new(MeshPart::Edge(edge), MeshProblem::ClosedCut { edge, ends }));
         }
     }
     Ok(())

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::hinges::{self, Flap};
-use super::split::{Part, position};
-use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use super::split::{SplitTriangle, position};
+use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
 use crate::sheet::pieces::pieces;
 use crate::sheet::sides::sides as sides_of;
@@ -59,7 +59,7 @@ fn check_uses(drawn: &Drawing, side: &Side, one_sided: &[bool]) -> Result<(), De
     if a != b || one_sided[f] {
         return Ok(());
     }
-    let problem = Problem::Orientation { edge: drawn.edge_name(side.drawn), faces: [f, g].map(|f| drawn.name(f)) };
+    let problem = MeshProblem::Orientation { edge: drawn.edge_name(side.drawn), faces: [f, g].map(|f| drawn.name(f)) };
     Err(Defect::new(MeshPart::Face(g), problem))
 }
 
@@ -74,14 +74,14 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
             let faces = rim.remove(&EdgeKey::new(a, b).0).map_or(0, |s| s.uses.len());
             if faces != 1 {
                 let edge = drawn.edge_name(ends);
-                return Err(Defect::new(MeshPart::Hole(h), Problem::HoleSide { hole: h, edge, faces }));
+                return Err(Defect::new(MeshPart::Hole(h), MeshProblem::HoleSide { hole: h, edge, faces }));
             }
         }
     }
     let unmatched = sides.iter().find(|s| s.uses.len() == 1 && rim.contains_key(&s.key));
     let Some(side) = unmatched else { return Ok(()) };
     let face = side.uses[0].0;
-    let problem = Problem::Unmatched { edge: drawn.edge_name(side.drawn), face: drawn.name(face) };
+    let problem = MeshProblem::Unmatched { edge: drawn.edge_name(side.drawn), face: drawn.name(face) };
     Err(Defect::new(MeshPart::Face(face), problem))
 }
 
@@ -94,7 +94,7 @@ pub(super) fn glue(drawn: &Drawing, cell: &Identified, sides: &[Side]) -> Result
         let faces = sides.iter().find(|side| side.key == key).map_or(0, |side| side.uses.len());
         let words = if words.len() == 1 { vec![words[0]; faces] } else { words.clone() };
         if faces < 3 || words.len() != faces {
-            let problem = Problem::Glue { edge: drawn.edge_name(*ends), faces, found: words.len() };
+            let problem = MeshProblem::Glue { edge: drawn.edge_name(*ends), faces, found: words.len() };
             return Err(Defect::new(MeshPart::Edge(e), problem));
         }
         found.insert(key, words);
@@ -108,7 +108,7 @@ pub(super) fn with_wings(
     drawn: &Drawing,
     cell: &Identified,
     (sides, glue): (&[Side], &BTreeMap<EdgeKey, Vec<Glue>>),
-    parts: &[Part],
+    parts: &[SplitTriangle],
 ) -> Result<Vec<Edge>, Defect> {
     let mut edges: Vec<Edge> = sides.iter().map(bare).collect();
     let mut numbers: BTreeMap<EdgeKey, usize> = edges.iter().enumerate().map(|(e, edge)| (edge.key, e)).collect();
@@ -117,7 +117,7 @@ pub(super) fn with_wings(
         let key = EdgeKey::new(a, b).0;
         if numbers.insert(key, edges.len()).is_some() {
             let face = part.triangle.polygon;
-            let problem = Problem::DiagonalIsEdge { face: drawn.name(face), edge: drawn.edge_name(ends) };
+            let problem = MeshProblem::DiagonalIsEdge { face: drawn.name(face), edge: drawn.edge_name(ends) };
             return Err(Defect::new(MeshPart::Face(face), problem));
         }
         edges.push(Edge { key, kind: EdgeKind::Facet, wings: [None; 2] });

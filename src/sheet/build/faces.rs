@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::planar::PlacedSide;
-use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::cell::Corner;
 use crate::sheet::sides::{self, sorted};
 
@@ -13,7 +13,7 @@ pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defe
     for (h, hole) in drawn.holes.iter().enumerate() {
         check_indices(drawn, hole, MeshPart::Hole(h), || format!("opening {h}"))?;
         if hole.len() < 3 {
-            return Err(Defect::new(MeshPart::Hole(h), Problem::SmallHole { hole: h, corners: hole.len() }));
+            return Err(Defect::new(MeshPart::Hole(h), MeshProblem::SmallHole { hole: h, corners: hole.len() }));
         }
     }
     let mut seen: BTreeMap<Vec<Corner>, (usize, [i32; 2])> = BTreeMap::new();
@@ -24,7 +24,7 @@ pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defe
         let (canonical, base) = canonical(&identified.corners(face));
         if let Some((other, there)) = seen.insert(canonical, (f, base)) {
             let cell = [base[0] - there[0], base[1] - there[1]];
-            let problem = Problem::DuplicateFace { face: drawn.name(f), other: drawn.name(other), cell };
+            let problem = MeshProblem::DuplicateFace { face: drawn.name(f), other: drawn.name(other), cell };
             return Err(Defect::new(MeshPart::Face(f), problem));
         }
         face.iter().for_each(|&v| used[identified.corner[v].vertex] = true);
@@ -32,23 +32,23 @@ pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defe
     drawn.bars.iter().flatten().for_each(|&v| used[identified.corner[v].vertex] = true);
     let Some(unused) = used.iter().position(|&u| !u) else { return Ok(()) };
     let home = identified.homes[unused];
-    Err(Defect::new(MeshPart::Vertex(home), Problem::UnusedVertex { vertex: drawn.name(home) }))
+    Err(Defect::new(MeshPart::Vertex(home), MeshProblem::UnusedVertex { vertex: drawn.name(home) }))
 }
 
 fn check_indices(drawn: &Drawing, list: &[usize], place: MeshPart, what: impl Fn() -> String) -> Result<(), Defect> {
     let Some(&v) = list.iter().find(|&&v| v >= drawn.coords.len()) else { return Ok(()) };
     let (found, last) = (drawn.name(v).to_string(), drawn.name(drawn.coords.len() - 1));
-    Err(Defect::new(place, Problem::Index { what: what(), found, first: drawn.first, last }))
+    Err(Defect::new(place, MeshProblem::Index { what: what(), found, first: drawn.first, last }))
 }
 
 fn check_corners(drawn: &Drawing, f: usize, face: &[usize]) -> Result<(), Defect> {
     if face.len() < 3 {
-        let problem = Problem::FewCorners { face: drawn.name(f), corners: face.len() };
+        let problem = MeshProblem::FewCorners { face: drawn.name(f), corners: face.len() };
         return Err(Defect::new(MeshPart::Face(f), problem));
     }
     let mut seen = BTreeSet::new();
     let Some(&v) = face.iter().find(|&&v| !seen.insert(v)) else { return Ok(()) };
-    Err(Defect::new(MeshPart::Face(f), Problem::RepeatedVertex { face: drawn.name(f), vertex: drawn.name(v) }))
+    Err(Defect::new(MeshPart::Face(f), MeshProblem::RepeatedVertex { face: drawn.name(f), vertex: drawn.name(v) }))
 }
 
 /// Returns the sorted corners, translated so that one of the lowest vertices is in cell (0, 0), and the cell from

@@ -9,7 +9,7 @@
 
 use std::collections::HashMap;
 
-use super::{Defect, Drawing, MeshPart, Problem};
+use super::{Defect, Drawing, MeshPart, MeshProblem};
 use crate::math::{Vec3, bounds};
 use crate::sheet::ScrewLattice;
 use crate::sheet::cell::Corner;
@@ -100,7 +100,7 @@ fn check_corners(drawn: &Drawing) -> Result<(), Defect> {
 }
 
 fn duplicate(drawn: &Drawing, vertex: usize, other: usize) -> Defect {
-    let problem = Problem::DuplicateVertex { vertex: drawn.name(vertex), other: drawn.name(other) };
+    let problem = MeshProblem::DuplicateVertex { vertex: drawn.name(vertex), other: drawn.name(other) };
     Defect::new(MeshPart::Vertex(vertex), problem)
 }
 
@@ -171,7 +171,7 @@ fn identify_turned(drawn: &Drawing, screws: &ScrewLattice) -> Result<Identified,
 fn copy_corner(drawn: &Drawing, metric: &Metric, v: usize, c: usize, home: usize) -> Result<Corner, Defect> {
     let [n1, n2] = metric.shift(drawn, drawn.coords[v], home).unwrap_or([0.0, 0.0]);
     if n1.abs() > FARTHEST || n2.abs() > FARTHEST {
-        let problem = Problem::FarAway { vertex: drawn.name(v), other: drawn.name(home), n1, n2 };
+        let problem = MeshProblem::FarAway { vertex: drawn.name(v), other: drawn.name(home), n1, n2 };
         return Err(Defect::new(MeshPart::Vertex(v), problem));
     }
     Ok(Corner { vertex: c, shift: [n1 as i32, n2 as i32] })
@@ -264,7 +264,7 @@ mod tests {
     #[test]
     fn one_place_one_vertex() {
         let places = [[0.0; 3], [0.5, 0.5, 0.0], [0.5, 0.5, 1e-12], [1.0, 0.0, 0.0]];
-        let problem = Problem::DuplicateVertex { vertex: 2, other: 1 };
+        let problem = MeshProblem::DuplicateVertex { vertex: 2, other: 1 };
         let periodic = drawn(&places, Some([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
         assert_eq!(*identify(&periodic).unwrap_err().problem, problem);
         let mut finite = drawn(&places, None);

@@ -18,7 +18,7 @@ mod split;
 mod targets;
 
 use super::cell::Sheet;
-use super::error::{Defect, MeshPart, Problem};
+use super::error::{Defect, MeshPart, MeshProblem};
 use super::memory::free_memory;
 use crate::math::Vec3;
 pub(crate) use assign::edges_by_drawn_name;
@@ -37,7 +37,7 @@ const MANY_VERTICES: usize = 10_000;
 /// Builds the sheet that `drawn` draws.
 ///
 /// # Errors
-/// [`Defect`] with the vertex, face, edge or opening that is wrong; see [`Problem`] for all of them.
+/// [`Defect`] with the vertex, face, edge or opening that is wrong; see [`MeshProblem`] for all of them.
 pub fn build(drawn: &Drawing) -> Result<Sheet, Defect> {
     build_identified(drawn).map(|(sheet, _)| sheet)
 }
@@ -92,22 +92,22 @@ pub(crate) fn sides_seen(drawn: &Drawing) -> [bool; 2] {
 /// Checks that there are vertices and faces, that coordinates are finite, and that the lattice spans an area.
 fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
     if drawn.coords.is_empty() {
-        return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "vertices" }));
+        return Err(Defect::new(MeshPart::Mesh, MeshProblem::Empty { what: "vertices" }));
     }
     check_memory(drawn.coords.len())?;
     for (v, x) in drawn.coords.iter().enumerate() {
         if let Some(&value) = x.iter().find(|c| !(0.0..=1e50).contains(&c.abs())) {
-            return Err(Defect::new(MeshPart::Vertex(v), Problem::Coordinate { vertex: drawn.name(v), value }));
+            return Err(Defect::new(MeshPart::Vertex(v), MeshProblem::Coordinate { vertex: drawn.name(v), value }));
         }
     }
     if drawn.faces.is_empty() && drawn.bars.is_empty() {
-        return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "faces" }));
+        return Err(Defect::new(MeshPart::Mesh, MeshProblem::Empty { what: "faces" }));
     }
     match (drawn.lattice, &drawn.screws) {
         (Some(lattice), _) => check_lattice(lattice),
         (None, Some(screws)) => check_lattice(screws.chords(&drawn.coords[0])),
         (None, None) if drawn.holes.is_empty() => Ok(()),
-        (None, None) => Err(Defect::new(MeshPart::Hole(0), Problem::HolesWithoutLattice)),
+        (None, None) => Err(Defect::new(MeshPart::Hole(0), MeshProblem::HolesWithoutLattice)),
     }
 }
 
@@ -115,7 +115,7 @@ fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
 fn check_memory(vertices: usize) -> Result<(), Defect> {
     let needed = BYTES_OF_VERTEX * vertices as f64;
     let room = if vertices < MANY_VERTICES { f64::INFINITY } else { free_memory() };
-    let too_large = Problem::TooLarge(vertices, needed / 1e9, room / 1e9);
+    let too_large = MeshProblem::TooLarge(vertices, needed / 1e9, room / 1e9);
     if needed <= room { Ok(()) } else { Err(Defect::new(MeshPart::Mesh, too_large)) }
 }
 
@@ -123,5 +123,5 @@ fn check_lattice([l1, l2]: [Vec3; 2]) -> Result<(), Defect> {
     let lengths = [l1.norm(), l2.norm()];
     let area = l1.cross(&l2).norm();
     let good = lengths.iter().all(|l| (1e-50..=1e50).contains(l)) && area > 1e-6 * lengths[0] * lengths[1];
-    if good { Ok(()) } else { Err(Defect::new(MeshPart::Lattice, Problem::Lattice { area, lengths })) }
+    if good { Ok(()) } else { Err(Defect::new(MeshPart::Lattice, MeshProblem::Lattice { area, lengths })) }
 }

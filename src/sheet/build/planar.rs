@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
-use super::{Defect, Drawing, MeshPart, Problem};
+use super::{Defect, Drawing, MeshPart, MeshProblem};
 use crate::math::{Vec2, Vec3};
 use crate::sheet::boxes::{around, for_pairs_that_meet};
 
@@ -24,7 +24,7 @@ pub(crate) fn check_crossings(drawn: &Drawing, sides: &[PlacedSide]) -> Result<(
     let Some([a, b]) = crossing.break_value() else { return Ok(()) };
     let place = sides[b].1;
     let [a, b] = [a, b].map(|side| drawn.edge_name(sides[side].0));
-    Err(Defect::new(place, Problem::Crossing { a, b }))
+    Err(Defect::new(place, MeshProblem::Crossing { a, b }))
 }
 
 /// Returns the orientation of the corner `a`, `b`, `c` seen from above, -1, 0 or 1; it is 0 within [`ALIGNED`].
@@ -59,19 +59,19 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     let x = &drawn.coords;
     let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, MeshPart::Edge(e))).collect();
     if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
-        return Err(Defect::new(place, Problem::Upright(drawn.edge_name([a, b]))));
+        return Err(Defect::new(place, MeshProblem::Upright(drawn.edge_name([a, b]))));
     }
     super::check_places(drawn)?;
     check_crossings(drawn, &placed)?;
     let (walks, owner) = walks(&rounds(x, edges), edges);
     if let Some((e, &[a, b])) = edges.iter().enumerate().find(|(_, [a, b])| owner[&(*a, *b)] == owner[&(*b, *a)]) {
-        let problem = Problem::LooseEdge { edge: e, ends: drawn.edge_name([a, b]) };
+        let problem = MeshProblem::LooseEdge { edge: e, ends: drawn.edge_name([a, b]) };
         return Err(Defect::new(MeshPart::Edge(e), problem));
     }
     let (faces, outside): (Vec<_>, Vec<_>) = walks.into_iter().partition(|walk| area(x, walk) > 0.0);
     let Some(inner) = nested(x, &outside) else { return Ok(faces) };
     let edge = edges.iter().position(|ends| ends.contains(&inner)).unwrap_or_default();
-    Err(Defect::new(MeshPart::Edge(edge), Problem::Nested { edge, ends: drawn.edge_name(edges[edge]) }))
+    Err(Defect::new(MeshPart::Edge(edge), MeshProblem::Nested { edge, ends: drawn.edge_name(edges[edge]) }))
 }
 
 /// Returns a vertex of a closed walk that lies inside another one, of walks that do not cross.
@@ -187,11 +187,11 @@ mod tests {
     fn loose_edges_and_islands() {
         let xy = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];
         let loose = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [1, 3]]).unwrap_err();
-        assert!(matches!(*loose.problem, Problem::LooseEdge { edge: 3, .. }), "{loose}");
+        assert!(matches!(*loose.problem, MeshProblem::LooseEdge { edge: 3, .. }), "{loose}");
         let apart = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap();
         assert_eq!(apart, [vec![0, 1, 2], vec![3, 4, 5]]);
         let within = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [1.0, 1.0], [2.0, 1.0], [1.0, 2.0]];
         let nested = faces_of(&drawn(&within), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap_err();
-        assert_eq!(*nested.problem, Problem::Nested { edge: 3, ends: DrawnEdge(3, 4) });
+        assert_eq!(*nested.problem, MeshProblem::Nested { edge: 3, ends: DrawnEdge(3, 4) });
     }
 }

@@ -7,7 +7,7 @@
 //! neighbour ends, are no ears, so that the triangle beside them is not without area; up to [`STRAIGHT`] they count as
 //! straight, since their coordinates are rounded.
 
-use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Triangle};
 
@@ -19,26 +19,33 @@ const THINNEST: f64 = 1e-12;
 const STRAIGHT: f64 = 1e-6;
 
 /// A triangle, and the diagonal that separates it from its polygon.
-pub(super) struct Part {
+pub(super) struct SplitTriangle {
     pub triangle: Triangle,
     /// The diagonal, by corners of the polygon and by drawn vertices; `None` for the last triangle of a polygon.
     pub diagonal: Option<([Corner; 2], [usize; 2])>,
 }
 
 /// Returns all triangles of all polygons, in the order of the file.
-pub(super) fn triangles(drawn: &Drawing, cell: &Identified, polygons: &[Vec<Corner>]) -> Result<Vec<Part>, Defect> {
+pub(super) fn triangles(
+    drawn: &Drawing,
+    cell: &Identified,
+    polygons: &[Vec<Corner>],
+) -> Result<Vec<SplitTriangle>, Defect> {
     let mut parts = Vec::new();
     for (f, polygon) in polygons.iter().enumerate() {
         // the positions of the cell, not those of the drawn copies, so that a file and its copy split alike
         let points: Vec<Vec3> = polygon.iter().map(|&c| position(drawn, cell, c)).collect();
-        let not_simple = || Defect::new(MeshPart::Face(f), Problem::NotSimple { face: drawn.name(f) });
+        let not_simple = || Defect::new(MeshPart::Face(f), MeshProblem::NotSimple { face: drawn.name(f) });
         let cut = ears(&points, STRAIGHT).or_else(|| ears(&points, 0.0)).ok_or_else(not_simple)?;
         for (k, &corners) in cut.iter().enumerate() {
             check_area(drawn, f, &points, corners)?;
             let [before, _, after] = corners;
             let diagonal = (k + 1 < cut.len())
                 .then(|| ([polygon[before], polygon[after]], [drawn.faces[f][before], drawn.faces[f][after]]));
-            parts.push(Part { triangle: Triangle { corners: corners.map(|c| polygon[c]), polygon: f }, diagonal });
+            parts.push(SplitTriangle {
+                triangle: Triangle { corners: corners.map(|c| polygon[c]), polygon: f },
+                diagonal,
+            });
         }
     }
     Ok(parts)
@@ -57,7 +64,7 @@ fn check_area(drawn: &Drawing, f: usize, points: &[Vec3], corners: [usize; 3]) -
         return Ok(());
     }
     let triangle = corners.map(|k| drawn.name(drawn.faces[f][k]));
-    Err(Defect::new(MeshPart::Face(f), Problem::ZeroArea { face: drawn.name(f), triangle, area, longest }))
+    Err(Defect::new(MeshPart::Face(f), MeshProblem::ZeroArea { face: drawn.name(f), triangle, area, longest }))
 }
 
 /// Returns the triangles `[before, tip, after]` of the polygon with these corners, none of them of an area of

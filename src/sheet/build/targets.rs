@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use super::assign::{edges_by_drawn_name, with_one_hinge};
-use super::{Defect, Drawing, Identified, MeshPart, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::assigned::is_same_angle;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet, is_folded_flat};
@@ -28,9 +28,9 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
         let numbers = known.get(&name).map(Vec::as_slice).unwrap_or_default();
         let named = (e, drawn.edge_name(ends));
         if numbers.is_empty() {
-            return Err(Defect::new(MeshPart::Edge(e), Problem::LooseEdge { edge: e, ends: named.1 }));
+            return Err(Defect::new(MeshPart::Edge(e), MeshProblem::LooseEdge { edge: e, ends: named.1 }));
         }
-        let refused = |problem: Problem| Defect::new(MeshPart::FoldAngle(e), problem);
+        let refused = |problem: MeshProblem| Defect::new(MeshPart::FoldAngle(e), problem);
         for edge in with_one_hinge(sheet, numbers).iter().map(|&number| &sheet.edges[number]) {
             let is_drawn = is_drawn(sheet, edge, angle);
             if let Some(fault) = fault(named, letters.get(&name).copied(), angle, is_drawn) {
@@ -39,7 +39,7 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
             let before = targets.insert(edge.key, angle).filter(|before| !is_same_angle(*before, angle));
             if let Some(before) = before {
                 let [given, before] = [angle, before].map(f64::to_degrees);
-                return Err(refused(Problem::AngleOfCopies { edge: e, ends: named.1, given, before }));
+                return Err(refused(MeshProblem::AngleOfCopies { edge: e, ends: named.1, given, before }));
             }
             all_drawn &= is_drawn;
             if !letters.contains_key(&name) && is_other_side(sheet.drawn_assignment(edge), angle) {
@@ -69,11 +69,16 @@ fn is_drawn(sheet: &Sheet, edge: &Edge, angle: f64) -> bool {
 }
 
 /// Returns the reason for which an edge cannot have this angle.
-fn fault((edge, ends): (usize, DrawnEdge), letter: Option<Assignment>, angle: f64, is_drawn: bool) -> Option<Problem> {
+fn fault(
+    (edge, ends): (usize, DrawnEdge),
+    letter: Option<Assignment>,
+    angle: f64,
+    is_drawn: bool,
+) -> Option<MeshProblem> {
     let given = angle.to_degrees();
     match letter {
-        _ if !is_within_a_turn(angle) && !is_drawn => Some(Problem::AngleRange { edge, ends, given }),
-        Some(letter) if is_other_side(letter, angle) => Some(Problem::AngleOtherSide { edge, ends, letter, given }),
+        _ if !is_within_a_turn(angle) && !is_drawn => Some(MeshProblem::AngleRange { edge, ends, given }),
+        Some(letter) if is_other_side(letter, angle) => Some(MeshProblem::AngleOtherSide { edge, ends, letter, given }),
         _ => None,
     }
 }

@@ -5,16 +5,16 @@ use std::collections::BTreeMap;
 use serde_json::value::RawValue;
 
 use super::edges::Edges;
-use super::frames::Frame;
+use super::frames::FoldFrame;
 use super::locate::Source;
-use super::read::{ReadFrame, Rows};
+use super::read::{RawMesh, ReadFrame};
 use super::record;
 use crate::math::bounds;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, sides_seen};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::SheetError;
-use crate::sheet::pattern::{Cleanup, Line, sheet_of_lines};
+use crate::sheet::pattern::{Cleanup, PatternLine, sheet_of_lines};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::record::FileRecord;
 use crate::sheet::sides::{sides, sorted};
@@ -31,25 +31,25 @@ const LOST: [&str; 4] = ["foldwell:stiffness", "foldwell:bar_stiffness", "foldwe
 /// Returns the sheet of a flat crease pattern, with its vertices merged and its edges split.
 pub(super) fn sheet(
     source: &Source,
-    frame: &Frame,
+    frame: &FoldFrame,
     (drawn, rows, mut edges): ReadFrame,
     cleanup: &Cleanup,
 ) -> Result<Sheet, SheetError> {
     if let Some(found) = no_flat_pattern(&drawn) {
         return Err(source.at_value(None, PatternFault::NotFlat { found }.into()));
     }
-    let (parts, places): (Vec<Part>, Vec<&RawValue>) = parts(&drawn, &edges, &rows).into_iter().unzip();
+    let (parts, places): (Vec<LetteredEdge>, Vec<&RawValue>) = parts(&drawn, &edges, &rows).into_iter().unzip();
     // faces are found anew, and look up
     let is_behind = sides_seen(&drawn) == [false, true];
-    let line = |part: &Part| {
+    let line = |part: &LetteredEdge| {
         let ends = part.ends.map(|v| drawn.coords[v].xy());
-        let Part { mut letter, mut angle, auxiliary, .. } = *part;
+        let LetteredEdge { mut letter, mut angle, auxiliary, .. } = *part;
         if is_behind {
             (letter, angle) = (letter.seen_from_behind(), angle.map(|angle| -angle));
         }
-        Line { ends, letter, angle, auxiliary, contour: false, at: 0, flipped: false }
+        PatternLine { ends, letter, angle, auxiliary, contour: false, at: 0, flipped: false }
     };
-    let lines: Vec<Line> = parts.iter().map(line).collect();
+    let lines: Vec<PatternLine> = parts.iter().map(line).collect();
     let head = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
     let mut sheet = sheet_of_lines(&lines, cleanup, &head)
         .map_err(|(line, problem)| source.at_value(line.map(|line| places[line]), *problem))?;
@@ -67,15 +67,15 @@ pub(super) fn needed((drawn, rows, edges): &ReadFrame) -> Option<Cleanup> {
         return None;
     }
     let parts = parts(drawn, edges, rows);
-    let degrees = |counts: fn(&Part) -> bool| {
+    let degrees = |counts: fn(&LetteredEdge) -> bool| {
         let mut degrees = vec![0; drawn.coords.len()];
         let counted = parts.iter().filter(|(part, _)| counts(part));
         counted.flat_map(|(part, _)| part.ends).for_each(|v| degrees[v] += 1);
         degrees
     };
-    let (all, open) = (degrees(|_| true), degrees(Part::is_open));
-    let is_loose = |part: &Part| part.auxiliary && part.ends.iter().any(|&v| all[v] == 1);
-    let is_slit = |part: &Part| part.letter == Assignment::Cut && part.ends.iter().all(|&v| open[v] == 1);
+    let (all, open) = (degrees(|_| true), degrees(LetteredEdge::is_open));
+    let is_loose = |part: &LetteredEdge| part.auxiliary && part.ends.iter().any(|&v| all[v] == 1);
+    let is_slit = |part: &LetteredEdge| part.letter == Assignment::Cut && part.ends.iter().all(|&v| open[v] == 1);
     let extent = drawn.coords.iter().map(|x| (x - drawn.coords[0]).amax()).fold(0.0, f64::max);
     let needed = parts.iter().any(|(part, _)| is_loose(part) || is_slit(part));
     needed.then_some(Cleanup { merge: Some(ONE_PLACE * extent), split: false })
@@ -96,14 +96,14 @@ fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
 }
 
 /// An edge of a drawing.
-struct Part {
+struct LetteredEdge {
     ends: [usize; 2],
     letter: Assignment,
     angle: Option<f64>,
     auxiliary: bool,
 }
 
-impl Part {
+impl LetteredEdge {
     /// Whether the sheet ends at the edge, on one side of it or on both.
     fn is_open(&self) -> bool {
         matches!(self.letter, Assignment::Cut | Assignment::Boundary)
@@ -112,13 +112,13 @@ impl Part {
 
 /// Returns the edges of a drawing, each with its place in the text; sides of faces that are not listed have the letter
 /// B or U.
-fn parts<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Part, &'a RawValue)> {
+fn parts<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &RawMesh<'a>) -> Vec<(LetteredEdge, &'a RawValue)> {
     let listed = edges.ends.iter().enumerate().map(|(e, &ends)| {
         let given = edges.assignments.get(e).copied();
         let letter = given.unwrap_or(Assignment::Unassigned);
         let angle = edges.angles.get(e).and_then(|(_, angle)| *angle);
         let auxiliary = matches!(given, Some(Assignment::Flat | Assignment::Unassigned));
-        (Part { ends, letter, angle, auxiliary }, edges.rows[e])
+        (LetteredEdge { ends, letter, angle, auxiliary }, edges.rows[e])
     });
     let mut unlisted: BTreeMap<[usize; 2], (usize, usize)> = BTreeMap::new();
     for (f, face) in drawn.faces.iter().enumerate() {
@@ -129,7 +129,7 @@ fn parts<'a>(drawn: &Drawing, edges: &Edges<'a>, rows: &Rows<'a>) -> Vec<(Part, 
     }
     let others = unlisted.into_iter().map(|(ends, (face, count))| {
         let letter = if count == 1 { Assignment::Boundary } else { Assignment::Unassigned };
-        (Part { ends, letter, angle: None, auxiliary: false }, rows.faces[face])
+        (LetteredEdge { ends, letter, angle: None, auxiliary: false }, rows.faces[face])
     });
     listed.chain(others).collect()
 }

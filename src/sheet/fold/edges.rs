@@ -7,7 +7,7 @@ use super::locate::Source;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::GluedEdge;
 use crate::sheet::cell::Glue;
-use crate::sheet::error::{Problem, SheetError};
+use crate::sheet::error::{MeshProblem, SheetError};
 
 /// The edges of a file; the lists are empty if the file does not have the keys.
 #[derive(Default)]
@@ -90,7 +90,7 @@ pub(super) fn per_edge<'a>(
 ) -> Result<Vec<&'a RawValue>, SheetError> {
     let Some(value) = keys.get(key) else { return Ok(vec![]) };
     let rows: Vec<&RawValue> = source.typed(value, || format!("`{key}`"), right)?;
-    let wrong = Problem::Length { key, found: rows.len(), right: count };
+    let wrong = MeshProblem::Length { key, found: rows.len(), right: count };
     if rows.len() == count { Ok(rows) } else { Err(source.at(value, wrong)) }
 }
 

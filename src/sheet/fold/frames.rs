@@ -5,10 +5,10 @@ use serde_json::value::RawValue;
 
 use super::keys::Values;
 use super::locate::Source;
-use crate::sheet::error::{Problem, SheetError};
+use crate::sheet::error::{MeshProblem, SheetError};
 
 /// The frame that is read, with the keys that it inherits.
-pub(super) struct Frame<'a> {
+pub(super) struct FoldFrame<'a> {
     /// Its keys.
     pub values: Values<'a>,
     /// Its number.
@@ -18,7 +18,7 @@ pub(super) struct Frame<'a> {
 }
 
 /// Returns the frame of this number; if none is given, the first one that has vertices.
-pub(super) fn choose<'a>(source: &Source<'a>, number: Option<usize>) -> Result<Frame<'a>, SheetError> {
+pub(super) fn choose<'a>(source: &Source<'a>, number: Option<usize>) -> Result<FoldFrame<'a>, SheetError> {
     let top: Values<'a> = read(source, source.text)?;
     let list = top.get("file_frames");
     let rows = list.map(|list| source.typed(list, || "`file_frames`".into(), "a list of frames, [{..}, ...]"));
@@ -36,7 +36,7 @@ pub(super) fn choose<'a>(source: &Source<'a>, number: Option<usize>) -> Result<F
     };
     let values = frames.resolved(number)?;
     let others = if number == 0 { further.len() } else { further.len() - 1 + usize::from(has_mesh(&top)) };
-    Ok(Frame { values, number, others })
+    Ok(FoldFrame { values, number, others })
 }
 
 fn read<'a>(source: &Source<'a>, text: &'a str) -> Result<Values<'a>, SheetError> {
@@ -70,7 +70,7 @@ impl<'a> Frames<'_, 'a> {
     fn resolved(&self, number: usize) -> Result<Values<'a>, SheetError> {
         let last = self.further.len();
         if number > last {
-            return Err(self.source.at_value(None, Problem::NoFrame { frame: number, last }));
+            return Err(self.source.at_value(None, MeshProblem::NoFrame { frame: number, last }));
         }
         let (mut values, mut at, mut seen) = (Values::default(), number, vec![number]);
         loop {
@@ -83,7 +83,7 @@ impl<'a> Frames<'_, 'a> {
             }
             let Some(parent) = self.parent(own, at)? else { break };
             if seen.contains(&parent) {
-                let problem = Problem::FrameCycle { frame: number };
+                let problem = MeshProblem::FrameCycle { frame: number };
                 return Err(self.source.at_value(own.get("frame_parent"), problem));
             }
             seen.push(parent);
@@ -105,7 +105,7 @@ impl<'a> Frames<'_, 'a> {
         let parent: usize = self.source.typed(value, || "`frame_parent`".into(), "the number of a frame")?;
         let last = self.further.len();
         if parent > last {
-            let problem = Problem::NoParent { frame: number, parent, last };
+            let problem = MeshProblem::NoParent { frame: number, parent, last };
             return Err(self.source.at(value, problem));
         }
         Ok(Some(parent))

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::edges::{self, Edges};
-use super::frames::Frame;
+use super::frames::FoldFrame;
 use super::keys::Values;
 use super::locate::Source;
 use super::{record, stiffness};
@@ -15,25 +15,25 @@ use crate::math::Vec3;
 use crate::sheet::ScrewLattice;
 use crate::sheet::build::{Drawing, rebuild_faces};
 use crate::sheet::cell::Sheet;
-use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
+use crate::sheet::error::{Defect, MeshPart, MeshProblem, SheetError};
 use crate::sheet::listed::{bars_alone, build_listed, check_ends};
 use crate::sheet::record::FileRecord;
 
 /// The parts of the mesh as they stand in the text, for the line of messages.
 #[derive(Default)]
-pub(super) struct Rows<'a> {
+pub(super) struct RawMesh<'a> {
     vertices: Vec<&'a RawValue>,
     pub(super) faces: Vec<&'a RawValue>,
     holes: Vec<&'a RawValue>,
 }
 
 /// A frame as it is read: the drawing, the places of its parts in the text, and its edges.
-pub(super) type ReadFrame<'a> = (Drawing, Rows<'a>, Edges<'a>);
+pub(super) type ReadFrame<'a> = (Drawing, RawMesh<'a>, Edges<'a>);
 
 /// Returns the sheet that a frame draws, with the numbers of its vertices and edges.
 pub(super) fn sheet<'a>(
     source: &Source<'a>,
-    frame: &Frame<'a>,
+    frame: &FoldFrame<'a>,
     (mut drawn, mut rows, mut edges): ReadFrame<'a>,
 ) -> Result<Sheet, SheetError> {
     let keys = &frame.values;
@@ -59,7 +59,7 @@ pub(super) fn sheet<'a>(
 
 /// Reads title, vertices, edges and faces of a frame.
 pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Values<'a>) -> Result<ReadFrame<'a>, SheetError> {
-    let mut rows = Rows::default();
+    let mut rows = RawMesh::default();
     let mut drawn = head(source, keys)?;
     read_vertices(source, keys, &mut drawn, &mut rows)?;
     let edges = edges::read(source, keys, drawn.coords.len())?;
@@ -115,9 +115,9 @@ fn read_vertices<'a>(
     source: &Source<'a>,
     keys: &Values<'a>,
     drawn: &mut Drawing,
-    rows: &mut Rows<'a>,
+    rows: &mut RawMesh<'a>,
 ) -> Result<(), SheetError> {
-    let missing = Problem::Missing { key: "vertices_coords", right: "it should be a list of points" };
+    let missing = MeshProblem::Missing { key: "vertices_coords", right: "it should be a list of points" };
     let value = keys.get("vertices_coords").ok_or_else(|| source.at_value(None, missing))?;
     let right = "a list of points, [[x, y, z], ...]";
     rows.vertices = source.typed(value, || "`vertices_coords`".into(), right)?;
@@ -129,7 +129,7 @@ fn read_vertices<'a>(
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
         let first = *dimension.get_or_insert(if numbers.len() == 2 { 2 } else { 3 });
         if numbers.len() != first {
-            let problem = Problem::Dimension { vertex: v, found: numbers.len(), right: first };
+            let problem = MeshProblem::Dimension { vertex: v, found: numbers.len(), right: first };
             return Err(source.at(row, problem));
         }
         drawn.coords.push(Vec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0)));
@@ -142,12 +142,12 @@ fn read_faces<'a>(
     source: &Source<'a>,
     keys: &Values<'a>,
     drawn: &mut Drawing,
-    rows: &mut Rows<'a>,
+    rows: &mut RawMesh<'a>,
     edges: &Edges<'a>,
 ) -> Result<(), SheetError> {
     let Some(value) = keys.get("faces_vertices") else {
         let right = "it, or at least `edges_vertices`, should list the faces";
-        let missing = Problem::Missing { key: "faces_vertices", right };
+        let missing = MeshProblem::Missing { key: "faces_vertices", right };
         return if edges.ends.is_empty() { Err(source.at_value(None, missing)) } else { Ok(()) };
     };
     let right = "a list of faces, [[0, 1, 2], ...]";
@@ -180,7 +180,7 @@ fn read_names(source: &Source, keys: &Values, count: usize) -> Result<BTreeMap<S
 }
 
 /// Adds to a defect of the mesh the line of the text that has the defective part.
-fn located(source: &Source, keys: &Values, rows: &Rows, edges: &Edges, defect: Defect) -> SheetError {
+fn located(source: &Source, keys: &Values, rows: &RawMesh, edges: &Edges, defect: Defect) -> SheetError {
     let row = match defect.place {
         MeshPart::Mesh => None,
         MeshPart::Vertex(v) => rows.vertices.get(v).copied(),

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::edges::Edges;
-use super::frames::Frame;
+use super::frames::FoldFrame;
 use super::keys::GLUE;
 use super::stiffness::{BARS, HINGES};
 use crate::sheet::build::{Drawing, drawn_sides};
@@ -59,13 +59,13 @@ pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
 
 /// Reads the content of a frame other than the shape of its sheet. All keys are kept of a finite sheet whose vertices,
 /// edges and faces keep their numbers when it is written; otherwise only those about the file and its frame.
-pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord {
+pub(super) fn read(frame: &FoldFrame, drawn: &Drawing, edges: &Edges) -> FileRecord {
     let all_listed = edges.ends.is_empty() || edges.ends.len() == drawn_sides(drawn).len() + drawn.bars.len();
     record(frame, edges, !drawn.is_repeated() && all_listed)
 }
 
 /// Reads the same; `numbered` says whether vertices, edges and faces keep their numbers.
-pub(super) fn record(frame: &Frame, edges: &Edges, numbered: bool) -> FileRecord {
+pub(super) fn record(frame: &FoldFrame, edges: &Edges, numbered: bool) -> FileRecord {
     let mut record = FileRecord { frame: frame.number, further_frames: frame.others, ..FileRecord::default() };
     for (key, value) in &frame.values.0 {
         let name = key.as_str();

@@ -9,7 +9,7 @@ use super::keys::Values;
 use super::locate::Source;
 use crate::sheet::build::{Identified, edges_by_drawn_name};
 use crate::sheet::cell::{EdgeKey, MeshStiffness, Sheet};
-use crate::sheet::error::{DrawnEdge, Problem, SheetError};
+use crate::sheet::error::{DrawnEdge, MeshProblem, SheetError};
 
 /// Keys of the stiffnesses of hinges and of bars.
 pub(super) const HINGES: &str = "foldwell:stiffness";
@@ -34,7 +34,7 @@ pub(super) fn read(
                 let before = found.insert(sheet.edges[edge].key, given);
                 if let Some(before) = before.filter(|before| *before != given) {
                     let ends = DrawnEdge(ends[0], ends[1]);
-                    return Err(source.at(row, Problem::StiffnessOfCopies { key, edge: e, ends, given, before }));
+                    return Err(source.at(row, MeshProblem::StiffnessOfCopies { key, edge: e, ends, given, before }));
                 }
             }
         }

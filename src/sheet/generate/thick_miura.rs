@@ -38,7 +38,7 @@ parameters! {
 }
 
 /// The cell of Miura-ori, and where its hinges are.
-struct Hinges {
+struct ThickMiuraCell {
     shape: MiuraShape,
     grid: VertexGrid,
     thickness: f64,
@@ -47,7 +47,7 @@ struct Hinges {
     nearer: f64,
 }
 
-impl Hinges {
+impl ThickMiuraCell {
     /// Returns both ends of the hinge of the crease from a vertex of the cell along x (`0`) or y (`1`).
     fn ends(&self, [i, j]: [usize; 2], axis: usize) -> [Vec3; 2] {
         let [from, to] = [[i, j], if axis == 0 { [i + 1, j] } else { [i, j + 1] }].map(|at| self.shape.vertex(at));
@@ -91,7 +91,7 @@ impl ThickMiura {
         let thickness = between("thickness", thickness, 0.0, f64::min(1e6, shape.s / per_thickness))?;
         let nearer = thickness * per_thickness;
         let lattice = Some([Vec3::new(2.0 * (shape.s - nearer), 0.0, 0.0), Vec3::new(0.0, 2.0 * shape.l, 0.0)]);
-        let hinges = Hinges { shape, grid: VertexGrid { size: [2, 2] }, thickness, gap, nearer };
+        let hinges = ThickMiuraCell { shape, grid: VertexGrid { size: [2, 2] }, thickness, gap, nearer };
         let all = || hinges.grid.all();
         let vertices = [0, 1].into_iter().flat_map(|axis| all().flat_map(move |at| [(at, axis)]));
         let vertices = vertices.flat_map(|(at, axis)| hinges.ends(at, axis)).collect();

@@ -31,7 +31,7 @@ parameters! {
 }
 
 /// The first of two coupled tubes.
-pub(super) struct Tube {
+pub(super) struct CoupledTube {
     pub sides: [Vec3; 2],
     /// Step from a ring to the next one: along the axis, and to and fro across it.
     step: [f64; 2],
@@ -41,7 +41,7 @@ pub(super) struct Tube {
     pub words: String,
 }
 
-impl Tube {
+impl CoupledTube {
     /// Returns the displacement of a ring from the first one.
     pub fn place(&self, ring: usize) -> Vec3 {
         Vec3::new(ring as f64 * self.step[0], (ring % 2) as f64 * self.step[1], 0.0)
@@ -65,14 +65,14 @@ impl Tube {
 
 impl MiuraTubes {
     /// The first tube, of checked parameters.
-    pub(super) fn tube(&self) -> Result<Tube, GenerateError> {
+    pub(super) fn tube(&self) -> Result<CoupledTube, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
         let t = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
         let f = angle_between("fold", self.fold, FRAC_PI_2 - t, FRAC_PI_2)?;
         let cells = count("cells", self.cells, 1, 500)?;
         let y = a * libm::cos(t) / libm::sin(f);
         let z = (a * a - y * y).sqrt();
-        Ok(Tube {
+        Ok(CoupledTube {
             sides: [Vec3::new(0.0, y, z), Vec3::new(0.0, y, -z)],
             step: [b * libm::cos(f), b * libm::sin(f)],
             pieces: 2 * cells,

@@ -2,7 +2,7 @@
 
 use super::error::{GenerateError, between};
 use super::parts::Parts;
-use super::tubes::{MiuraTubes, SOURCE, Tube};
+use super::tubes::{CoupledTube, MiuraTubes, SOURCE};
 use crate::math::Vec3;
 use crate::sheet::build::GluedEdge;
 use crate::sheet::cell::{Corner, Glue, Sheet};
@@ -37,7 +37,7 @@ impl MiuraTubes {
 }
 
 /// The vertices of a ring.
-fn ring(tubes: &MiuraTubes, tube: &Tube, r: usize) -> [Vec3; RING] {
+fn ring(tubes: &MiuraTubes, tube: &CoupledTube, r: usize) -> [Vec3; RING] {
     let [u, v] = tube.sides;
     let along = u / tubes.a;
     // the side v of the second tube, turned by 180 degrees about u

@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 
 use robust::{Coord, orient2d};
 
-use super::piece::Piece;
+use super::piece::SegmentPiece;
 use super::straight::straighten;
 use crate::math::Vec2;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
@@ -60,7 +60,7 @@ pub(crate) struct Arrangement {
     /// Where they stand on the segments that they split, which thus stay straight.
     pub straight: Vec<Vec2>,
     /// Pieces of all segments; segments within the tolerance have none.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<SegmentPiece>,
 }
 
 /// Returns the arrangement of `segments`, whose points are merged within the length `tolerance`; without `split` they
@@ -72,9 +72,9 @@ pub(crate) fn arrange(
     compared: &mut usize,
 ) -> Result<Arrangement, Disorder> {
     let mut places =
-        Places { tolerance, points: vec![], merged: vec![], merges: 0, cells: HashMap::new(), before: vec![] };
+        MergedPoints { tolerance, points: vec![], merged: vec![], merges: 0, cells: HashMap::new(), before: vec![] };
     let numbered = segments.iter().map(|ends| ends.map(|end| places.number(end)));
-    let drawn: Vec<Piece> = numbered.enumerate().map(|(segment, ends)| Piece { ends, segment }).collect();
+    let drawn: Vec<SegmentPiece> = numbered.enumerate().map(|(segment, ends)| SegmentPiece { ends, segment }).collect();
     let mut pieces = places.distinct(drawn.clone());
     let mut straight = None;
     if split {
@@ -87,7 +87,7 @@ pub(crate) fn arrange(
             }
         }
         let mut moved = places.clone();
-        let ends: Vec<Piece> = drawn.iter().map(|piece| places.at_first(piece)).collect();
+        let ends: Vec<SegmentPiece> = drawn.iter().map(|piece| places.at_first(piece)).collect();
         straighten(&mut moved.points, (segments, &ends), &pieces, tolerance);
         // where that parts pieces anew, points stay as they are drawn
         straight = matches!(split_once(&mut moved, &pieces, compared), Ok(None)).then_some(moved.points);
@@ -105,7 +105,7 @@ pub(crate) fn arrange(
 
 /// Points, those within the tolerance of each other merged, found by their place in a grid.
 #[derive(Clone)]
-struct Places {
+struct MergedPoints {
     tolerance: f64,
     points: Vec<Vec2>,
     /// For each point, itself or an earlier point with which it is one.
@@ -118,7 +118,7 @@ struct Places {
     before: Vec<Option<usize>>,
 }
 
-impl Places {
+impl MergedPoints {
     /// Returns the number of a point at `x`, merged with the points within the tolerance.
     fn number(&mut self, x: Vec2) -> usize {
         let cell = |c: f64| (c / (2.0 * self.tolerance)).floor() as i64;
@@ -156,8 +156,8 @@ impl Places {
     }
 
     /// A piece between the points that its ends are one with.
-    fn at_first(&mut self, piece: &Piece) -> Piece {
-        Piece { ends: piece.ends.map(|v| self.first(v)), ..*piece }
+    fn at_first(&mut self, piece: &SegmentPiece) -> SegmentPiece {
+        SegmentPiece { ends: piece.ends.map(|v| self.first(v)), ..*piece }
     }
 
     fn position(&mut self, v: usize) -> Vec2 {
@@ -174,7 +174,7 @@ impl Places {
     }
 
     /// Returns the pieces between merged points: without those of no length, and each piece of a segment once.
-    fn distinct(&mut self, pieces: Vec<Piece>) -> Vec<Piece> {
+    fn distinct(&mut self, pieces: Vec<SegmentPiece>) -> Vec<SegmentPiece> {
         let mut known = HashSet::new();
         let pieces = pieces.into_iter().map(|piece| self.at_first(&piece));
         pieces.filter(|p| p.ends[0] != p.ends[1] && known.insert((p.segment, sorted(p.ends)))).collect()
@@ -182,7 +182,11 @@ impl Places {
 }
 
 /// Returns the parts of the pieces between the points at which they meet; `None` if there is nothing to split or merge.
-fn split_once(places: &mut Places, pieces: &[Piece], compared: &mut usize) -> Result<Option<Vec<Piece>>, Disorder> {
+fn split_once(
+    places: &mut MergedPoints,
+    pieces: &[SegmentPiece],
+    compared: &mut usize,
+) -> Result<Option<Vec<SegmentPiece>>, Disorder> {
     let mut edges: Vec<[usize; 2]> = Vec::new();
     let mut numbers = HashMap::new();
     let mut number = |ends: [usize; 2]| {
@@ -215,7 +219,7 @@ fn split_once(places: &mut Places, pieces: &[Piece], compared: &mut usize) -> Re
 
 /// The points at which edges are to be split.
 struct Cuts<'p> {
-    places: &'p mut Places,
+    places: &'p mut MergedPoints,
     /// The ends of every edge; pieces of several segments may lie on one edge.
     edges: Vec<[usize; 2]>,
     of_edge: Vec<Vec<usize>>,
@@ -263,7 +267,7 @@ impl Cuts<'_> {
 }
 
 /// Whether point `v` lies between the ends of an edge, within the tolerance; the ends themselves do not.
-fn touches(places: &Places, ends: [usize; 2], v: usize) -> bool {
+fn touches(places: &MergedPoints, ends: [usize; 2], v: usize) -> bool {
     if ends.contains(&v) {
         return false;
     }
@@ -280,14 +284,14 @@ fn turn(a: Vec2, b: Vec2, c: Vec2) -> f64 {
 }
 
 /// Returns the parts of a piece between these points on it.
-fn parts(places: &mut Places, piece: Piece, cuts: &[usize]) -> Vec<Piece> {
+fn parts(places: &mut MergedPoints, piece: SegmentPiece, cuts: &[usize]) -> Vec<SegmentPiece> {
     let [a, b] = piece.ends;
     let mut cuts: Vec<usize> = cuts.iter().map(|&v| places.first(v)).collect();
     let along = |v: usize| (places.points[v] - places.points[a]).dot(&(places.points[b] - places.points[a]));
     cuts.sort_by(|&v, &w| along(v).total_cmp(&along(w)).then(v.cmp(&w)));
     cuts.dedup();
     let stops: Vec<usize> = [a].into_iter().chain(cuts).chain([b]).collect();
-    stops.windows(2).map(|w| Piece { ends: [w[0], w[1]], ..piece }).collect()
+    stops.windows(2).map(|w| SegmentPiece { ends: [w[0], w[1]], ..piece }).collect()
 }
 
 #[cfg(test)]

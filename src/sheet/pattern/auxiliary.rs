@@ -1,11 +1,15 @@
 //! Auxiliary lines that bound no face.
 
-use super::line::Line;
-use super::piece::Piece;
+use super::line::PatternLine;
+use super::piece::SegmentPiece;
 
 /// Returns the pieces between `points` points without auxiliary ones that end where nothing else is, or that no line
 /// joins to a crease or the rim; and the number of lines of which a piece is left out.
-pub(super) fn without_loose(lines: &[Line], points: usize, pieces: Vec<Piece>) -> (Vec<Piece>, usize) {
+pub(super) fn without_loose(
+    lines: &[PatternLine],
+    points: usize,
+    pieces: Vec<SegmentPiece>,
+) -> (Vec<SegmentPiece>, usize) {
     let mut at: Vec<Vec<usize>> = vec![Vec::new(); points];
     for (number, piece) in pieces.iter().enumerate() {
         piece.ends.iter().for_each(|&v| at[v].push(number));
@@ -32,10 +36,10 @@ pub(super) fn without_loose(lines: &[Line], points: usize, pieces: Vec<Piece>) -
 }
 
 /// Returns the pieces with those parts of one line joined again between which nothing else is left.
-fn rejoined(points: usize, pieces: Vec<Piece>) -> Vec<Piece> {
+fn rejoined(points: usize, pieces: Vec<SegmentPiece>) -> Vec<SegmentPiece> {
     let mut degree = vec![0; points];
     pieces.iter().flat_map(|piece| piece.ends).for_each(|v| degree[v] += 1);
-    let mut joined: Vec<Piece> = Vec::with_capacity(pieces.len());
+    let mut joined: Vec<SegmentPiece> = Vec::with_capacity(pieces.len());
     for piece in pieces {
         match joined.last_mut() {
             Some(last)
@@ -51,7 +55,7 @@ fn rejoined(points: usize, pieces: Vec<Piece>) -> Vec<Piece> {
 
 /// Returns which pieces are joined, by lines of any kind, to one that is not auxiliary; all are if there is none of
 /// these. `at` has the pieces at every point.
-fn without_islands(lines: &[Line], at: &[Vec<usize>], pieces: &[Piece]) -> Vec<bool> {
+fn without_islands(lines: &[PatternLine], at: &[Vec<usize>], pieces: &[SegmentPiece]) -> Vec<bool> {
     let mut joined: Vec<bool> = pieces.iter().map(|piece| !lines[piece.segment].auxiliary).collect();
     let mut open: Vec<usize> = (0..pieces.len()).filter(|&number| joined[number]).collect();
     if open.is_empty() {

@@ -9,12 +9,12 @@
 //! taken, and they are named. Where no larger one helps either, points may be nearer to each other than the first: smaller
 //! ones are tried then.
 
-use super::line::Line;
+use super::line::PatternLine;
 use super::mesh::{Meshed, Misdrawn, mesh};
 use crate::math::Vec2;
 use crate::sheet::build::Drawing;
 use crate::sheet::cell::Sheet;
-use crate::sheet::error::Problem;
+use crate::sheet::error::MeshProblem;
 use crate::sheet::pattern_fault::PatternFault;
 use std::iter;
 
@@ -64,7 +64,7 @@ pub struct Cleanup {
 
 /// Returns the sheet whose creases and rim are `lines`, with the title and description of `head`. Its vertices are
 /// numbered in the order of the lines.
-pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result<Sheet, Misdrawn> {
+pub(crate) fn sheet(lines: &[PatternLine], cleanup: &Cleanup, head: &Drawing) -> Result<Sheet, Misdrawn> {
     let extent = extent(lines)?;
     let first = match cleanup.merge {
         None => SAME_POINT * extent,
@@ -76,7 +76,8 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: &Drawing) -> Result
     if found.as_ref().is_ok_and(|meshed| meshed.sheet.record.redrawing.gap.is_none() || cleanup.merge.is_some()) {
         return found.map(|meshed| meshed.sheet);
     }
-    if found.as_ref().is_err_and(|(_, problem)| matches!(**problem, Problem::Pattern(PatternFault::TooMany { .. }))) {
+    if found.as_ref().is_err_and(|(_, problem)| matches!(**problem, MeshProblem::Pattern(PatternFault::TooMany { .. })))
+    {
         return found.map(|meshed| meshed.sheet);
     }
     let coarser = iter::successors(Some(first * STEP), |distance| Some(distance * STEP));
@@ -123,16 +124,17 @@ fn is_clearer((larger, meshed): (f64, &Meshed), (within, before): (f64, &Meshed)
 }
 
 /// Returns a problem with the distance of merging that makes a crease pattern of the lines, if it names a gap.
-fn cured(mut problem: Box<Problem>, distance: Option<f64>) -> Box<Problem> {
-    if let Problem::Pattern(PatternFault::Apart { cure, .. } | PatternFault::Tangled { cure, .. }) = &mut *problem {
+fn cured(mut problem: Box<MeshProblem>, distance: Option<f64>) -> Box<MeshProblem> {
+    if let MeshProblem::Pattern(PatternFault::Apart { cure, .. } | PatternFault::Tangled { cure, .. }) = &mut *problem {
         *cure = distance;
     }
     problem
 }
 
 /// Returns the larger one of width and height of a drawing.
-fn extent(lines: &[Line]) -> Result<f64, Misdrawn> {
-    let wild = |line: &Line| line.ends.iter().flat_map(|end| end.iter()).any(|c| !(0.0..=1e50).contains(&c.abs()));
+fn extent(lines: &[PatternLine]) -> Result<f64, Misdrawn> {
+    let wild =
+        |line: &PatternLine| line.ends.iter().flat_map(|end| end.iter()).any(|c| !(0.0..=1e50).contains(&c.abs()));
     if let Some(k) = lines.iter().position(wild) {
         return Err((Some(k), PatternFault::Coordinate { line: lines[k].name() }.into()));
     }

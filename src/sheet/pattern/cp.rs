@@ -1,6 +1,6 @@
 //! `.cp` files of ORIPA and Oriedita: a line of text for each line of the pattern, `type x1 y1 x2 y2`.
 
-use super::line::{DrawnLines, Line, Lines, flip, offset};
+use super::line::{DrawnLines, Lines, PatternLine, flip, offset};
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -28,7 +28,7 @@ pub(super) fn typed(
     (types, right): (&[LineType], &'static str),
     numbers: [f64; 4],
     at: usize,
-) -> Result<Line, PatternFault> {
+) -> Result<PatternLine, PatternFault> {
     let number: Option<i64> = found.parse().ok();
     let known = types.iter().find(|(type_, ..)| Some(*type_) == number);
     let Some(&(_, letter, angle, auxiliary)) = known else {
@@ -36,7 +36,7 @@ pub(super) fn typed(
     };
     let [x1, y1, x2, y2] = numbers;
     let ends = [Vec2::new(x1, flip(y1)), Vec2::new(x2, flip(y2))];
-    Ok(Line { ends, letter, angle, auxiliary, contour: letter == Assignment::Boundary, at, flipped: true })
+    Ok(PatternLine { ends, letter, angle, auxiliary, contour: letter == Assignment::Boundary, at, flipped: true })
 }
 
 /// Returns the number that a word says, NaN and infinities included.

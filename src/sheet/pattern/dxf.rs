@@ -15,7 +15,7 @@ use super::bspline::BSpline;
 use super::colour;
 use super::cp::number;
 use super::dxf_entity::{Entity, FLAT, LAYER, LEVEL, entities};
-use super::line::{DrawnLines, Line, Lines};
+use super::line::{DrawnLines, Lines, PatternLine};
 use super::outline::{self, Outline};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -119,7 +119,7 @@ struct Polyline {
     corners: Vec<Corner>,
     closed: bool,
     placed: Affine,
-    line: Line,
+    line: PatternLine,
     named: bool,
 }
 
@@ -215,7 +215,7 @@ impl Entity<'_> {
     }
 
     /// Returns the line that this entity draws, without its ends, and whether the name of its layer says its letter.
-    fn meaning(&self, layers: &HashMap<String, &Entity>) -> Result<(Line, bool), PatternFault> {
+    fn meaning(&self, layers: &HashMap<String, &Entity>) -> Result<(PatternLine, bool), PatternFault> {
         let layer = self.first(LAYER).unwrap_or_default().to_lowercase();
         let known = LAYERS.iter().find(|(part, _)| layer.contains(part)).map(|(_, letter)| *letter);
         let letter = match known {
@@ -237,7 +237,7 @@ impl Entity<'_> {
         let letter = letter.unwrap_or(Assignment::Flat);
         let angle = letter.flat_folded_angle().map(f64::to_degrees).or((letter == Assignment::Flat).then_some(0.0));
         let (contour, ends) = (letter == Assignment::Boundary, Default::default());
-        Ok((Line { ends, letter, angle, auxiliary, contour, at: self.at, flipped: false }, known.is_some()))
+        Ok((PatternLine { ends, letter, angle, auxiliary, contour, at: self.at, flipped: false }, known.is_some()))
     }
 
     /// Returns the colour that this entity, or layer, says.

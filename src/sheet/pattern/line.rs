@@ -2,7 +2,7 @@
 
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::error::Problem;
+use crate::sheet::error::MeshProblem;
 use crate::sheet::pattern_fault::{LineName, PatternFault};
 use crate::sheet::record::Redrawing;
 
@@ -12,7 +12,7 @@ pub(super) type Lines = Result<DrawnLines, Misread>;
 /// The lines of a file.
 #[derive(Default)]
 pub(super) struct DrawnLines {
-    pub lines: Vec<Line>,
+    pub lines: Vec<PatternLine>,
     /// Title of the file; empty if it has none.
     pub title: String,
     /// Changes that were made to read the lines.
@@ -20,11 +20,11 @@ pub(super) struct DrawnLines {
 }
 
 /// A problem together with the line and column of the file that have it.
-pub(super) type Misread = ([usize; 2], Box<Problem>);
+pub(super) type Misread = ([usize; 2], Box<MeshProblem>);
 
 impl DrawnLines {
     /// Adds a line; one without a finite length draws nothing, and is counted.
-    pub fn push(&mut self, line: Line) {
+    pub fn push(&mut self, line: PatternLine) {
         if line.ends.iter().flat_map(|end| end.iter()).all(|c| c.is_finite()) {
             self.lines.push(line);
         } else {
@@ -33,7 +33,7 @@ impl DrawnLines {
     }
 }
 
-impl From<PatternFault> for Box<Problem> {
+impl From<PatternFault> for Box<MeshProblem> {
     fn from(fault: PatternFault) -> Self {
         Self::new(fault.into())
     }
@@ -41,7 +41,7 @@ impl From<PatternFault> for Box<Problem> {
 
 /// A line of a crease pattern and what is to become of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Line {
+pub(crate) struct PatternLine {
     /// The two ends, y upwards.
     pub ends: [Vec2; 2],
     /// The letter of its edges.
@@ -59,7 +59,7 @@ pub(crate) struct Line {
     pub flipped: bool,
 }
 
-impl Line {
+impl PatternLine {
     /// Whether it is drawn without a letter: the rim, or a crease, as the faces beside it say.
     pub(super) fn is_plain(&self) -> bool {
         self.contour && self.letter == Assignment::Unassigned

@@ -6,14 +6,14 @@ use std::ops::ControlFlow;
 
 use super::arrangement::{Arrangement, Disorder, arrange};
 use super::auxiliary::without_loose;
-use super::line::Line;
-use super::piece::Piece;
+use super::line::PatternLine;
+use super::piece::SegmentPiece;
 use crate::math::{Vec2, Vec3};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
 use crate::sheet::build::{Drawing, build_identified, listed_order, rebuild_faces};
 use crate::sheet::cell::Sheet;
-use crate::sheet::error::{Defect, MeshPart, Problem};
+use crate::sheet::error::{Defect, MeshPart, MeshProblem};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::record::{Gap, Redrawing};
 use crate::sheet::sides::{sorted, uses_of_sides};
@@ -26,7 +26,7 @@ const CLOSE: f64 = 3.0;
 const SAME_ANGLE_DEG: f64 = 1e-3;
 
 /// A problem together with the number of the line that has it; `None` for the pattern as a whole.
-pub(crate) type Misdrawn = (Option<usize>, Box<Problem>);
+pub(crate) type Misdrawn = (Option<usize>, Box<MeshProblem>);
 
 /// The sheet that lines draw.
 pub(super) struct Meshed {
@@ -42,7 +42,7 @@ pub(super) struct Meshed {
 /// Returns the sheet whose creases and rim are `lines`, split where they meet if `split` says so, with points merged
 /// within `tolerance`; adds the number of pairs of lines that were compared to `compared`.
 pub(super) fn mesh(
-    lines: &[Line],
+    lines: &[PatternLine],
     tolerance: f64,
     split: bool,
     head: &Drawing,
@@ -52,7 +52,7 @@ pub(super) fn mesh(
     let arranged = arrange(&ends, tolerance, split, compared).map_err(|disorder| untidy(lines, disorder, tolerance))?;
     let Arrangement { mut points, mut straight, pieces } = arranged;
     let (vanished, doubled) = (vanished(lines, &pieces), doubled(lines, &points, &pieces));
-    let conflicting = |(piece, fault): (Piece, Box<PatternFault>)| {
+    let conflicting = |(piece, fault): (SegmentPiece, Box<PatternFault>)| {
         let fault = gap(&points, &pieces, Some(piece), tolerance).map_or(*fault, |ends| apart(lines, ends, tolerance));
         (Some(piece.segment), fault.into())
     };
@@ -81,7 +81,7 @@ pub(super) fn mesh(
     Ok(Meshed { sheet, vanished, doubled, shortest })
 }
 
-fn untidy(lines: &[Line], disorder: Disorder, tolerance: f64) -> Misdrawn {
+fn untidy(lines: &[PatternLine], disorder: Disorder, tolerance: f64) -> Misdrawn {
     match disorder {
         Disorder::Tangled(k) => {
             (Some(k), PatternFault::Tangled { line: lines[k].name(), tolerance, cure: None }.into())
@@ -91,14 +91,14 @@ fn untidy(lines: &[Line], disorder: Disorder, tolerance: f64) -> Misdrawn {
 }
 
 /// Builds the sheet of pieces between these points.
-fn built(lines: &[Line], coords: Vec<Vec3>, pieces: &[Piece], head: &Drawing) -> Result<Sheet, Defect> {
+fn built(lines: &[PatternLine], coords: Vec<Vec3>, pieces: &[SegmentPiece], head: &Drawing) -> Result<Sheet, Defect> {
     // whether edges cross is checked where the faces are made
     let mut drawn = Drawing { coords, planar: false, ..head.clone() };
-    let of = |piece: &Piece| &lines[piece.segment];
+    let of = |piece: &SegmentPiece| &lines[piece.segment];
     let edges: Vec<[usize; 2]> = pieces.iter().map(|piece| piece.ends).collect();
     drawn.assignments = pieces.iter().map(|piece| (piece.ends, of(piece).letter)).collect();
     if pieces.iter().any(|piece| of(piece).angle.is_some()) {
-        let angle = |piece: &Piece| (piece.ends, of(piece).angle.map(f64::to_radians));
+        let angle = |piece: &SegmentPiece| (piece.ends, of(piece).angle.map(f64::to_radians));
         drawn.fold_angles = pieces.iter().map(angle).collect();
     }
     let holes = rebuild_faces(&mut drawn, &edges)?;
@@ -112,7 +112,7 @@ fn built(lines: &[Line], coords: Vec<Vec3>, pieces: &[Piece], head: &Drawing) ->
 
 /// Gives contours that a face is beside the letter of the rim, and those between two faces that of a cut, unless they
 /// are plain: the number of these is returned.
-fn letter_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) -> usize {
+fn letter_contours(lines: &[PatternLine], pieces: &[SegmentPiece], drawn: &mut Drawing) -> usize {
     let mut plain = 0;
     let faces = uses_of_sides(&drawn.faces);
     for (piece, (ends, letter)) in pieces.iter().zip(&mut drawn.assignments) {
@@ -128,7 +128,7 @@ fn letter_contours(lines: &[Line], pieces: &[Piece], drawn: &mut Drawing) -> usi
 }
 
 /// Returns the length of the longest line that has no piece and is not auxiliary.
-fn vanished(lines: &[Line], pieces: &[Piece]) -> f64 {
+fn vanished(lines: &[PatternLine], pieces: &[SegmentPiece]) -> f64 {
     let mut is_drawn = vec![false; lines.len()];
     pieces.iter().for_each(|piece| is_drawn[piece.segment] = true);
     let lost = lines.iter().zip(is_drawn).filter(|(line, is_drawn)| !is_drawn && !line.auxiliary);
@@ -137,9 +137,9 @@ fn vanished(lines: &[Line], pieces: &[Piece]) -> f64 {
 
 /// Returns the largest distance between lines, as they are drawn, of which pieces lie on each other; auxiliary ones are
 /// left out.
-fn doubled(lines: &[Line], points: &[Vec2], pieces: &[Piece]) -> f64 {
+fn doubled(lines: &[PatternLine], points: &[Vec2], pieces: &[SegmentPiece]) -> f64 {
     let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    let apart = |piece: &Piece| {
+    let apart = |piece: &SegmentPiece| {
         let first = *known.entry(sorted(piece.ends)).or_insert(piece.segment);
         let [a, b] = piece.ends.map(|v| points[v]);
         let beside = [first, piece.segment].map(|k| foot(lines[k].ends, (a + b) / 2.0));
@@ -156,7 +156,7 @@ fn foot([a, b]: [Vec2; 2], x: Vec2) -> Vec2 {
 
 /// Returns the nearest two of the points of `pieces`, one of them an end of the piece `at` if one is given, if they are
 /// so close that they may be meant as one.
-fn gap(points: &[Vec2], pieces: &[Piece], at: Option<Piece>, tolerance: f64) -> Option<[Vec2; 2]> {
+fn gap(points: &[Vec2], pieces: &[SegmentPiece], at: Option<SegmentPiece>, tolerance: f64) -> Option<[Vec2; 2]> {
     let used: BTreeSet<usize> = pieces.iter().flat_map(|piece| piece.ends).collect();
     let used: Vec<usize> = used.into_iter().collect();
     let (close, mut nearest) = (CLOSE * tolerance, None);
@@ -174,20 +174,23 @@ fn gap(points: &[Vec2], pieces: &[Piece], at: Option<Piece>, tolerance: f64) -> 
 }
 
 /// Returns a line between two points, with the directions of the file.
-fn named(lines: &[Line], ends: [Vec2; 2]) -> Line {
-    Line { ends, ..lines[0] }
+fn named(lines: &[PatternLine], ends: [Vec2; 2]) -> PatternLine {
+    PatternLine { ends, ..lines[0] }
 }
 
 /// Returns the fault of two ends that are a little too far apart to be one point.
-fn apart(lines: &[Line], ends: [Vec2; 2], tolerance: f64) -> PatternFault {
+fn apart(lines: &[PatternLine], ends: [Vec2; 2], tolerance: f64) -> PatternFault {
     let distance = (ends[1] - ends[0]).norm();
     PatternFault::Apart { gap: named(lines, ends).name(), distance, tolerance, cure: None }
 }
 
 /// Returns the pieces without those that lie on earlier ones, which have to mean the same.
-fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piece, Box<PatternFault>)> {
+fn without_doubles(
+    lines: &[PatternLine],
+    pieces: &[SegmentPiece],
+) -> Result<Vec<SegmentPiece>, (SegmentPiece, Box<PatternFault>)> {
     let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    let mut kept: Vec<Piece> = Vec::new();
+    let mut kept: Vec<SegmentPiece> = Vec::new();
     for piece in pieces {
         match known.entry(sorted(piece.ends)) {
             Entry::Vacant(free) => {
@@ -211,7 +214,7 @@ fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piec
 }
 
 /// Returns how much a line says: of lines on each other the one that says most counts.
-fn says(line: &Line) -> u8 {
+fn says(line: &PatternLine) -> u8 {
     match line {
         line if line.auxiliary => 0,
         line if line.is_plain() => 1,
@@ -219,7 +222,7 @@ fn says(line: &Line) -> u8 {
     }
 }
 
-fn agree(a: &Line, b: &Line) -> bool {
+fn agree(a: &PatternLine, b: &PatternLine) -> bool {
     let same_angle = match (a.angle, b.angle) {
         (Some(a), Some(b)) => (a - b).abs() <= SAME_ANGLE_DEG,
         (a, b) => a == b,
@@ -229,8 +232,12 @@ fn agree(a: &Line, b: &Line) -> bool {
 
 /// Returns the pieces with cuts of one edge, whose ends no other cut and no rim reaches, split in their middle: there
 /// they can open. Also returns their number.
-fn with_open_slits(lines: &[Line], mut places: [&mut Vec<Vec2>; 2], pieces: Vec<Piece>) -> (Vec<Piece>, usize) {
-    let opens = |piece: &Piece| matches!(lines[piece.segment].letter, Assignment::Cut | Assignment::Boundary);
+fn with_open_slits(
+    lines: &[PatternLine],
+    mut places: [&mut Vec<Vec2>; 2],
+    pieces: Vec<SegmentPiece>,
+) -> (Vec<SegmentPiece>, usize) {
+    let opens = |piece: &SegmentPiece| matches!(lines[piece.segment].letter, Assignment::Cut | Assignment::Boundary);
     let mut degree = vec![0; places[0].len()];
     pieces.iter().filter(|piece| opens(piece)).flat_map(|piece| piece.ends).for_each(|v| degree[v] += 1);
     let (mut split, mut slits) = (Vec::with_capacity(pieces.len()), 0);
@@ -241,7 +248,7 @@ fn with_open_slits(lines: &[Line], mut places: [&mut Vec<Vec2>; 2], pieces: Vec<
             let [a, b] = piece.ends;
             let middle = places[0].len();
             places.iter_mut().for_each(|points| points.push((points[a] + points[b]) / 2.0));
-            split.extend([[a, middle], [middle, b]].map(|ends| Piece { ends, ..piece }));
+            split.extend([[a, middle], [middle, b]].map(|ends| SegmentPiece { ends, ..piece }));
             slits += 1;
         } else {
             split.push(piece);
@@ -251,7 +258,7 @@ fn with_open_slits(lines: &[Line], mut places: [&mut Vec<Vec2>; 2], pieces: Vec<
 }
 
 /// Returns the points that pieces have, in the order of the pieces, and the pieces with their numbers.
-fn renumbered(points: &[Vec2], pieces: &[Piece]) -> (Vec<Vec3>, Vec<Piece>) {
+fn renumbered(points: &[Vec2], pieces: &[SegmentPiece]) -> (Vec<Vec3>, Vec<SegmentPiece>) {
     let mut numbers: Vec<Option<usize>> = vec![None; points.len()];
     let mut coords = Vec::new();
     let mut number = |v: usize| {
@@ -260,12 +267,12 @@ fn renumbered(points: &[Vec2], pieces: &[Piece]) -> (Vec<Vec3>, Vec<Piece>) {
             coords.len() - 1
         })
     };
-    let pieces = pieces.iter().map(|piece| Piece { ends: piece.ends.map(&mut number), ..*piece }).collect();
+    let pieces = pieces.iter().map(|piece| SegmentPiece { ends: piece.ends.map(&mut number), ..*piece }).collect();
     (coords, pieces)
 }
 
 /// Returns the number of a piece at a defect of the mesh.
-fn piece_of(pieces: &[Piece], defect: &Defect) -> Option<usize> {
+fn piece_of(pieces: &[SegmentPiece], defect: &Defect) -> Option<usize> {
     match defect.place {
         MeshPart::Edge(e) | MeshPart::FoldAngle(e) => Some(e).filter(|&e| e < pieces.len()),
         MeshPart::Vertex(v) => pieces.iter().position(|piece| piece.ends.contains(&v)),
@@ -274,12 +281,12 @@ fn piece_of(pieces: &[Piece], defect: &Defect) -> Option<usize> {
 }
 
 /// Says a defect of the mesh in terms of the lines, of which one has it.
-fn located(lines: &[Line], number: Option<usize>, defect: Defect) -> Misdrawn {
-    let is_rim = |line: &Line| matches!(line.letter, Assignment::Boundary | Assignment::Cut) || line.contour;
+fn located(lines: &[PatternLine], number: Option<usize>, defect: Defect) -> Misdrawn {
+    let is_rim = |line: &PatternLine| matches!(line.letter, Assignment::Boundary | Assignment::Cut) || line.contour;
     let problem = match (*defect.problem, number.map(|k| lines[k].name())) {
-        (Problem::LooseEdge { .. }, Some(line)) if !lines.iter().any(is_rim) => PatternFault::NoRim { line }.into(),
-        (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
-        (Problem::Nested { .. }, Some(line)) => PatternFault::Nested { line }.into(),
+        (MeshProblem::LooseEdge { .. }, Some(line)) if !lines.iter().any(is_rim) => PatternFault::NoRim { line }.into(),
+        (MeshProblem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
+        (MeshProblem::Nested { .. }, Some(line)) => PatternFault::Nested { line }.into(),
         (problem, Some(line)) => PatternFault::Line { line, problem: problem.to_string() }.into(),
         (problem, None) => Box::new(problem),
     };

@@ -63,14 +63,14 @@ use std::path::Path;
 pub use cleanup::Cleanup;
 pub(crate) use cleanup::sheet as sheet_of_lines;
 pub use flat::NotFlat;
-pub(crate) use line::Line;
+pub(crate) use line::PatternLine;
 pub use write::{write_cp, write_dxf, write_svg};
 
 use line::DrawnLines;
 
 use super::build::Drawing;
 use super::cell::Sheet;
-use super::error::{Problem, SheetError};
+use super::error::{MeshProblem, SheetError};
 use super::text;
 
 /// The formats of crease patterns that are read here.
@@ -135,7 +135,7 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         Format::Ori => ori::lines(text),
         Format::Dxf => dxf::lines(text),
     };
-    let bad = |place: [usize; 2], problem: Box<Problem>| SheetError::bad(name, place, problem);
+    let bad = |place: [usize; 2], problem: Box<MeshProblem>| SheetError::bad(name, place, problem);
     let DrawnLines { lines, mut title, redrawing } = read.map_err(|(place, problem)| bad(place, problem))?;
     if title.is_empty() {
         title = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();

@@ -10,7 +10,7 @@
 use roxmltree::Node;
 
 use super::cp::{self, LineType, typed};
-use super::line::{DrawnLines, Line, Lines};
+use super::line::{DrawnLines, Lines, PatternLine};
 use super::xml;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
@@ -39,7 +39,7 @@ pub(super) fn lines(text: &str) -> Lines {
     Ok(drawn)
 }
 
-fn line(object: Node) -> Result<Line, PatternFault> {
+fn line(object: Node) -> Result<PatternLine, PatternFault> {
     let given = |name: &str| {
         let property = object.children().find(|node| node.attribute("property") == Some(name))?;
         Some(property.first_element_child().and_then(|node| node.text()).unwrap_or_default().trim())

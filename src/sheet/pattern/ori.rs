@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::cp::{self, LineType, typed};
-use super::line::{DrawnLines, Line, Lines, offset};
+use super::line::{DrawnLines, Lines, PatternLine, offset};
 use crate::sheet::pattern_fault::PatternFault;
 use crate::sheet::serde_message::without_place;
 use crate::sheet::text::line_and_column;
@@ -59,7 +59,7 @@ pub(super) fn lines(text: &str) -> Lines {
     Ok(drawn)
 }
 
-fn line(segment: &Segment, at: usize) -> Result<Line, PatternFault> {
+fn line(segment: &Segment, at: usize) -> Result<PatternLine, PatternFault> {
     let right = "two numbers, `-200.0,200.0`";
     let [a, b] = [&segment.a, &segment.b]
         .map(|point| point.split_once(',').ok_or_else(|| PatternFault::value(point, "point", right)));

@@ -2,7 +2,7 @@
 
 use kurbo::{BezPath, PathEl, Point, Rect};
 
-use super::line::{DrawnLines, Line};
+use super::line::{DrawnLines, PatternLine};
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 
@@ -15,7 +15,7 @@ pub(super) struct Outline {
     /// Its outline in coordinates of the sheet.
     pub path: BezPath,
     /// The line of which each of its sides is a copy.
-    pub line: Line,
+    pub line: PatternLine,
     /// Whether a name says the letter of the line, and not its colour alone.
     pub named: bool,
 }
@@ -23,9 +23,9 @@ pub(super) struct Outline {
 impl Outline {
     /// Returns the line of the sides. In a drawing whose lines are all `boundaries` colours say nothing: a line without
     /// a name is plain.
-    fn meant(&self, boundaries: bool) -> Line {
+    fn meant(&self, boundaries: bool) -> PatternLine {
         if boundaries && !self.named && !self.line.auxiliary {
-            Line { letter: Assignment::Unassigned, contour: true, ..self.line }
+            PatternLine { letter: Assignment::Unassigned, contour: true, ..self.line }
         } else {
             self.line
         }
@@ -48,7 +48,7 @@ pub(super) fn draw(outlines: &[Outline], drawn: &mut DrawnLines) {
         let [mut first, mut at] = [Point::ZERO; 2];
         let mut side = |from: Point, to: Point| {
             let ends = [from, to].map(|end| Vec2::new(end.x, end.y));
-            drawn.push(Line { ends, ..line });
+            drawn.push(PatternLine { ends, ..line });
         };
         kurbo::flatten(&outline.path, tolerance.max(f64::MIN_POSITIVE), |part| match part {
             PathEl::MoveTo(to) => [first, at] = [to; 2],

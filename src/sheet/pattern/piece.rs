@@ -2,7 +2,7 @@
 
 /// A piece of a segment between two points of an arrangement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Piece {
+pub(crate) struct SegmentPiece {
     /// Numbers of the two points, in the direction of the segment.
     pub ends: [usize; 2],
     /// Number of the segment.

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::piece::Piece;
+use super::piece::SegmentPiece;
 use crate::math::Vec2;
 
 /// Passes in which points go back onto segments, whose ends go onto others.
@@ -23,8 +23,8 @@ const LEAST_SINE: f64 = 0.25;
 /// the segments and the points at their ends, `pieces` what they are split into.
 pub(super) fn straighten(
     points: &mut [Vec2],
-    (segments, drawn): (&[[Vec2; 2]], &[Piece]),
-    pieces: &[Piece],
+    (segments, drawn): (&[[Vec2; 2]], &[SegmentPiece]),
+    pieces: &[SegmentPiece],
     tolerance: f64,
 ) {
     let mut through: BTreeMap<usize, Through> = BTreeMap::new();

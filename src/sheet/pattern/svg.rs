@@ -10,10 +10,10 @@ use roxmltree::{Document, Node};
 use svgtypes::{Paint, Transform, ViewBox};
 
 use super::colour;
-use super::line::{DrawnLines, Line, Lines, Misread, flip};
+use super::line::{DrawnLines, Lines, Misread, PatternLine, flip};
 use super::outline::{self, Outline};
 use super::svg_shape::{Units, outline};
-use super::svg_style::{Properties, Rules, Style};
+use super::svg_style::{Properties, Rules, SvgStyle};
 use super::xml;
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
@@ -35,7 +35,7 @@ pub(super) fn lines(text: &str) -> Lines {
     }
     let title = root.children().find(|node| node.tag_name().name() == "title").and_then(|node| node.text());
     let mut drawing =
-        Drawing { document: &document, rules: Rules::new(&document)?, elements: 0, grey: 0, outlines: vec![] };
+        SvgDrawing { document: &document, rules: Rules::new(&document)?, elements: 0, grey: 0, outlines: vec![] };
     drawing.read(root, &Around::root(root), 0)?;
     let mut drawn = DrawnLines { title: title.unwrap_or_default().trim().to_owned(), ..DrawnLines::default() };
     drawn.redrawing.grey = drawing.grey;
@@ -49,14 +49,14 @@ pub(super) fn lines(text: &str) -> Lines {
 /// Properties that an element inherits from the elements around it.
 #[derive(Clone, Copy)]
 struct Around {
-    style: Style,
+    style: SvgStyle,
     transform: Affine,
     units: Units,
     /// Width and height that a clone gives to its original; no numbers where it gives none.
     room: [f64; 2],
 }
 
-struct Drawing<'d, 'input> {
+struct SvgDrawing<'d, 'input> {
     document: &'d Document<'input>,
     rules: Rules<'d>,
     elements: usize,
@@ -65,7 +65,7 @@ struct Drawing<'d, 'input> {
     outlines: Vec<Outline>,
 }
 
-impl<'d, 'input> Drawing<'d, 'input> {
+impl<'d, 'input> SvgDrawing<'d, 'input> {
     /// Reads an element and those in it.
     fn read(&mut self, node: Node<'d, 'input>, around: &Around, depth: usize) -> Result<(), Misread> {
         let document = self.document;
@@ -149,7 +149,8 @@ impl<'d, 'input> Drawing<'d, 'input> {
         let letter = colour::letter(rgb).or(auxiliary.then_some(Assignment::Flat)).ok_or_else(wrong)?;
         let angle = angle(letter, here.style.opacity * here.style.stroke_opacity * alpha);
         let ends = [Vec2::zeros(); 2];
-        let line = Line { ends, letter, angle, auxiliary, contour: false, at: node.range().start, flipped: true };
+        let line =
+            PatternLine { ends, letter, angle, auxiliary, contour: false, at: node.range().start, flipped: true };
         self.outlines.push(Outline { path: here.placed() * outline, line, named: false });
         Ok(())
     }
@@ -178,7 +179,7 @@ impl Around {
     /// Returns what is around the outermost element; letters are as large as browsers draw them.
     fn root(node: Node) -> Self {
         let units = Units { viewport: UNKNOWN, em: 16.0 };
-        let mut root = Self { style: Style::default(), transform: Affine::IDENTITY, units, room: UNKNOWN };
+        let mut root = Self { style: SvgStyle::default(), transform: Affine::IDENTITY, units, room: UNKNOWN };
         let view: Option<ViewBox> = node.attribute("viewBox").and_then(|text| text.parse().ok());
         root.units.viewport = view.map_or_else(|| root.size(node, UNKNOWN).unwrap_or(UNKNOWN), |view| [view.w, view.h]);
         root

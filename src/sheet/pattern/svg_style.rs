@@ -32,7 +32,7 @@ type Ink = (Color, f64);
 
 /// How elements are drawn, as far as a crease pattern needs it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Style {
+pub(super) struct SvgStyle {
     /// Colour of the stroke and its opacity, from 0 to 1; `None` for shapes without one.
     pub stroke: Option<Ink>,
     /// Whether the stroke has a width.
@@ -49,7 +49,7 @@ pub(super) struct Style {
     color: Ink,
 }
 
-impl Default for Style {
+impl Default for SvgStyle {
     fn default() -> Self {
         let (opacity, color) = (1.0, (Color::black(), 1.0));
         Self { stroke: None, wide: true, stroke_opacity: opacity, opacity, visible: true, displayed: true, color }
@@ -98,7 +98,7 @@ impl<'a> Rules<'a> {
         let attributes = node.attributes().filter(|attribute| attribute.namespace().is_none());
         let attributes = attributes.map(|attribute| (attribute.name(), attribute.value()));
         let attributes: Vec<(String, &str)> = attributes.map(|(name, value)| (name.to_owned(), value)).collect();
-        let matching: Vec<_> = self.0.rules.iter().filter(|rule| rule.selector.matches(&Element(node))).collect();
+        let matching: Vec<_> = self.0.rules.iter().filter(|rule| rule.selector.matches(&SvgElement(node))).collect();
         let ruled = |important: bool| {
             let declared = matching.iter().flat_map(|rule| &rule.declarations);
             declared.filter(move |d| d.important == important).map(|d| (d.name, d.value)).collect::<Vec<_>>()
@@ -115,7 +115,7 @@ impl<'a> Rules<'a> {
     }
 }
 
-impl Style {
+impl SvgStyle {
     /// Returns the style of an element in one of this style.
     pub(super) fn of(&self, properties: &Properties) -> Result<Self, PatternFault> {
         let given = |name: &str| properties.get(name).copied().filter(|value| *value != "inherit");
@@ -173,15 +173,15 @@ fn opacity(text: &str) -> Result<f64, PatternFault> {
 }
 
 /// An element whose selectors are matched.
-struct Element<'a, 'input>(Node<'a, 'input>);
+struct SvgElement<'a, 'input>(Node<'a, 'input>);
 
-impl simplecss::Element for Element<'_, '_> {
+impl simplecss::Element for SvgElement<'_, '_> {
     fn parent_element(&self) -> Option<Self> {
-        self.0.parent_element().map(Element)
+        self.0.parent_element().map(SvgElement)
     }
 
     fn prev_sibling_element(&self) -> Option<Self> {
-        self.0.prev_sibling_element().map(Element)
+        self.0.prev_sibling_element().map(SvgElement)
     }
 
     fn has_local_name(&self, name: &str) -> bool {

@@ -3,7 +3,7 @@
 
 use super::summary::StripSummary;
 use crate::analysis::bloch::strip::{StripModes, fit};
-use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Root, Strip};
+use crate::analysis::bloch::{BlochError, Decay, Determinant, Rigidity, Root, Strip, ZeroModeCounts};
 use crate::numerics::worst;
 use crate::output::table::{Table, Value};
 use crate::scene::build;
@@ -238,7 +238,7 @@ pub(super) fn table(found: &FoundStrip) -> Table {
 }
 
 /// Returns a row for every wavenumber at which zero modes and self stresses were counted.
-pub(super) fn count_table(counts: &[Counts]) -> Table {
+pub(super) fn count_table(counts: &[ZeroModeCounts]) -> Table {
     Table::new("q1,q2,zero_modes,self_stresses,self_stresses_opposite,gap").with_rows(counts.iter().map(|found| {
         let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
         let q = found.q.into_iter().map(Value::from);

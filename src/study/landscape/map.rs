@@ -45,7 +45,7 @@ pub(crate) struct Map {
 /// Samples the map; adds its table and its pictures to `answer`.
 pub(crate) fn compute(context: &Context<'_>, spec: &MapSpec, answer: &mut Answer) -> Result<Map, StudyError> {
     let (amplitude, rings) = (spec.amplitude.0, spec.rings.as_ref().map_or(RINGS, |count| count.0) as usize);
-    let net = sphere::Net::new(rings);
+    let net = sphere::SphereNet::new(rings);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let (rows, mut reason) = sampled(context, answer, &points, amplitude)?;
     let (cone, cone_distance) = cone(context.assembly, amplitude).unwrap_or_else(|error| {

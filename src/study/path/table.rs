@@ -5,7 +5,7 @@ use super::plot::event_word;
 use crate::analysis::intersections::Marks;
 use crate::analysis::path::{PathBranch, PathPoint, Probe};
 use crate::analysis::state::{Cylinder, cylinder};
-use crate::output::table::{CYLINDER, RATIOS, Solution, Table, Value};
+use crate::output::table::{CYLINDER, EnergiesAndResiduals, RATIOS, Table, Value};
 use crate::scene::spec::PathSpec;
 use crate::study::{Context, energies, ratios, states};
 
@@ -20,7 +20,7 @@ pub(crate) fn table(
     let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
     let drawn = context.assembly.drawn().coordinates.clone();
     let mut table = Table::new("branch,step,arc_length,drive,reaction,work")
-        .with(Solution::columns(context.assembly.terms().own_names()))
+        .with(EnergiesAndResiduals::columns(context.assembly.terms().own_names()))
         .with(["negative_eigenvalues", "event"])
         .with(asked(marks.is_some(), &["self_intersecting"]))
         .with(asked(context.assembly.domain().is_periodic(), &CYLINDER))
@@ -52,7 +52,7 @@ fn row(
     let shape = cylinder(assembly.drawn(), coordinates);
     let shape = shape.map(|Cylinder { curvature, theta, strain }| [&[curvature][..], &theta, &strain].concat());
     let residuals = [point.residual_force, point.residual_length];
-    let solution = Solution::new(energies::columns(assembly.terms(), &point.state), Some(residuals));
+    let solution = EnergiesAndResiduals::new(energies::columns(assembly.terms(), &point.state), Some(residuals));
     // a column of words, also where no state is an event
     let event = Value::Word(point.event.map_or("", event_word));
     let ratios = ratios::of_state(assembly, spec.response.as_ref(), coordinates);

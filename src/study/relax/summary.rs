@@ -1,6 +1,6 @@
 //! The results of a study of kind `relax` in the summary.
 
-use crate::analysis::relax::BranchChoice;
+use crate::analysis::relax::FoldingBranch;
 use crate::output::counted;
 use crate::study::energies::EnergySummary;
 use crate::study::sides::RestSides;
@@ -47,7 +47,7 @@ pub struct RelaxSummary {
     pub directions_at_start: Option<String>,
     /// The branch on which a flat sheet, or another singular start of rigid bars, was left; null for other starts.
     #[serde(default)]
-    pub branch_choice: Option<BranchChoice>,
+    pub branch_choice: Option<FoldingBranch>,
     /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after
     /// it.
     #[serde(default)]
@@ -143,7 +143,7 @@ impl RelaxSummary {
             (None, Some("not-established")) => ", it is not known whether the start is a branch point".into(),
             (None, _) => String::new(),
         };
-        let left = self.branch_choice.map_or(String::new(), |BranchChoice { hinges, on_rest_side, soft_bars }| {
+        let left = self.branch_choice.map_or(String::new(), |FoldingBranch { hinges, on_rest_side, soft_bars }| {
             let by = if soft_bars { ", by bars that stretch at first" } else { "" };
             format!(", the start was left with {}{by}", RestSides::said([on_rest_side, hinges]))
         });

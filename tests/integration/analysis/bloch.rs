@@ -9,7 +9,7 @@ use foldwell::analysis::bloch::decay::WELL_CONDITIONED;
 use foldwell::analysis::bloch::strip::fit;
 use foldwell::analysis::bloch::zero_lines::ZeroLine;
 use foldwell::analysis::bloch::{
-    BlochError, Counts, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, Strip, ZeroLines, Zone,
+    BlochError, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, Strip, ZeroLines, ZeroModeCounts, Zone,
 };
 use foldwell::kinematics::{Embedding, Shape};
 use foldwell::math::Vec3;
@@ -819,7 +819,7 @@ fn counts_at_wavenumbers() {
     let lines = ZeroLines::new(&zone).unwrap().refined(&zone, &rigidity);
     let line = &lines.lines[0].points;
     for (q, expected) in [([0.0; 2], 3), ([0.9, 1.7], 0), (line[line.len() / 3], 1)] {
-        let found = Counts::at(&rigidity, q).unwrap();
+        let found = ZeroModeCounts::at(&rigidity, q).unwrap();
         assert_eq!([found.zero_modes, found.self_stresses_opposite], [expected; 2], "{found:?}");
     }
 }

@@ -3,7 +3,7 @@
 use crate::common::patch;
 use approx::assert_abs_diff_eq;
 use foldwell::analysis::landscape::cone::{Cone, distance};
-use foldwell::analysis::landscape::sphere::{Direction, Net, curvature, point, samples};
+use foldwell::analysis::landscape::sphere::{Direction, SphereNet, curvature, point, samples};
 use foldwell::analysis::landscape::{Expansion, HeldSheet, HeldState, Samples, TaylorPaths};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Terms};
@@ -23,7 +23,7 @@ fn held(case: &Assembly) -> HeldSheet {
 /// the area for 6 rings.
 #[test]
 fn the_net_is_a_sphere() {
-    let net = Net::new(6);
+    let net = SphereNet::new(6);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let volume = |t: &[usize; 3]| points[t[0]].dot(&points[t[1]].cross(&points[t[2]])) / 6.0;
     assert!(net.triangles.iter().all(|t| volume(t) > 0.0));
@@ -103,7 +103,7 @@ fn samples_do_not_know_each_other() {
     let case = patch("open-star", [6, 6]);
     let sheet = held(&case);
     let courses = TaylorPaths::new(&sheet).unwrap();
-    let net = Net::new(2);
+    let net = SphereNet::new(2);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let amplitude = 5e-4;
     let run = |threads: usize| -> Vec<(f64, usize)> {

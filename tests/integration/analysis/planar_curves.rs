@@ -3,7 +3,7 @@
 //! form of the generator.
 
 use crate::common::{on, turned};
-use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
+use foldwell::analysis::surface::{FoldedSurface, SurfaceOptions, surface};
 use foldwell::analysis::trace::{Folded, Stop, TraceOptions, Traced, trace};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
 use foldwell::kinematics::Closure;
@@ -38,7 +38,7 @@ fn rest(sheet: &Sheet, fold: f64) -> Vec<f64> {
     sheet.edges.iter().zip(angles).map(of).collect()
 }
 
-fn covered(assembly: &Assembly) -> Surface {
+fn covered(assembly: &Assembly) -> FoldedSurface {
     let options = SurfaceOptions { radius: 0.2, tolerance: 3e-14, max_curvature: 1.0, max_points: 10_000 };
     surface(assembly, &options, &mut |_| true).unwrap()
 }

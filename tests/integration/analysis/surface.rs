@@ -2,7 +2,7 @@
 //! themselves at another resolution; and the files of a run.
 
 use crate::common::{self, Scene, on};
-use foldwell::analysis::surface::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, surface};
+use foldwell::analysis::surface::{FoldedSurface, Negative, SurfaceError, SurfaceOptions, SurfacePoint, surface};
 use foldwell::analysis::trace::{Stop, TraceOptions, trace};
 use foldwell::kinematics::{Closure, drawn_fold_angles};
 use foldwell::math::Vec3;
@@ -25,14 +25,14 @@ struct Extent {
     max_curvature: f64,
 }
 
-fn cover(sheet: &Sheet, terms: &Terms, extent: Extent, most: usize) -> Result<Surface, SurfaceError> {
+fn cover(sheet: &Sheet, terms: &Terms, extent: Extent, most: usize) -> Result<FoldedSurface, SurfaceError> {
     let cell = on(sheet.clone(), [1, 1], Boundary::Screw).with_terms(terms.clone());
     let Extent { radius, max_curvature } = extent;
     let options = SurfaceOptions { radius, tolerance: 3e-14, max_curvature, max_points: 100_000 };
     surface(&cell, &options, &mut |n| n < most)
 }
 
-fn star(radius: f64, max_curvature: f64) -> (Sheet, Surface) {
+fn star(radius: f64, max_curvature: f64) -> (Sheet, FoldedSurface) {
     let sheet = common::mesh("open-star");
     let found = cover(&sheet, &Terms::default(), Extent { radius, max_curvature }, usize::MAX).unwrap();
     (sheet, found)
@@ -48,7 +48,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Returns the points on the border. Fails if the triangles are not an oriented manifold, or if a point has none.
-fn border(surface: &Surface) -> HashSet<usize> {
+fn border(surface: &FoldedSurface) -> HashSet<usize> {
     let mut edges = HashSet::new();
     let mut fans: HashMap<usize, HashMap<usize, usize>> = HashMap::new();
     for &[a, b, c] in &surface.triangles {
@@ -118,7 +118,7 @@ fn surface_of_open_star() {
 }
 
 /// Returns the numbers of nappes that end in each spatially periodic state, modulo whole turns.
-fn nappes_at_tips(surface: &Surface) -> Vec<usize> {
+fn nappes_at_tips(surface: &FoldedSurface) -> Vec<usize> {
     let mut tips: Vec<(&SurfacePoint, usize)> = Vec::new();
     for point in surface.points.iter().filter(|point| point.radius == 0.0) {
         let same = |known: &SurfacePoint| way(&known.angles, &point.angles).iter().all(|apart| apart.abs() < 1e-6);

@@ -12,7 +12,7 @@ use super::super::star::Star;
 use super::trial::distance;
 use foldwell::analysis::relax::relax_from;
 use foldwell::model::{Configuration, Model};
-use foldwell::output::figure::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{DataPoint, LineChart, Series};
 use foldwell::solver::{HessianKind, Options, Problem, Tangent};
 use serde_json::json;
 use std::ops::RangeInclusive;
@@ -164,20 +164,20 @@ fn distances(sizes: &[Size]) -> ReportTable {
     }
 }
 
-fn chart(sizes: &[Size]) -> Chart {
+fn chart(sizes: &[Size]) -> LineChart {
     let series = |size: &Size| {
-        let point = |r: &Reached| Point {
+        let point = |r: &Reached| DataPoint {
             x: r.stiffness,
             y: r.distance * size.law.distance / r.stiffness,
             label: String::new(),
         };
         Series { name: format!("{0} x {0} cells", size.cells), points: size.reached.iter().map(point).collect() }
     };
-    Chart {
+    LineChart {
         title: "Largest difference of a fold angle to the rigid sheet".into(),
         x: "stiffness of the bars".into(),
         y: "distance (rad)".into(),
         series: sizes.iter().map(series).collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }
 }

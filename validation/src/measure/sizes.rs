@@ -8,7 +8,7 @@ use super::super::star::{Star, size};
 use super::trial::distance;
 use foldwell::analysis::relax::{Method, RelaxError, RelaxOptions, Relaxed};
 use foldwell::analysis::state::State;
-use foldwell::output::figure::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{DataPoint, LineChart, Series};
 use foldwell::solver::Problem;
 use foldwell::solver::kkt::KktSystem;
 use serde_json::json;
@@ -93,12 +93,12 @@ fn relaxed(star: &Star, n: usize, seconds: [f64; 2]) -> Result<Size, ExperimentE
     })
 }
 
-fn chart(sizes: &[Size]) -> Chart {
+fn chart(sizes: &[Size]) -> LineChart {
     let label = |size: &Size| format!("{0} x {0}", size.cells);
-    let point = |s: &Size, y: f64| Point { x: s.unknowns as f64, y, label: label(s) };
+    let point = |s: &Size, y: f64| DataPoint { x: s.unknowns as f64, y, label: label(s) };
     let by = |method: usize| sizes.iter().map(|s| point(s, s.seconds[method])).collect();
     let penalty = |s: &Size| Some(point(s, s.penalty?[1]));
-    Chart {
+    LineChart {
         title: "Size of a patch that rolls up to an exact cylinder".into(),
         x: "unknowns".into(),
         y: "seconds".into(),
@@ -110,7 +110,7 @@ fn chart(sizes: &[Size]) -> Chart {
                 points: sizes.iter().filter_map(penalty).collect(),
             },
         ],
-        ..Chart::default()
+        ..LineChart::default()
     }
 }
 

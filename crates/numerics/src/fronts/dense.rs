@@ -25,7 +25,7 @@ pub(super) struct Kernels(MemBuffer);
 pub(super) struct ZeroPivot;
 
 /// An assembled front, as dense matrices.
-pub(super) struct Dense<'a> {
+pub(super) struct DenseFront<'a> {
     /// The columns of the pivots, with all rows.
     pub panel: MatMut<'a, f64>,
     /// Room for a copy of [`PIVOTS_AT_ONCE`] columns of the panel.
@@ -41,10 +41,10 @@ impl Kernels {
     }
 }
 
-impl Dense<'_> {
+impl DenseFront<'_> {
     /// Replaces the panel by `L` and `D`, and the update matrix by `-L D L^T` of the rows below, the lower triangle.
     pub fn eliminate(self, kernels: &mut Kernels, shared: bool) -> Result<(), ZeroPivot> {
-        let Dense { mut panel, room, mut update } = self;
+        let DenseFront { mut panel, room, mut update } = self;
         let (height, width) = (panel.nrows(), panel.ncols());
         for start in (0..width).step_by(PIVOTS_AT_ONCE) {
             let count = PIVOTS_AT_ONCE.min(width - start);

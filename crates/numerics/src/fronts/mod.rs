@@ -36,20 +36,20 @@ use super::sparse::SparsityPattern;
 use bytemuck::allocation::try_zeroed_vec;
 use faer::sparse::linalg::cholesky::SymbolicCholesky;
 use numeric::{Factorization, Space};
-use solve::{Part, Substitution};
+use solve::{FrontNumbers, Substitution};
 use std::sync::Arc;
-use symbolic::{Room, Tree};
+use symbolic::{AssemblyTree, Room};
 
 /// Count of numbers in a factor below which substitution stays on the calling thread.
 const FEWEST_SHARED_NUMBERS: usize = 500_000;
 
 /// The analysis of a pattern, shared by all its factorizations.
 #[derive(Debug, Clone)]
-pub(super) struct Analysis(Arc<Tree>);
+pub(super) struct Analysis(Arc<AssemblyTree>);
 
 /// A factorization, refilled with numbers as often as wanted.
 pub(super) struct Fronts {
-    tree: Arc<Tree>,
+    tree: Arc<AssemblyTree>,
     /// The factor.
     panels: Vec<f64>,
     /// Room for update matrices.
@@ -63,7 +63,7 @@ pub(super) struct Fronts {
 impl Analysis {
     /// The tree of a pattern that faer analysed into supernodes.
     pub fn new(pattern: &SparsityPattern, analysis: &SymbolicCholesky<u32>) -> Self {
-        Self(Arc::new(Tree::new(pattern, analysis)))
+        Self(Arc::new(AssemblyTree::new(pattern, analysis)))
     }
 }
 
@@ -110,8 +110,8 @@ impl Fronts {
         unknowns.iter_mut().zip(&tree.order).for_each(|(to, &from)| *to = x[from as usize]);
         parallel::in_pool(panels.len() >= FEWEST_SHARED_NUMBERS, |shared| {
             let substitution = Substitution { tree, panels, shared };
-            substitution.forward(&tree.branches, Part { unknowns: &mut *unknowns, rows: &mut *rows });
-            substitution.back(&tree.branches, Part { unknowns: &mut *unknowns, rows: &mut *rows });
+            substitution.forward(&tree.branches, FrontNumbers { unknowns: &mut *unknowns, rows: &mut *rows });
+            substitution.back(&tree.branches, FrontNumbers { unknowns: &mut *unknowns, rows: &mut *rows });
         });
         unknowns.iter().zip(&tree.order).for_each(|(from, &to)| x[to as usize] = *from);
     }

@@ -1,7 +1,7 @@
 //! The factorization: fronts are assembled and eliminated from the leaves to the roots.
 
-use super::dense::{self, Dense, Kernels, ZeroPivot};
-use super::symbolic::{Branch, Front, Room, Run, Tree};
+use super::dense::{self, DenseFront, Kernels, ZeroPivot};
+use super::symbolic::{AssemblyTree, Front, Room, RowRun, TreeBranch};
 use faer::MatMut;
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ const NUMBERS_AT_ONCE: usize = 1 << 15;
 /// The data of one factorization.
 pub(super) struct Factorization<'a> {
     /// The assembly tree.
-    pub tree: &'a Tree,
+    pub tree: &'a AssemblyTree,
     /// Entries of the lower triangle of the matrix, in the order of its pattern.
     pub input: &'a [f64],
     /// Whether there is more than one thread.
@@ -55,7 +55,7 @@ impl<'a> Space<'a> {
 
 impl Factorization<'_> {
     /// Eliminates all fronts of these branches.
-    pub fn branches(&self, branches: &[Branch], space: Space<'_>) -> Result<(), ZeroPivot> {
+    pub fn branches(&self, branches: &[TreeBranch], space: Space<'_>) -> Result<(), ZeroPivot> {
         match branches {
             [] => Ok(()),
             [branch] if branch.divided => self.divided(branch.fronts.end - 1, space),
@@ -79,7 +79,7 @@ impl Factorization<'_> {
     }
 
     /// Returns the place at which the panels of these branches start.
-    fn start(&self, branches: &[Branch]) -> usize {
+    fn start(&self, branches: &[TreeBranch]) -> usize {
         self.tree.fronts[branches[0].fronts.start].panel.start
     }
 
@@ -96,7 +96,7 @@ impl Factorization<'_> {
     }
 
     /// Eliminates consecutive subtrees, one front after the other.
-    fn task(&self, branch: &Branch, space: Space<'_>) -> Result<(), ZeroPivot> {
+    fn task(&self, branch: &TreeBranch, space: Space<'_>) -> Result<(), ZeroPivot> {
         let fronts = &self.tree.fronts;
         let level = fronts[branch.fronts.end - 1].depth;
         let (start, mut kernels, mut used) = (fronts[branch.fronts.start].panel.start, Kernels::new(), [0; 2]);
@@ -129,7 +129,7 @@ impl Factorization<'_> {
             panel[place as usize] += self.input[slot as usize];
         }
         let update = &mut own[..below * below];
-        let dense = Dense {
+        let dense = DenseFront {
             panel: MatMut::from_column_major_slice_mut(panel, height, width),
             room,
             update: MatMut::from_column_major_slice_mut(update, below, below),
@@ -179,7 +179,7 @@ impl Factorization<'_> {
 }
 
 /// Adds a column to another one, from the row `k` of the first run on; places in the target are `shift` less.
-fn add_column(runs: &[Run], k: u32, column: &[f64], shift: u32, target: &mut [f64]) {
+fn add_column(runs: &[RowRun], k: u32, column: &[f64], shift: u32, target: &mut [f64]) {
     let mut skipped = k;
     for run in runs {
         let (start, place) = ((run.start + skipped) as usize, (run.place + skipped - shift) as usize);

@@ -5,13 +5,13 @@
 //! that the parent knows.
 
 use super::dense::join;
-use super::symbolic::{Branch, Front, Tree};
+use super::symbolic::{AssemblyTree, Front, TreeBranch};
 use crate::vector::dot;
 
 /// The data of one substitution.
 pub(super) struct Substitution<'a> {
     /// The assembly tree.
-    pub tree: &'a Tree,
+    pub tree: &'a AssemblyTree,
     /// The factor.
     pub panels: &'a [f64],
     /// Whether there is more than one thread.
@@ -20,7 +20,7 @@ pub(super) struct Substitution<'a> {
 
 /// The numbers of consecutive fronts: of the unknowns that are their pivots, and of the rows below them, which are what
 /// the parent receives in forward substitution and the unknowns of those rows in back substitution.
-pub(super) struct Part<'a> {
+pub(super) struct FrontNumbers<'a> {
     /// Numbers of the pivots.
     pub unknowns: &'a mut [f64],
     /// Numbers of the rows below.
@@ -29,22 +29,22 @@ pub(super) struct Part<'a> {
 
 /// A part that is not written to.
 #[derive(Clone, Copy)]
-struct Known<'a> {
+struct KnownFrontNumbers<'a> {
     /// Numbers of the pivots.
     unknowns: &'a [f64],
     /// Numbers of the rows below.
     rows: &'a [f64],
 }
 
-impl<'a> Part<'a> {
+impl<'a> FrontNumbers<'a> {
     /// Splits it in two, of which the first has these counts of numbers.
-    fn split(self, unknowns: usize, rows: usize) -> (Part<'a>, Part<'a>) {
+    fn split(self, unknowns: usize, rows: usize) -> (FrontNumbers<'a>, FrontNumbers<'a>) {
         let (unknowns, rows) = (self.unknowns.split_at_mut(unknowns), self.rows.split_at_mut(rows));
-        (Part { unknowns: unknowns.0, rows: rows.0 }, Part { unknowns: unknowns.1, rows: rows.1 })
+        (FrontNumbers { unknowns: unknowns.0, rows: rows.0 }, FrontNumbers { unknowns: unknowns.1, rows: rows.1 })
     }
 
     /// Returns what is before the last front, and the part of that front.
-    fn split_last(self, front: &Front) -> (Part<'a>, Part<'a>) {
+    fn split_last(self, front: &Front) -> (FrontNumbers<'a>, FrontNumbers<'a>) {
         let (unknowns, rows) = (self.unknowns.len() - front.width(), self.rows.len() - front.below());
         self.split(unknowns, rows)
     }
@@ -57,20 +57,25 @@ impl Substitution<'_> {
     }
 
     /// Splits a part between these two groups of branches.
-    fn split<'p>(&self, part: Part<'p>, first: &[Branch], second: &[Branch]) -> (Part<'p>, Part<'p>) {
+    fn split<'p>(
+        &self,
+        part: FrontNumbers<'p>,
+        first: &[TreeBranch],
+        second: &[TreeBranch],
+    ) -> (FrontNumbers<'p>, FrontNumbers<'p>) {
         let [a, b] = [first, second].map(|branches| self.front(branches[0].fronts.start));
         part.split(b.pivots.start - a.pivots.start, b.rows.start - a.rows.start)
     }
 
     /// Substitutes forward in these branches.
-    pub fn forward(&self, branches: &[Branch], part: Part<'_>) {
+    pub fn forward(&self, branches: &[TreeBranch], part: FrontNumbers<'_>) {
         match branches {
             [] => {}
             [branch] if branch.divided => {
                 let k = branch.fronts.end - 1;
                 let (below, last) = part.split_last(self.front(k));
-                let Part { unknowns, rows } = below;
-                self.forward(&self.front(k).branches, Part { unknowns, rows: &mut *rows });
+                let FrontNumbers { unknowns, rows } = below;
+                self.forward(&self.front(k).branches, FrontNumbers { unknowns, rows: &mut *rows });
                 let start = self.front(self.front(k).first).rows.start;
                 self.forward_front(k, last, rows, start, &mut vec![]);
             }
@@ -79,10 +84,10 @@ impl Substitution<'_> {
                 let (mut work, mut part) = (vec![], part);
                 for k in branch.fronts.clone() {
                     let front = self.front(k);
-                    let Part { unknowns, rows } = &mut part;
+                    let FrontNumbers { unknowns, rows } = &mut part;
                     let (before, rest) = rows.split_at_mut(front.rows.start - first.rows.start);
                     let unknowns = &mut unknowns[front.pivots.start - first.pivots.start..][..front.width()];
-                    let own = Part { unknowns, rows: &mut rest[..front.below()] };
+                    let own = FrontNumbers { unknowns, rows: &mut rest[..front.below()] };
                     self.forward_front(k, own, before, first.rows.start, &mut work);
                 }
             }
@@ -96,7 +101,7 @@ impl Substitution<'_> {
 
     /// Substitutes forward in one front; `before` are the rows of the fronts before it, of which the first has this
     /// number.
-    fn forward_front(&self, k: usize, own: Part<'_>, before: &[f64], first: usize, work: &mut Vec<f64>) {
+    fn forward_front(&self, k: usize, own: FrontNumbers<'_>, before: &[f64], first: usize, work: &mut Vec<f64>) {
         let front = self.front(k);
         work.clear();
         work.extend_from_slice(own.unknowns);
@@ -115,20 +120,20 @@ impl Substitution<'_> {
     }
 
     /// Substitutes back in these branches of the whole forest.
-    pub fn back(&self, branches: &[Branch], part: Part<'_>) {
-        self.back_below(branches, part, Known { unknowns: &[], rows: &[] });
+    pub fn back(&self, branches: &[TreeBranch], part: FrontNumbers<'_>) {
+        self.back_below(branches, part, KnownFrontNumbers { unknowns: &[], rows: &[] });
     }
 
     /// Substitutes back in these branches below a front.
-    fn back_below(&self, branches: &[Branch], part: Part<'_>, parent: Known<'_>) {
+    fn back_below(&self, branches: &[TreeBranch], part: FrontNumbers<'_>, parent: KnownFrontNumbers<'_>) {
         match branches {
             [] => {}
             [branch] if branch.divided => {
                 let k = branch.fronts.end - 1;
                 let (below, last) = part.split_last(self.front(k));
-                let Part { unknowns, rows } = last;
-                self.back_front(k, Part { unknowns: &mut *unknowns, rows: &mut *rows }, parent, &mut vec![]);
-                self.back_below(&self.front(k).branches, below, Known { unknowns, rows });
+                let FrontNumbers { unknowns, rows } = last;
+                self.back_front(k, FrontNumbers { unknowns: &mut *unknowns, rows: &mut *rows }, parent, &mut vec![]);
+                self.back_below(&self.front(k).branches, below, KnownFrontNumbers { unknowns, rows });
             }
             [branch] => self.back_task(branch, part, parent),
             _ => {
@@ -140,9 +145,9 @@ impl Substitution<'_> {
     }
 
     /// Substitutes back in consecutive subtrees below one front.
-    fn back_task(&self, branch: &Branch, part: Part<'_>, parent: Known<'_>) {
+    fn back_task(&self, branch: &TreeBranch, part: FrontNumbers<'_>, parent: KnownFrontNumbers<'_>) {
         let (first, mut work) = (self.front(branch.fronts.start), vec![]);
-        let Part { unknowns, rows } = part;
+        let FrontNumbers { unknowns, rows } = part;
         for k in branch.fronts.clone().rev() {
             let front = self.front(k);
             let (pivot, row) = (front.pivots.start - first.pivots.start, front.rows.start - first.rows.start);
@@ -150,19 +155,19 @@ impl Substitution<'_> {
             let (own_rows, later_rows) = rows[row..].split_at_mut(front.below());
             let parent = if front.parent < branch.fronts.end {
                 let other = self.front(front.parent);
-                Known {
+                KnownFrontNumbers {
                     unknowns: &later[other.pivots.start - front.pivots.end..][..other.width()],
                     rows: &later_rows[other.rows.start - front.rows.end..][..other.below()],
                 }
             } else {
                 parent
             };
-            self.back_front(k, Part { unknowns: own, rows: own_rows }, parent, &mut work);
+            self.back_front(k, FrontNumbers { unknowns: own, rows: own_rows }, parent, &mut work);
         }
     }
 
     /// Substitutes back in one front, with what its parent knows.
-    fn back_front(&self, k: usize, own: Part<'_>, parent: Known<'_>, work: &mut Vec<f64>) {
+    fn back_front(&self, k: usize, own: FrontNumbers<'_>, parent: KnownFrontNumbers<'_>, work: &mut Vec<f64>) {
         let front = self.front(k);
         work.clear();
         work.resize(front.height(), 0.0);

@@ -11,15 +11,15 @@ use std::ops::Range;
 /// The assembly tree. Fronts are numbered in postorder, and unknowns so that those of a front are consecutive: all that
 /// belongs to a subtree is contiguous.
 #[derive(Debug)]
-pub(super) struct Tree {
+pub(super) struct AssemblyTree {
     /// The unknown of the matrix that is eliminated at each place.
     pub order: Vec<u32>,
     /// The fronts, children before their parent.
     pub fronts: Vec<Front>,
     /// The tasks of which the forest consists.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<TreeBranch>,
     /// The rows below the pivots of each front, front by front, in runs that are consecutive in the parent's front too.
-    pub runs: Vec<Run>,
+    pub runs: Vec<RowRun>,
     /// Entries of the matrix, front by front: the place in the input, and the place in the panel.
     pub entries: Vec<[u32; 2]>,
 }
@@ -44,7 +44,7 @@ pub(super) struct Front {
     /// Number of fronts above it.
     pub depth: usize,
     /// The tasks into which its subtree below it is divided.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<TreeBranch>,
     /// First place of its update matrix among those of the parent's children.
     pub update: usize,
 }
@@ -52,7 +52,7 @@ pub(super) struct Front {
 /// Rows that are consecutive in the update matrix of a front, and in the parent's front as well: either all among the
 /// parent's pivots or all below them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Run {
+pub(super) struct RowRun {
     /// The first of them in the update matrix.
     pub start: u32,
     /// Its place in the parent's front.
@@ -64,7 +64,7 @@ pub(super) struct Run {
 /// A part of the tree that is worked on as one: consecutive subtrees of one parent that are one task, or one subtree
 /// that is divided further.
 #[derive(Debug, Clone)]
-pub(super) struct Branch {
+pub(super) struct TreeBranch {
     /// Its fronts, the root or roots of it last.
     pub fronts: Range<usize>,
     /// Whether it is one subtree that is divided further.
@@ -115,13 +115,13 @@ impl Front {
 
 impl Room {
     /// Returns the room for all of these branches.
-    pub fn sum(branches: &[Branch]) -> Self {
+    pub fn sum(branches: &[TreeBranch]) -> Self {
         let rooms = branches.iter().map(|branch| branch.room);
         rooms.fold(Self::default(), |sum, room| Self { even: sum.even + room.even, odd: sum.odd + room.odd })
     }
 }
 
-impl Tree {
+impl AssemblyTree {
     /// Builds the tree of a pattern that faer analysed.
     pub fn new(pattern: &SparsityPattern, analysis: &SymbolicCholesky<u32>) -> Self {
         let nodes = Supernodes::new(analysis);
@@ -197,7 +197,7 @@ impl Tree {
                 };
                 match self.runs[first_run..].last_mut() {
                     Some(run) if run.place + run.count == place && place != width => run.count += 1,
-                    _ => self.runs.push(Run { start, place, count: 1 }),
+                    _ => self.runs.push(RowRun { start, place, count: 1 }),
                 }
             }
             self.fronts[k].runs = first_run..self.runs.len();
@@ -258,8 +258,8 @@ impl Tree {
 
     /// Returns the tasks for these consecutive fronts, all that is below one front or the whole forest; says where the
     /// update matrices of the roots of these subtrees will be.
-    fn divide(&mut self, fronts: Range<usize>, nodes: &Supernodes<'_>, order: &[usize]) -> Vec<Branch> {
-        let mut branches: Vec<Branch> = Vec::new();
+    fn divide(&mut self, fronts: Range<usize>, nodes: &Supernodes<'_>, order: &[usize]) -> Vec<TreeBranch> {
+        let mut branches: Vec<TreeBranch> = Vec::new();
         let (mut start, mut operations) = (fronts.start, 0.0);
         let roots = self.roots(fronts);
         for (n, &root) in roots.iter().enumerate() {
@@ -268,7 +268,7 @@ impl Tree {
             let full = operations > nodes.share;
             if divided(root) || full || roots.get(n + 1).is_none_or(|next| divided(*next)) {
                 let fronts = start..root + 1;
-                branches.push(Branch { fronts, divided: divided(root), room: Room::default(), copy: 0 });
+                branches.push(TreeBranch { fronts, divided: divided(root), room: Room::default(), copy: 0 });
                 (start, operations) = (root + 1, 0.0);
             }
         }
@@ -287,7 +287,7 @@ impl Tree {
     }
 
     /// Returns the room for a subtree whose branches work at the same time.
-    fn room_of_divided(&self, branch: &Branch) -> Room {
+    fn room_of_divided(&self, branch: &TreeBranch) -> Room {
         let front = &self.fronts[branch.fronts.end - 1];
         let below = Room::sum(&front.branches);
         Room { even: below.odd.max(front.below().pow(2) + front.copy()), odd: below.even }
@@ -295,7 +295,7 @@ impl Tree {
 
     /// Returns the room for subtrees that are worked on one front after the other, and the places of update matrices in
     /// it.
-    fn room_of_task(&mut self, branch: &Branch) -> Room {
+    fn room_of_task(&mut self, branch: &TreeBranch) -> Room {
         let level = self.fronts[branch.fronts.end - 1].depth;
         let (mut used, mut room) = ([0; 2], [0; 2]);
         for k in branch.fronts.clone() {

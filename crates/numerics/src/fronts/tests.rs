@@ -9,13 +9,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// A sum of weighted outer products of differences, less a multiple of the identity.
-struct Sample {
+struct OuterProductSum {
     pattern: SparsityPattern,
     cliques: Cliques,
     values: Vec<f64>,
 }
 
-impl Sample {
+impl OuterProductSum {
     fn new(size: usize, edges: &[[u32; 2]], weight: impl Fn(usize) -> f64, shift: f64) -> Self {
         let mut cliques = Cliques::new();
         edges.iter().for_each(|edge| cliques.push(*edge));
@@ -56,15 +56,15 @@ impl Sample {
 }
 
 /// Edges between random pairs of unknowns, with holes: some unknowns have no neighbour.
-fn random(size: usize, edges: usize, seed: u64, shift: f64) -> Sample {
+fn random(size: usize, edges: usize, seed: u64, shift: f64) -> OuterProductSum {
     let mut numbers = ChaCha8Rng::seed_from_u64(seed);
     let mut any = || numbers.random_range(0..size as u32);
     let edges: Vec<[u32; 2]> = (0..edges).map(|_| [any(), any()]).filter(|[a, b]| a != b).collect();
-    Sample::new(size, &edges, |k| if k % 3 == 0 { -1.0 } else { 1.5 }, shift)
+    OuterProductSum::new(size, &edges, |k| if k % 3 == 0 { -1.0 } else { 1.5 }, shift)
 }
 
 /// Minus the second differences on a grid of points between zeros.
-fn laplacian(counts: [usize; 3], shift: f64) -> Sample {
+fn laplacian(counts: [usize; 3], shift: f64) -> OuterProductSum {
     let at = |i: usize, j: usize, k: usize| ((i * counts[1] + j) * counts[2] + k) as u32;
     let mut edges = Vec::new();
     for i in 0..counts[0] {
@@ -76,7 +76,7 @@ fn laplacian(counts: [usize; 3], shift: f64) -> Sample {
             }
         }
     }
-    let mut sample = Sample::new(counts.iter().product(), &edges, |_| 1.0, 0.0);
+    let mut sample = OuterProductSum::new(counts.iter().product(), &edges, |_| 1.0, 0.0);
     // the neighbours at zero make the diagonal the same everywhere
     for k in 0..sample.pattern.size() {
         let diagonal = sample.pattern.first_slot(k) as usize;

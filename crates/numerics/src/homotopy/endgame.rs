@@ -38,7 +38,7 @@ const APPROXIMATE_ZERO: f64 = 0.1;
 
 /// The end of a path.
 #[derive(Clone, Debug)]
-pub(super) enum PathEnd {
+pub(super) enum HomotopyEnd {
     Simple(Simple),
     Singular { point: Vec<C>, error: f64 },
 }
@@ -84,26 +84,26 @@ pub(super) fn ends<H: Homotopy + Sync>(
     target: &(impl Target + Sync),
     starts: &[Vec<C>],
     repeated: u32,
-) -> Result<Vec<PathEnd>, HomotopyError> {
+) -> Result<Vec<HomotopyEnd>, HomotopyError> {
     let path = |start: &Vec<C>| {
         let mut tracker = Tracker::new(homotopy, Care::of_attempt(repeated));
         let x = tracker.track(start, C::new(1.0, 0.0), C::new(START, 0.0), FIRST_STEP)?;
         finish(&mut tracker, target, x)
     };
     let ends = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]));
-    let ends: Vec<PathEnd> = ends.into_iter().filter_map(Result::ok).collect();
+    let ends: Vec<HomotopyEnd> = ends.into_iter().filter_map(Result::ok).collect();
     let paths = starts.len() - ends.len();
     if paths == 0 { Ok(ends) } else { Err(HomotopyError::Lost { paths }) }
 }
 
 /// Follows a path from [`START`] to its end.
-fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<PathEnd, Lost> {
+fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<HomotopyEnd, Lost> {
     let (mut x, mut radius) = (x, START);
     for circle in 0..MOST_CIRCLES {
         let t = C::new(radius, 0.0);
         let leapt = tracker.leap(&x, t, C::default());
         if let Some(simple) = leapt.and_then(|point| target.simple(&point)) {
-            return Ok(PathEnd::Simple(simple));
+            return Ok(HomotopyEnd::Simple(simple));
         }
         if circle > 0
             && let Some(end) = by_integral(tracker, target, &x, radius)
@@ -117,7 +117,12 @@ fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>
 }
 
 /// The mean over the rounds of a circle, where it is a solution.
-fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &[C], radius: f64) -> Option<PathEnd> {
+fn by_integral<H: Homotopy>(
+    tracker: &mut Tracker<H>,
+    target: &impl Target,
+    x: &[C],
+    radius: f64,
+) -> Option<HomotopyEnd> {
     let (points, winding) = rounds(tracker, x, radius)?;
     let mean = |step: usize| -> Vec<C> {
         let count = points.len().div_ceil(step) as f64;
@@ -132,8 +137,8 @@ fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &
         return None;
     }
     match target.simple(&point) {
-        None => Some(PathEnd::Singular { point, error }),
-        Some(found) => (winding == 1).then_some(PathEnd::Simple(found)),
+        None => Some(HomotopyEnd::Singular { point, error }),
+        Some(found) => (winding == 1).then_some(HomotopyEnd::Simple(found)),
     }
 }
 

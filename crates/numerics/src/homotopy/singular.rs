@@ -12,11 +12,11 @@
 //! 2011). Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N`
 //! confirms them.
 
-use super::endgame::{PathEnd, Simple, Target, attempted, ends};
+use super::endgame::{HomotopyEnd, Simple, Target, attempted, ends};
 use super::error::HomotopyError;
 use super::sections::{on_linear_space, random_frame};
 use super::solutions::{SAME_SOLUTION_DISTANCE, conjugate, grouped, turned};
-use super::system::{C, Homotopy, Local, Quadrics, distance, unit};
+use super::system::{C, Homotopy, HomotopyDerivatives, Quadrics, distance, unit};
 use crate::DenseMatrix;
 use crate::complex::{ComplexMatrix, determinant};
 use crate::dense::{full_svd, symmetric_eigenvalues};
@@ -82,8 +82,8 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     let frame = random_frame(quadrics.unknowns, quadrics.count(), &mut random);
     let polar = Polar { quadrics, frame, planes, factor: unit(&mut random) };
     let singular = ends(&polar, &polar, &starts, attempt)?.into_iter().filter_map(|end| match end {
-        PathEnd::Singular { point, error } => Some((point, error)),
-        PathEnd::Simple(_) => None,
+        HomotopyEnd::Singular { point, error } => Some((point, error)),
+        HomotopyEnd::Simple(_) => None,
     });
     Ok(Some(grouped(singular).into_iter().map(|group| (group.point, group.error)).collect()))
 }
@@ -145,7 +145,7 @@ impl Homotopy for Polar<'_> {
         self.quadrics.unknowns
     }
 
-    fn evaluate(&self, x: &[C], t: C, at: &mut Local) {
+    fn evaluate(&self, x: &[C], t: C, at: &mut HomotopyDerivatives) {
         let (n, count) = (x.len(), self.quadrics.count());
         self.quadrics.evaluate(x, &mut at.value[..count], &mut at.jacobian[..count * n]);
         at.rate.fill(C::default());

@@ -1,6 +1,6 @@
 //! As many quadrics as determine points: all paths are followed, and what they find is checked.
 
-use super::endgame::{PathEnd, Simple, attempted, ends};
+use super::endgame::{HomotopyEnd, Simple, attempted, ends};
 use super::error::{HomotopyError, MOST_QUADRICS};
 use super::multiplicity::{Multiplicity, multiplicity};
 use super::solutions::{Group, SAME_SOLUTION_DISTANCE, Solution, Solutions, conjugate, grouped, multiple, turned};
@@ -37,8 +37,8 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
 }
 
 /// Adds the simple solutions; fails where two paths ended at one.
-fn add_simple(ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
-    let simple = |end: &PathEnd| if let PathEnd::Simple(simple) = end { Some(simple.clone()) } else { None };
+fn add_simple(ends: &[HomotopyEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
+    let simple = |end: &HomotopyEnd| if let HomotopyEnd::Simple(simple) = end { Some(simple.clone()) } else { None };
     let simple: Vec<Simple> = ends.iter().filter_map(simple).collect();
     let same = |a: &Simple, b: &Simple| distance(&a.point, &b.point) <= a.separation.max(b.separation);
     let twice = |(k, one): (usize, &Simple)| simple[..k].iter().any(|other| same(one, other));
@@ -58,10 +58,10 @@ fn solution(Simple { point, error, separation }: Simple) -> Solution {
 }
 
 /// Puts ends that are the same together and adds them; fails where their number is not the multiplicity.
-fn add_singular(quadrics: &Quadrics, ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
-    let singular = |end: &PathEnd| match end {
-        PathEnd::Singular { point, error } => Some((point.clone(), *error)),
-        PathEnd::Simple(_) => None,
+fn add_singular(quadrics: &Quadrics, ends: &[HomotopyEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
+    let singular = |end: &HomotopyEnd| match end {
+        HomotopyEnd::Singular { point, error } => Some((point.clone(), *error)),
+        HomotopyEnd::Simple(_) => None,
     };
     for Group { point, error, members } in grouped(ends.iter().filter_map(singular)) {
         let paths = members.len();

@@ -16,7 +16,7 @@ pub(super) struct Quadrics {
 }
 
 /// Values of a homotopy with their derivatives at one place.
-pub(super) struct Local {
+pub(super) struct HomotopyDerivatives {
     /// `H`, one entry for each equation.
     pub value: Vec<C>,
     /// `dH/dx`, a row of all unknowns for each equation.
@@ -28,7 +28,7 @@ pub(super) struct Local {
 /// `H(x, t)`: one homogeneous equation fewer than unknowns, polynomial in `t`.
 pub(super) trait Homotopy {
     fn unknowns(&self) -> usize;
-    fn evaluate(&self, x: &[C], t: C, at: &mut Local);
+    fn evaluate(&self, x: &[C], t: C, at: &mut HomotopyDerivatives);
 }
 
 /// `H(x, t) = (1 - t) F(x) + t G(x)`, `G_k = g_k (x_k^2 - b_k x_0^2)`, with random `g_k` and `b_k` of modulus 1.
@@ -79,7 +79,7 @@ impl Quadrics {
     }
 }
 
-impl Local {
+impl HomotopyDerivatives {
     pub fn new(unknowns: usize) -> Self {
         let zeros = |count| vec![C::default(); count];
         Self { value: zeros(unknowns - 1), jacobian: zeros((unknowns - 1) * unknowns), rate: zeros(unknowns - 1) }
@@ -108,7 +108,7 @@ impl Homotopy for TotalDegree<'_> {
         self.quadrics.unknowns
     }
 
-    fn evaluate(&self, x: &[C], t: C, at: &mut Local) {
+    fn evaluate(&self, x: &[C], t: C, at: &mut HomotopyDerivatives) {
         self.quadrics.evaluate(x, &mut at.value, &mut at.jacobian);
         let rest = C::new(1.0, 0.0) - t;
         at.jacobian.iter_mut().for_each(|entry| *entry *= rest);

@@ -6,7 +6,7 @@
 //! over distance to the next solution, so that paths near each other are not confused.
 
 use super::elimination;
-use super::system::{C, Homotopy, Local, norm, normalize};
+use super::system::{C, Homotopy, HomotopyDerivatives, norm, normalize};
 
 /// Corrections below this are rounding.
 const ROUNDING: f64 = 1e-11;
@@ -38,14 +38,14 @@ pub(super) struct Lost;
 pub(super) struct Tracker<'a, H> {
     homotopy: &'a H,
     care: Care,
-    local: Local,
+    local: HomotopyDerivatives,
     matrix: Vec<C>,
 }
 
 impl<'a, H: Homotopy> Tracker<'a, H> {
     pub fn new(homotopy: &'a H, care: Care) -> Self {
         let n = homotopy.unknowns();
-        Self { homotopy, care, local: Local::new(n), matrix: vec![C::default(); n * n] }
+        Self { homotopy, care, local: HomotopyDerivatives::new(n), matrix: vec![C::default(); n * n] }
     }
 
     /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that

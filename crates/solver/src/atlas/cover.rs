@@ -5,7 +5,7 @@ use super::polygon::Polygon;
 use super::seen::{MOST_DISTANCE_PER_RADII, Neighbour, see, separate, turn};
 use super::surface::{AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
 use super::walk;
-use crate::continuation::Point;
+use crate::continuation::CurvePoint;
 use crate::implicit::{CorrectedPoint, Corrector};
 use foldwell_numerics::dense::null_space;
 use foldwell_numerics::vector::{add_scaled, norm};
@@ -210,7 +210,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     fn walk(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
         let (from, tolerance) = (&self.charts[number], self.options.tolerance);
         let (radius, start) = (from.radius, from.start);
-        let (Point { x, residual, .. }, frame) =
+        let (CurvePoint { x, residual, .. }, frame) =
             walk::to_rim(self.surface, (from, at), &mut self.corrector, tolerance)?;
         separate(&from.x, &x, &self.periods, &mut self.way);
         let (first, second) = from.frame.split_at(x.len());

@@ -32,7 +32,7 @@ pub(super) fn at_limit<S: Surface>(
 
 /// A corner of a cut triangle: a chart, or the border's point on the edge from an inner chart to an outer one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Corner {
+enum CutCorner {
     Chart(usize),
     Edge(usize, usize),
 }
@@ -86,7 +86,7 @@ impl Border {
     }
 
     /// The part of a triangle that is inside, as triangles, counter-clockwise.
-    fn cut<S: Surface>(&self, cover: &Cover<S>, triangle: [usize; 3], pieces: &mut Vec<[Corner; 3]>) {
+    fn cut<S: Surface>(&self, cover: &Cover<S>, triangle: [usize; 3], pieces: &mut Vec<[CutCorner; 3]>) {
         let moved = |chart: usize| self.snapped.contains_key(&chart);
         let inner = |chart: usize| inside(cover, chart) && !moved(chart);
         let outer = |chart: usize| !inside(cover, chart) && !moved(chart);
@@ -97,13 +97,13 @@ impl Border {
         for k in 0..3 {
             let [from, to] = [triangle[k], triangle[(k + 1) % 3]];
             if !outer(from) {
-                corners.push(Corner::Chart(from));
+                corners.push(CutCorner::Chart(from));
             }
             if inner(from) && outer(to) {
-                corners.push(Corner::Edge(from, to));
+                corners.push(CutCorner::Edge(from, to));
             }
             if inner(to) && outer(from) {
-                corners.push(Corner::Edge(to, from));
+                corners.push(CutCorner::Edge(to, from));
             }
         }
         match corners[..] {
@@ -116,14 +116,14 @@ impl Border {
         }
     }
 
-    fn chart<'a, S: Surface>(&'a self, cover: &'a Cover<S>, corner: Corner) -> Option<&'a Chart> {
+    fn chart<'a, S: Surface>(&'a self, cover: &'a Cover<S>, corner: CutCorner) -> Option<&'a Chart> {
         match corner {
-            Corner::Chart(chart) => Some(self.snapped.get(&chart).unwrap_or(&cover.charts[chart])),
-            Corner::Edge(from, to) => self.points.get(&(from, to)),
+            CutCorner::Chart(chart) => Some(self.snapped.get(&chart).unwrap_or(&cover.charts[chart])),
+            CutCorner::Edge(from, to) => self.points.get(&(from, to)),
         }
     }
 
-    fn distance<S: Surface>(&self, cover: &Cover<S>, a: Corner, b: Corner) -> f64 {
+    fn distance<S: Surface>(&self, cover: &Cover<S>, a: CutCorner, b: CutCorner) -> f64 {
         match (self.chart(cover, a), self.chart(cover, b)) {
             (Some(a), Some(b)) => cover.apart(&a.x, &b.x),
             _ => f64::INFINITY,
@@ -131,17 +131,17 @@ impl Border {
     }
 
     /// Numbers the corners: charts in their order, then the border's points; drops pieces at edges without point.
-    fn gather<S: Surface>(&self, cover: &Cover<S>, pieces: Vec<[Corner; 3]>) -> (Vec<Chart>, Vec<[usize; 3]>) {
-        let known = |piece: &[Corner; 3]| piece.iter().all(|corner| self.chart(cover, *corner).is_some());
-        let pieces: Vec<[Corner; 3]> = pieces.into_iter().filter(known).collect();
-        let mut corners: Vec<Corner> = pieces.iter().flatten().copied().collect();
-        let border = |corner: &Corner| match *corner {
-            Corner::Chart(chart) => (self.snapped.contains_key(&chart), chart, 0),
-            Corner::Edge(from, to) => (true, from, to + 1),
+    fn gather<S: Surface>(&self, cover: &Cover<S>, pieces: Vec<[CutCorner; 3]>) -> (Vec<Chart>, Vec<[usize; 3]>) {
+        let known = |piece: &[CutCorner; 3]| piece.iter().all(|corner| self.chart(cover, *corner).is_some());
+        let pieces: Vec<[CutCorner; 3]> = pieces.into_iter().filter(known).collect();
+        let mut corners: Vec<CutCorner> = pieces.iter().flatten().copied().collect();
+        let border = |corner: &CutCorner| match *corner {
+            CutCorner::Chart(chart) => (self.snapped.contains_key(&chart), chart, 0),
+            CutCorner::Edge(from, to) => (true, from, to + 1),
         };
         corners.sort_unstable_by_key(border);
         corners.dedup();
-        let numbers: HashMap<Corner, usize> = corners.iter().enumerate().map(|(number, c)| (*c, number)).collect();
+        let numbers: HashMap<CutCorner, usize> = corners.iter().enumerate().map(|(number, c)| (*c, number)).collect();
         let charts = corners.iter().filter_map(|corner| self.chart(cover, *corner).cloned()).collect();
         (charts, pieces.iter().map(|piece| piece.map(|corner| numbers[&corner])).collect())
     }

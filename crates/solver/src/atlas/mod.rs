@@ -27,7 +27,7 @@ mod tests;
 mod walk;
 
 pub use surface::{Atlas, AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
-pub use walk::Section;
+pub use walk::HyperplaneSection;
 
 /// Finds further starts from the charts and triangles placed so far: points on parts of the surface that meet these in
 /// singular points only.

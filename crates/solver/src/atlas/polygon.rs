@@ -17,14 +17,14 @@ const CROWDED: f64 = 0.7;
 #[derive(Clone, Debug)]
 pub(super) struct Polygon {
     radius: f64,
-    corners: Vec<Corner>,
-    clipped: Vec<Corner>,
+    corners: Vec<PolygonCorner>,
+    clipped: Vec<PolygonCorner>,
     neighbours: Vec<[f64; 2]>,
 }
 
 /// A corner with the side that follows it.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct PolygonCorner {
     at: [f64; 2],
     /// The neighbour behind the side; `None` for a side of the square.
     beyond: Option<usize>,
@@ -41,15 +41,16 @@ impl Polygon {
         self.neighbours.clear();
         self.corners.clear();
         let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        self.corners
-            .extend(signs.map(|at| Corner { at: at.map(|s: f64| s * SQUARE_PER_RADIUS * radius), beyond: None }));
+        self.corners.extend(
+            signs.map(|at| PolygonCorner { at: at.map(|s: f64| s * SQUARE_PER_RADIUS * radius), beyond: None }),
+        );
     }
 
     /// Cuts off the part that neighbour `number` at `u`, of this radius, covers better.
     pub fn clip(&mut self, u: [f64; 2], radius: f64, number: usize) {
         self.neighbours.push(u);
         let limit = 0.5 * (u[0] * u[0] + u[1] * u[1] + self.radius * self.radius - radius * radius);
-        let beyond = |corner: &Corner| corner.at[0] * u[0] + corner.at[1] * u[1] - limit;
+        let beyond = |corner: &PolygonCorner| corner.at[0] * u[0] + corner.at[1] * u[1] - limit;
         if self.corners.iter().all(|corner| beyond(corner) <= 0.0) {
             return;
         }
@@ -64,7 +65,7 @@ impl Polygon {
                 let part = from / (from - to);
                 let at = [0, 1].map(|axis| corner.at[axis] + part * (next.at[axis] - corner.at[axis]));
                 let behind = if from <= 0.0 { Some(number) } else { corner.beyond };
-                self.clipped.push(Corner { at, beyond: behind });
+                self.clipped.push(PolygonCorner { at, beyond: behind });
             }
         }
         std::mem::swap(&mut self.corners, &mut self.clipped);
@@ -78,7 +79,7 @@ impl Polygon {
         let count = self.corners.len();
         let apart = |a: [f64; 2], b: [f64; 2]| length([a[0] - b[0], a[1] - b[1]]);
         let crowded = |at| self.neighbours.iter().any(|other| apart(*other, at) < CROWDED * self.radius);
-        let outside = |corner: &Corner| {
+        let outside = |corner: &PolygonCorner| {
             let out = length(corner.at) / self.radius;
             out > 1.0 || (out > COVERED && !crowded(corner.at))
         };

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 type Rows<const N: usize> = Vec<(f64, [f64; N])>;
 
 /// A surface from a function that gives every residual with its gradient, and one for the limit.
-struct Textbook<const N: usize> {
+struct TextbookSurface<const N: usize> {
     rows: fn(&[f64]) -> Rows<N>,
     period: Option<f64>,
     limit: fn(&[f64]) -> f64,
@@ -17,13 +17,13 @@ struct Textbook<const N: usize> {
     linearizations: usize,
 }
 
-impl<const N: usize> Textbook<N> {
+impl<const N: usize> TextbookSurface<N> {
     fn new(rows: fn(&[f64]) -> Rows<N>) -> Self {
         Self { rows, period: None, limit: |_| -1.0, crosses: false, linearizations: 0 }
     }
 }
 
-impl<const N: usize> Implicit for Textbook<N> {
+impl<const N: usize> Implicit for TextbookSurface<N> {
     fn unknowns(&self) -> usize {
         N
     }
@@ -39,7 +39,7 @@ impl<const N: usize> Implicit for Textbook<N> {
     }
 }
 
-impl<const N: usize> Surface for Textbook<N> {
+impl<const N: usize> Surface for TextbookSurface<N> {
     fn period(&self, _: usize) -> Option<f64> {
         self.period
     }
@@ -105,7 +105,7 @@ fn derivatives() {
     check(crossing);
 }
 
-fn run<const N: usize>(surface: &mut Textbook<N>, start: [f64; N], radius: f64) -> Atlas {
+fn run<const N: usize>(surface: &mut TextbookSurface<N>, start: [f64; N], radius: f64) -> Atlas {
     let options = CoverOptions { radius, ..CoverOptions::default() };
     let atlas = cover(surface, &[start.to_vec()], options, &mut none, &mut |_| true).unwrap();
     for chart in &atlas.charts {
@@ -121,14 +121,14 @@ fn run<const N: usize>(surface: &mut Textbook<N>, start: [f64; N], radius: f64) 
 /// Numbers of a triangulation that is a manifold, oriented: every edge at most once in each sense, and the triangles at
 /// every vertex one fan.
 #[derive(Debug, PartialEq)]
-struct Topology {
+struct TopologyCounts {
     euler: i64,
     /// Edges with a triangle on one side only.
     border: usize,
     vertices: usize,
 }
 
-fn topology(atlas: &Atlas) -> Topology {
+fn topology(atlas: &Atlas) -> TopologyCounts {
     let mut edges = HashSet::new();
     let mut fans: HashMap<usize, Vec<[usize; 2]>> = HashMap::new();
     for [a, b, c] in &atlas.triangles {
@@ -153,7 +153,7 @@ fn topology(atlas: &Atlas) -> Topology {
     assert_eq!(fans.len(), atlas.charts.len(), "every chart has triangles");
     let count = (edges.len() + border) / 2;
     let euler = fans.len() as i64 - count as i64 + atlas.triangles.len() as i64;
-    Topology { euler, border, vertices: fans.len() }
+    TopologyCounts { euler, border, vertices: fans.len() }
 }
 
 /// Sum of the areas of the triangles, modulo the period, and the largest angle between a triangle and a tangent plane
@@ -183,7 +183,7 @@ fn area(atlas: &Atlas, period: Option<f64>) -> f64 {
 fn sphere_is_closed() {
     let mut errors = Vec::new();
     for radius in [0.14, 0.07, 0.035] {
-        let mut surface = Textbook::new(sphere);
+        let mut surface = TextbookSurface::new(sphere);
         let atlas = run(&mut surface, [0.0, 0.6, 0.8], radius);
         let found = topology(&atlas);
         assert_eq!((atlas.coverage, atlas.oriented, found.euler, found.border), (Coverage::Complete, true, 2, 0));
@@ -213,7 +213,7 @@ fn a_surface_is_followed_over_its_crossing_with_another() {
     };
     let exact: f64 = (0..steps).map(slab).sum();
     for radius in [0.12, 0.06] {
-        let atlas = run(&mut Textbook { limit, crosses: true, ..Textbook::new(crossing) }, start, radius);
+        let atlas = run(&mut TextbookSurface { limit, crosses: true, ..TextbookSurface::new(crossing) }, start, radius);
         let found = topology(&atlas);
         assert_eq!((atlas.coverage, atlas.oriented, found.euler), (Coverage::Complete, true, 1));
         let sides = |chart: &Chart| [chart.x[2] - 0.3 * chart.x[0] * chart.x[0], chart.x[2] - 0.6 * chart.x[1]];
@@ -231,14 +231,15 @@ fn a_surface_is_followed_over_its_crossing_with_another() {
 #[test]
 fn torus_is_closed() {
     for radius in [0.1, 0.05] {
-        let atlas = run(&mut Textbook::new(torus), [1.4, 0.0, 0.0], radius);
+        let atlas = run(&mut TextbookSurface::new(torus), [1.4, 0.0, 0.0], radius);
         let found = topology(&atlas);
         assert_eq!((atlas.coverage, atlas.oriented, found.euler, found.border), (Coverage::Complete, true, 0, 0));
         let missing = 1.0 - area(&atlas, None) / (4.0 * PI * PI * 0.4);
         assert!(missing.abs() <= 0.5 * (radius / 0.4f64).powi(2), "{missing}");
     }
     let options = CoverOptions { radius: 0.2, max_turn: 0.2, ..CoverOptions::default() };
-    let atlas = cover(&mut Textbook::new(torus), &[vec![1.4, 0.0, 0.0]], options, &mut none, &mut |_| true).unwrap();
+    let atlas =
+        cover(&mut TextbookSurface::new(torus), &[vec![1.4, 0.0, 0.0]], options, &mut none, &mut |_| true).unwrap();
     assert_eq!((topology(&atlas).euler, topology(&atlas).border), (0, 0));
     let normal = |chart: usize| {
         nalgebra::Vector3::from_column_slice(&atlas.charts[chart].frame[..3])
@@ -253,7 +254,7 @@ fn torus_is_closed() {
 /// (which converges exponentially) to 0.1 radius^2, half of what is missing at curvatures of 0.5.
 #[test]
 fn torus_of_angles_closes_over_its_periods() {
-    let mut surface = Textbook::new(angles);
+    let mut surface = TextbookSurface::new(angles);
     surface.period = Some(TAU);
     let atlas = run(&mut surface, [0.0, 0.0, 0.0, -0.3], 0.25);
     let found = topology(&atlas);
@@ -274,7 +275,7 @@ fn torus_of_angles_closes_over_its_periods() {
 #[test]
 fn limit_is_the_border() {
     for radius in [0.2, 0.1, 0.04] {
-        let mut surface = Textbook::new(bowl);
+        let mut surface = TextbookSurface::new(bowl);
         surface.limit = |x| x[0].hypot(x[1]) - 1.0;
         let atlas = run(&mut surface, [0.1, 0.0, 0.005], radius);
         let found = topology(&atlas);
@@ -305,7 +306,7 @@ fn smallest_height(atlas: &Atlas, [a, b, c]: &[usize; 3]) -> f64 {
 /// without a triangle between them.
 #[test]
 fn a_tip_is_not_crossed() {
-    let mut surface = Textbook::new(cone);
+    let mut surface = TextbookSurface::new(cone);
     surface.limit = |x| x[2].abs() - 1.0;
     let atlas = run(&mut surface, [0.3, 0.4, 0.5], 0.1);
     assert!(matches!(atlas.coverage, Coverage::Open { charts } if charts > 0), "{:?}", atlas.coverage);
@@ -322,7 +323,7 @@ fn a_tip_is_not_crossed() {
     assert_eq!(both.reached, [Some(0), Some(1), Some(0)], "the third lies in a chart of the first");
     // the same, with the lower sheet begun only after the upper one is covered, and a start that is nowhere
     let mut asked = 0;
-    let mut further = |_: &mut Textbook<3>, charts: &[Chart], _: &[[usize; 3]]| {
+    let mut further = |_: &mut TextbookSurface<3>, charts: &[Chart], _: &[[usize; 3]]| {
         asked += 1;
         assert_eq!(charts.iter().any(|chart| chart.x[2] < 0.0), asked > 1);
         if asked > 1 { vec![] } else { vec![starts[1].clone(), vec![0.0; 3]] }
@@ -336,14 +337,15 @@ fn a_tip_is_not_crossed() {
 fn what_cannot_be_done_is_said() {
     let options = CoverOptions::default();
     let mut always = |_: usize| true;
-    let tip = cover(&mut Textbook::new(cone), &[vec![0.0; 3]], options, &mut none, &mut always);
+    let tip = cover(&mut TextbookSurface::new(cone), &[vec![0.0; 3]], options, &mut none, &mut always);
     assert_eq!(tip, Err(AtlasError::Singular { start: 0, tangents: 3 }));
-    let off = cover(&mut Textbook::new(cone), &[vec![0.3, 0.4, 0.6]], options, &mut none, &mut always);
+    let off = cover(&mut TextbookSurface::new(cone), &[vec![0.3, 0.4, 0.6]], options, &mut none, &mut always);
     assert!(matches!(off, Err(AtlasError::Start { start: 0 })), "{off:?}");
     let few = CoverOptions { max_charts: 50, ..options };
-    let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], few, &mut none, &mut always).unwrap();
+    let atlas = cover(&mut TextbookSurface::new(sphere), &[vec![0.0, 0.0, 1.0]], few, &mut none, &mut always).unwrap();
     assert_eq!(atlas.coverage, Coverage::TooManyCharts);
-    let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], options, &mut none, &mut |_| false).unwrap();
+    let atlas =
+        cover(&mut TextbookSurface::new(sphere), &[vec![0.0, 0.0, 1.0]], options, &mut none, &mut |_| false).unwrap();
     assert_eq!(atlas.coverage, Coverage::Interrupted);
 }
 

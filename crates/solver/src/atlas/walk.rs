@@ -6,7 +6,7 @@
 //! over such a crossing.
 
 use super::surface::{Chart, Surface};
-use crate::continuation::{CurveOptions, End, Point, follow};
+use crate::continuation::{CurveOptions, CurvePoint, End, follow};
 use crate::implicit::{Corrector, Implicit};
 use foldwell_numerics::DenseMatrix;
 
@@ -21,7 +21,7 @@ pub(super) fn to_rim<S: Surface>(
     (chart, at): (&Chart, [f64; 2]),
     corrector: &mut Corrector,
     tolerance: f64,
-) -> Option<(Point, Vec<f64>)> {
+) -> Option<(CurvePoint, Vec<f64>)> {
     let length = at[0].hypot(at[1]);
     let [cos, sin] = at.map(|along| along / length);
     let (first, second) = chart.frame.split_at(chart.x.len());
@@ -29,7 +29,7 @@ pub(super) fn to_rim<S: Surface>(
         |c: f64, s: f64, [a, b]: [&[f64]; 2]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| c * a + s * b).collect() };
     let (along, across) = (turned(cos, sin, [first, second]), turned(-sin, cos, [first, second]));
     let options = CurveOptions { tolerance, length, max_step: length, steps: MOST_STEPS, ..CurveOptions::default() };
-    let mut section = Section::new(surface, chart.x.clone(), across.clone());
+    let mut section = HyperplaneSection::new(surface, chart.x.clone(), across.clone());
     let found = follow(&mut section, chart.x.clone(), along, &options, &mut |_, _, _| {}, &mut |_| true);
     let last = found.points.into_iter().next_back().filter(|_| found.end == End::Length)?;
     let mut tangents = [&last.tangent[..], &across].concat();
@@ -40,7 +40,7 @@ pub(super) fn to_rim<S: Surface>(
 }
 
 /// The points of a surface on a hyperplane.
-pub struct Section<'a, S> {
+pub struct HyperplaneSection<'a, S> {
     /// The surface.
     pub surface: &'a mut S,
     through: Vec<f64>,
@@ -49,7 +49,7 @@ pub struct Section<'a, S> {
     jacobian: DenseMatrix,
 }
 
-impl<'a, S: Implicit> Section<'a, S> {
+impl<'a, S: Implicit> HyperplaneSection<'a, S> {
     /// On the hyperplane through a point that has this normal.
     pub fn new(surface: &'a mut S, through: Vec<f64>, normal: Vec<f64>) -> Self {
         let (rows, columns) = (surface.equations(), surface.unknowns());
@@ -57,7 +57,7 @@ impl<'a, S: Implicit> Section<'a, S> {
     }
 }
 
-impl<S: Implicit> Implicit for Section<'_, S> {
+impl<S: Implicit> Implicit for HyperplaneSection<'_, S> {
     fn unknowns(&self) -> usize {
         self.surface.unknowns()
     }

@@ -2,7 +2,7 @@
 
 use super::outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, Minimum};
 use super::problem::{ConstrainedProblem, Derivatives};
-use super::reduced::{Correction, Reduced, energy_norm};
+use super::reduced::{PrimalDualStep, Reduced, energy_norm};
 use crate::newton::Step;
 use foldwell_numerics::vector::{dot_blocked, larger, max_abs, moved};
 
@@ -110,7 +110,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// Goes along the step from the present state: that of Gauss and Newton at first, with the full Hessian next to a
     /// solution and where the former leads nowhere, and downhill where neither shrinks the correction. Returns the
     /// largest change of a variable by the correction that is left; `None` if no way leads on.
-    fn advance(&mut self, gauss: &Correction) -> Option<f64> {
+    fn advance(&mut self, gauss: &PrimalDualStep) -> Option<f64> {
         if !self.full {
             let predicted = self.predicted(gauss);
             if let Some(left) = self.go_along(gauss, gauss, predicted) {
@@ -128,7 +128,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// Goes along the step with the least shift of the Hessian that makes it positive definite along the constraints,
     /// as far as the merit falls: the function, plus the multipliers times the constraints, plus half of what closing
     /// these costs. The correction may grow on the way, as it does beside a saddle point.
-    fn go_down(&mut self, gauss: &Correction) -> Option<f64> {
+    fn go_down(&mut self, gauss: &PrimalDualStep) -> Option<f64> {
         for shift in SHIFTS {
             let step = self.system.newton(&self.at, gauss.clone(), (shift, GRADIENT_ACCURACY));
             let Some(step) = step else { continue };
@@ -172,7 +172,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     /// Problems, section 3.3): from the size of the Gauss-Newton step `gauss` to less than `1 - fraction / 4` of it.
     /// The first fraction that is tried is given. Returns the largest change of a variable by the correction that is
     /// left; `None` if no fraction does it.
-    fn go_along(&mut self, direction: &Correction, gauss: &Correction, mut fraction: f64) -> Option<f64> {
+    fn go_along(&mut self, direction: &PrimalDualStep, gauss: &PrimalDualStep, mut fraction: f64) -> Option<f64> {
         let compliance = self.problem.compliance();
         let (size, mut failed) = (energy_norm(&gauss.dz, compliance), false);
         while fraction >= LEAST_FRACTION {
@@ -197,7 +197,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
 
     /// Returns the fraction of the next step to try first: the one that the change of the correction by the last step
     /// predicts.
-    fn predicted(&self, gauss: &Correction) -> f64 {
+    fn predicted(&self, gauss: &PrimalDualStep) -> f64 {
         let Some((size, left)) = &self.last else { return 1.0 };
         let compliance = self.problem.compliance();
         let change: Vec<f64> = left.iter().zip(&gauss.dz).map(|(left, dz)| left - dz).collect();
@@ -220,7 +220,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
         change
     }
 
-    fn trial(&mut self, direction: &Correction, fraction: f64) -> Trial {
+    fn trial(&mut self, direction: &PrimalDualStep, fraction: f64) -> Trial {
         let z = moved(&self.z, fraction, &direction.dz);
         let multipliers = moved(&self.multipliers, fraction, &direction.dl);
         let mut at = Derivatives::new(self.problem.blocks());

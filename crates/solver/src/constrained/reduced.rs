@@ -24,7 +24,7 @@ const MOST_GRADIENTS: usize = 30;
 
 /// A step of the variables and of the multipliers.
 #[derive(Clone, Debug)]
-pub(super) struct Correction {
+pub(super) struct PrimalDualStep {
     pub(super) dz: Vec<f64>,
     pub(super) dl: Vec<f64>,
 }
@@ -95,7 +95,7 @@ impl<'a, P: ConstrainedProblem> Reduced<'a, P> {
 
     /// Returns the Gauss-Newton step for the derivatives that were factored. `pull` is `D r`, `values` is `F`; both
     /// may be those of another state.
-    pub(super) fn gauss_newton(&mut self, at: &Derivatives, pull: &[f64], values: &[f64]) -> Correction {
+    pub(super) fn gauss_newton(&mut self, at: &Derivatives, pull: &[f64], values: &[f64]) -> PrimalDualStep {
         let blocks = self.problem.blocks();
         let mut right = at.product(blocks, pull);
         right.iter_mut().zip(values).for_each(|(right, value)| *right = value - *right);
@@ -103,7 +103,7 @@ impl<'a, P: ConstrainedProblem> Reduced<'a, P> {
         let mut dz = vec![0.0; pull.len()];
         at.add_transpose_product(blocks, &dl, &mut dz);
         dz.iter_mut().zip(pull).zip(self.problem.compliance()).for_each(|((dz, pull), c)| *dz = -(pull + c * *dz));
-        Correction { dz, dl }
+        PrimalDualStep { dz, dl }
     }
 
     /// Returns the step with the full Hessian, to which `shift D^-1` is added, to a relative accuracy, from the
@@ -112,11 +112,11 @@ impl<'a, P: ConstrainedProblem> Reduced<'a, P> {
     pub(super) fn newton(
         &mut self,
         at: &Derivatives,
-        start: Correction,
+        start: PrimalDualStep,
         (shift, accuracy): (f64, f64),
-    ) -> Option<Correction> {
+    ) -> Option<PrimalDualStep> {
         let (blocks, compliance) = (self.problem.blocks(), self.problem.compliance());
-        let Correction { mut dz, mut dl } = start;
+        let PrimalDualStep { mut dz, mut dl } = start;
         let wanted = accuracy * energy_norm(&dz, compliance);
         // what the Gauss-Newton step leaves of the first equation
         let mut left: Vec<f64> = dz.iter().zip(compliance).map(|(dz, c)| shift * dz / c).collect();
@@ -127,7 +127,7 @@ impl<'a, P: ConstrainedProblem> Reduced<'a, P> {
             let gradient = self.project(at, &mut left, &mut dl);
             let next = dot_blocked(&left, &gradient);
             if !(next.sqrt() > wanted) {
-                return (next >= 0.0).then_some(Correction { dz, dl });
+                return (next >= 0.0).then_some(PrimalDualStep { dz, dl });
             }
             let part = if direction.is_empty() { 0.0 } else { next / square };
             direction.resize(gradient.len(), 0.0);
@@ -142,7 +142,7 @@ impl<'a, P: ConstrainedProblem> Reduced<'a, P> {
             add_scaled(&mut dz, square / curvature, &direction);
             add_scaled(&mut left, square / curvature, &image);
         }
-        Some(Correction { dz, dl })
+        Some(PrimalDualStep { dz, dl })
     }
 
     /// Returns `F^T S^-1 F` for values of the constraints: the squared energy norm of the shortest step that makes up

@@ -4,7 +4,7 @@ use super::*;
 use foldwell_numerics::parallel::Threads;
 
 /// A problem given by closures: the variables of each block, and its value, gradient and Hessian.
-struct Textbook<F> {
+struct TextbookConstraint<F> {
     blocks: Blocks,
     target: Vec<f64>,
     compliance: Vec<f64>,
@@ -14,7 +14,7 @@ struct Textbook<F> {
 /// Value, gradient, and lower triangle of the Hessian of one constraint.
 type Value = (f64, Vec<f64>, Vec<f64>);
 
-impl<F: Fn(usize, &[f64]) -> Value + Sync> ConstrainedProblem for Textbook<F> {
+impl<F: Fn(usize, &[f64]) -> Value + Sync> ConstrainedProblem for TextbookConstraint<F> {
     fn blocks(&self) -> &Blocks {
         &self.blocks
     }
@@ -36,14 +36,14 @@ impl<F: Fn(usize, &[f64]) -> Value + Sync> ConstrainedProblem for Textbook<F> {
     }
 }
 
-fn of_lists<F>(lists: &[Vec<u32>], target: Vec<f64>, compliance: Vec<f64>, constraint: F) -> Textbook<F> {
+fn of_lists<F>(lists: &[Vec<u32>], target: Vec<f64>, compliance: Vec<f64>, constraint: F) -> TextbookConstraint<F> {
     let mut blocks = Blocks::default();
     lists.iter().for_each(|list| blocks.push(1, list));
-    Textbook { blocks, target, compliance, constraint }
+    TextbookConstraint { blocks, target, compliance, constraint }
 }
 
 fn solve<F: Fn(usize, &[f64]) -> Value + Sync>(
-    problem: &Textbook<F>,
+    problem: &TextbookConstraint<F>,
     start: Vec<f64>,
 ) -> Result<Minimum, ConstrainedError> {
     minimize_constrained(problem, start, &mut |_| true)
@@ -122,8 +122,9 @@ fn same_bits_for_any_number_of_threads() {
 /// result, and an observer stops the iteration. By definition.
 #[test]
 fn failures_have_their_reasons() {
-    let failure =
-        |problem: &Textbook<fn(usize, &[f64]) -> Value>, start: Vec<f64>| solve(problem, start).unwrap_err().failure;
+    let failure = |problem: &TextbookConstraint<fn(usize, &[f64]) -> Value>, start: Vec<f64>| {
+        solve(problem, start).unwrap_err().failure
+    };
     let two: fn(usize, &[f64]) -> Value = circle;
     let twice = of_lists(&[vec![0, 1], vec![0, 1]], vec![2.0, 1.0], vec![1.0; 2], two);
     assert!(matches!(failure(&twice, vec![0.6, 0.9]), ConstrainedFailure::Factor(_)));

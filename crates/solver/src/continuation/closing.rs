@@ -4,7 +4,7 @@
 //! beside the minimum, none of them at it: the start may be a point where branches cross, and there no correction
 //! converges. The interpolant, of degree seven, then says whether the distance vanishes.
 
-use super::curve::{Point, Return};
+use super::curve::{CurvePoint, Return};
 use super::hermite::Hermite;
 use foldwell_numerics::vector::{dot, norm};
 
@@ -26,7 +26,7 @@ fn difference(x: &[f64], start: &[f64], period: f64, windings: &mut [f64]) -> Ve
 }
 
 /// Half the rate of the squared distance to the start.
-pub(super) fn approach(point: &Point, start: &[f64], period: f64) -> f64 {
+pub(super) fn approach(point: &CurvePoint, start: &[f64], period: f64) -> f64 {
     let mut turns = vec![0.0; start.len()];
     let away = difference(&point.x, start, period, &mut turns);
     dot(&away, &point.tangent)
@@ -42,7 +42,7 @@ pub(super) fn nearest(dense: &Hermite, (from, to): (f64, f64), start: &[f64], pe
 }
 
 /// The return that four corrected points beside the minimum of the distance at `nearest` show.
-pub(super) fn closed(beside: &[Point], nearest: f64, start: &[f64], period: f64) -> Option<Return> {
+pub(super) fn closed(beside: &[CurvePoint], nearest: f64, start: &[f64], period: f64) -> Option<Return> {
     if beside.len() < BESIDE.len() {
         return None;
     }

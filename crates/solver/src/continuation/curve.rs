@@ -2,7 +2,7 @@
 
 /// A point of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct CurvePoint {
     /// Arc length from the start.
     pub arc_length: f64,
     /// The unknowns.
@@ -47,7 +47,7 @@ pub struct Event {
     /// Number of the indicator.
     pub indicator: usize,
     /// The point at which it vanishes, or jumps.
-    pub point: Point,
+    pub point: CurvePoint,
 }
 
 /// The reason for which a trajectory ends.
@@ -74,7 +74,7 @@ pub enum End {
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     /// Points, the start first.
-    pub points: Vec<Point>,
+    pub points: Vec<CurvePoint>,
     /// Sign changes of indicators that do not end the trajectory, in order.
     pub events: Vec<Event>,
     /// The reason for its end.

@@ -1,7 +1,7 @@
 //! The predictor and corrector, and where indicators change sign.
 
 use super::closing;
-use super::curve::{CurveOptions, End, Event, Point, Return, Trajectory};
+use super::curve::{CurveOptions, CurvePoint, End, Event, Return, Trajectory};
 use super::hermite::{Hermite, MOST};
 use crate::implicit::{Corrector, Implicit};
 use foldwell_numerics::vector::{dot, normalize};
@@ -18,12 +18,12 @@ const LEAST_STEP: f64 = 1e-9;
 const LOCATED_ARC_LENGTH: f64 = 1e-11;
 
 /// A trajectory on its way.
-struct Follower<'a, C> {
+struct CurveFollower<'a, C> {
     curve: &'a mut C,
-    indicators: &'a mut dyn FnMut(&mut C, &Point, &mut Vec<f64>),
+    indicators: &'a mut dyn FnMut(&mut C, &CurvePoint, &mut Vec<f64>),
     corrector: Corrector,
     tolerance: f64,
-    points: Vec<Point>,
+    points: Vec<CurvePoint>,
     events: Vec<Event>,
     /// Interpolant of the last step, through `memory` points.
     dense: Hermite,
@@ -39,15 +39,15 @@ pub fn follow<C: Implicit>(
     x: Vec<f64>,
     tangent: Vec<f64>,
     options: &CurveOptions,
-    indicators: &mut dyn FnMut(&mut C, &Point, &mut Vec<f64>),
-    observe: &mut dyn FnMut(&Point) -> bool,
+    indicators: &mut dyn FnMut(&mut C, &CurvePoint, &mut Vec<f64>),
+    observe: &mut dyn FnMut(&CurvePoint) -> bool,
 ) -> Trajectory {
-    let start = Point { arc_length: 0.0, x, tangent, residual: 0.0, corrections: 0 };
+    let start = CurvePoint { arc_length: 0.0, x, tangent, residual: 0.0, corrections: 0 };
     let mut values = Vec::new();
     indicators(curve, &start, &mut values);
     let corrector = Corrector::new(curve);
     let spare = start.x.clone();
-    let mut follower = Follower {
+    let mut follower = CurveFollower {
         curve,
         indicators,
         corrector,
@@ -62,12 +62,12 @@ pub fn follow<C: Implicit>(
     Trajectory { points: follower.points, events: follower.events, end }
 }
 
-impl<C: Implicit> Follower<'_, C> {
+impl<C: Implicit> CurveFollower<'_, C> {
     fn run(
         &mut self,
         options: &CurveOptions,
         mut indicators: Vec<f64>,
-        observe: &mut dyn FnMut(&Point) -> bool,
+        observe: &mut dyn FnMut(&CurvePoint) -> bool,
     ) -> End {
         let mut step = FIRST_STEP.min(options.max_step);
         let mut approach = 0.0;
@@ -100,7 +100,7 @@ impl<C: Implicit> Follower<'_, C> {
     /// on.
     fn step(&mut self, mut length: f64) -> Option<f64> {
         let first = self.points.len().saturating_sub(self.memory);
-        let known: Vec<&Point> = self.points[first..].iter().collect();
+        let known: Vec<&CurvePoint> = self.points[first..].iter().collect();
         let order = 2 * known.len();
         self.dense.fit(&known);
         let last = self.points[self.points.len() - 1].clone();
@@ -124,13 +124,13 @@ impl<C: Implicit> Follower<'_, C> {
     }
 
     /// Appends a point whose arc length is found from the interpolant of the last step.
-    fn push(&mut self, mut point: Point, guess: f64) {
+    fn push(&mut self, mut point: CurvePoint, guess: f64) {
         let last = self.points[self.points.len() - 1].arc_length;
         let mut length = guess;
         for _ in 0..4 {
             point.arc_length = last + length;
             let first = self.points.len().saturating_sub(self.memory - 1);
-            let near: Vec<&Point> = self.points[first..].iter().chain([&point]).collect();
+            let near: Vec<&CurvePoint> = self.points[first..].iter().chain([&point]).collect();
             self.dense.fit(&near);
             let mut x = point.x.clone();
             let longer = self.dense.length(last, point.arc_length, &mut x, &mut self.spare);
@@ -165,7 +165,7 @@ impl<C: Implicit> Follower<'_, C> {
     /// Looks for a return to the start within the last step.
     fn come_back(&mut self, start: &[f64], period: f64) -> Option<Return> {
         let nearest = closing::nearest(&self.dense, self.last_step()?, start, period)?;
-        let beside: Vec<Point> = closing::BESIDE.iter().filter_map(|away| self.point_at(nearest + away)).collect();
+        let beside: Vec<CurvePoint> = closing::BESIDE.iter().filter_map(|away| self.point_at(nearest + away)).collect();
         closing::closed(&beside, nearest, start, period)
     }
 
@@ -224,7 +224,7 @@ impl<C: Implicit> Follower<'_, C> {
     ///
     /// Next to a point where branches cross no correction converges, or it goes to another branch: there the
     /// interpolant itself is taken where it is as good as a corrected point.
-    fn point_at(&mut self, arc_length: f64) -> Option<Point> {
+    fn point_at(&mut self, arc_length: f64) -> Option<CurvePoint> {
         let mut point = self.points[self.points.len() - 1].clone();
         point.arc_length = arc_length;
         self.dense.at(arc_length, &mut point.x, &mut point.tangent);
@@ -237,7 +237,7 @@ impl<C: Implicit> Follower<'_, C> {
             }
             _ => {
                 let residual = self.corrector.residual(self.curve, &predicted.x);
-                (residual <= self.tolerance).then_some(Point { residual, corrections: 0, ..predicted })
+                (residual <= self.tolerance).then_some(CurvePoint { residual, corrections: 0, ..predicted })
             }
         }
     }

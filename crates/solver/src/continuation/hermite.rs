@@ -1,6 +1,6 @@
 //! Hermite interpolation of a curve: the polynomial through points with their tangents, by divided differences.
 
-use super::curve::Point;
+use super::curve::CurvePoint;
 use foldwell_numerics::vector::norm;
 
 /// Largest number of points of an interpolant.
@@ -26,7 +26,7 @@ pub(crate) struct Hermite {
 
 impl Hermite {
     /// Interpolates at most [`MOST`] points of different arc length.
-    pub(crate) fn fit(&mut self, points: &[&Point]) {
+    pub(crate) fn fit(&mut self, points: &[&CurvePoint]) {
         let count = 2 * points.len();
         self.size = points[0].x.len();
         self.nodes.clear();

@@ -16,5 +16,5 @@ mod hermite;
 #[cfg(test)]
 mod tests;
 
-pub use curve::{CurveOptions, End, Event, Point, Return, Trajectory};
+pub use curve::{CurveOptions, CurvePoint, End, Event, Return, Trajectory};
 pub use follower::follow;

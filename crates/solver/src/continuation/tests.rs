@@ -9,13 +9,13 @@ use std::f64::consts::{PI, TAU};
 /// `F` and its Jacobian, row by row.
 type Equations = fn(&[f64]) -> (Vec<f64>, Vec<f64>);
 
-struct Textbook {
+struct TextbookCurve {
     unknowns: usize,
     equations: Equations,
-    indicator: fn(&Point) -> f64,
+    indicator: fn(&CurvePoint) -> f64,
 }
 
-impl Implicit for Textbook {
+impl Implicit for TextbookCurve {
     fn unknowns(&self) -> usize {
         self.unknowns
     }
@@ -31,12 +31,13 @@ impl Implicit for Textbook {
     }
 }
 
-fn no_indicator(_: &Point) -> f64 {
+fn no_indicator(_: &CurvePoint) -> f64 {
     1.0
 }
 
-fn run(curve: &mut Textbook, x: &[f64], tangent: &[f64], options: &CurveOptions) -> Trajectory {
-    let mut indicators = |curve: &mut Textbook, point: &Point, out: &mut Vec<f64>| out.push((curve.indicator)(point));
+fn run(curve: &mut TextbookCurve, x: &[f64], tangent: &[f64], options: &CurveOptions) -> Trajectory {
+    let mut indicators =
+        |curve: &mut TextbookCurve, point: &CurvePoint, out: &mut Vec<f64>| out.push((curve.indicator)(point));
     follow(curve, x.to_vec(), tangent.to_vec(), options, &mut indicators, &mut |_| true)
 }
 
@@ -87,7 +88,7 @@ fn jacobians() {
 /// corrections. Tolerance: the interpolant of degree five over steps that turn by less than half a radian.
 #[test]
 fn circle_closes() {
-    let mut curve = Textbook { unknowns: 2, equations: circle, indicator: no_indicator };
+    let mut curve = TextbookCurve { unknowns: 2, equations: circle, indicator: no_indicator };
     let found = run(&mut curve, &[0.5, 0.0], &[0.0, 1.0], &closed(100.0));
     let End::Closed(back) = &found.end else { panic!("{:?}", found.end) };
     assert!((back.arc_length - PI).abs() <= 1e-6, "{:e}", back.arc_length - PI);
@@ -102,7 +103,7 @@ fn circle_closes() {
 #[test]
 fn lemniscate_crosses_itself() {
     const LENGTH: f64 = 5.244_115_108_584_24;
-    let mut curve = Textbook { unknowns: 2, equations: lemniscate, indicator: no_indicator };
+    let mut curve = TextbookCurve { unknowns: 2, equations: lemniscate, indicator: no_indicator };
     let whole = run(&mut curve, &[1.0, 0.0], &[0.0, 1.0], &closed(100.0));
     let End::Closed(back) = &whole.end else { panic!("{:?}", whole.end) };
     assert!((back.arc_length - LENGTH).abs() <= 1e-6, "{:e}", back.arc_length - LENGTH);
@@ -117,7 +118,7 @@ fn lemniscate_crosses_itself() {
 /// fine sum of chords.
 #[test]
 fn knot_closes_modulo_turns() {
-    let mut curve = Textbook { unknowns: 3, equations: knot, indicator: no_indicator };
+    let mut curve = TextbookCurve { unknowns: 3, equations: knot, indicator: no_indicator };
     let slope = [3.0, 2.0, 0.9];
     let length = slope.iter().map(|a| a * a).sum::<f64>().sqrt();
     let found = run(&mut curve, &[0.0; 3], &slope.map(|a| a / length), &closed(TAU));
@@ -137,7 +138,7 @@ fn knot_closes_modulo_turns() {
 /// integral of the second kind: 7.640395578055424 (arc length of `(cos^2 t, cos t sin t, sin t)`).
 #[test]
 fn viviani_closes() {
-    let mut curve = Textbook { unknowns: 3, equations: viviani, indicator: no_indicator };
+    let mut curve = TextbookCurve { unknowns: 3, equations: viviani, indicator: no_indicator };
     let found = run(&mut curve, &[0.0, 0.0, 1.0], &[0.0, 1.0, 0.0], &closed(100.0));
     let End::Closed(back) = &found.end else { panic!("{:?}", found.end) };
     assert!((back.arc_length - 7.640_395_578_055_424).abs() <= 1e-6, "{:e}", back.arc_length - 7.640_395_578_055_424);
@@ -147,11 +148,11 @@ fn viviani_closes() {
 /// ones end the trajectory there, and so does a wanted length.
 #[test]
 fn events_are_located() {
-    let smooth: fn(&Point) -> f64 = |point| point.x[1] - 0.3;
-    let jump: fn(&Point) -> f64 = |point| if point.x[1] < 0.3 { -1.0 } else { 1.0 };
+    let smooth: fn(&CurvePoint) -> f64 = |point| point.x[1] - 0.3;
+    let jump: fn(&CurvePoint) -> f64 = |point| if point.x[1] < 0.3 { -1.0 } else { 1.0 };
     let expected = 0.5 * (0.6f64).asin();
     for indicator in [smooth, jump] {
-        let mut curve = Textbook { unknowns: 2, equations: circle, indicator };
+        let mut curve = TextbookCurve { unknowns: 2, equations: circle, indicator };
         let seen = run(&mut curve, &[0.5, 0.0], &[0.0, 1.0], &CurveOptions { length: 1.5, ..CurveOptions::default() });
         assert_eq!(seen.end, End::Length);
         assert!((seen.points[seen.points.len() - 1].arc_length - 1.5).abs() <= 1e-12);
@@ -169,7 +170,7 @@ fn events_are_located() {
 #[test]
 fn dead_end() {
     let cusp: Equations = |p| (vec![p[1] * p[1] - p[0].powi(3)], vec![-3.0 * p[0] * p[0], 2.0 * p[1]]);
-    let mut curve = Textbook { unknowns: 2, equations: cusp, indicator: no_indicator };
+    let mut curve = TextbookCurve { unknowns: 2, equations: cusp, indicator: no_indicator };
     let slope = [-2.0 / 13f64.sqrt(), -3.0 / 13f64.sqrt()];
     let found = run(&mut curve, &[1.0, 1.0], &slope, &CurveOptions::default());
     assert_eq!(found.end, End::Failed);
@@ -182,7 +183,7 @@ fn dead_end() {
 #[test]
 fn events_behind_the_end_are_left_out() {
     for shorter in (-10..40).filter(|k| *k != 0).map(|k| 1e-3 * f64::from(k)) {
-        let mut curve = Textbook { unknowns: 2, equations: circle, indicator: |point| point.x[1] };
+        let mut curve = TextbookCurve { unknowns: 2, equations: circle, indicator: |point| point.x[1] };
         // it starts at an angle of 0.1, half of which is the length from (1/2, 0) to there
         let options = CurveOptions { length: 0.5 * PI - 0.05 - shorter, ..CurveOptions::default() };
         let (sin, cos) = 0.1f64.sin_cos();

@@ -4,7 +4,7 @@
 use super::super::corrections::PATIENT;
 use super::iteration::{Newton, inaccurate};
 use super::outcome::{Failure, Step};
-use super::retraction::Trial;
+use super::retraction::RetractedState;
 use crate::kkt::Increment;
 use crate::linearization::{HessianKind, missing};
 use crate::problem::Problem;
@@ -114,14 +114,14 @@ impl<P: Problem> Newton<'_, P> {
     }
 
     /// The retracted state after a step halved so often, where its merit is lower.
-    fn attempt(&mut self, step: &Increment, halving: i32, last: &Step) -> Option<Trial> {
+    fn attempt(&mut self, step: &Increment, halving: i32, last: &Step) -> Option<RetractedState> {
         let (x, tension) = self.moved(step, halving);
         let trial = self.retract(x, tension, allowed_gap(last), TRIAL_CHORDS).ok()?;
         self.is_acceptable(&trial, last).then_some(trial)
     }
 
     /// The state after a step halved so often as it is, where its merit is lower and rigid measures are met.
-    fn attempt_stretched(&mut self, step: &Increment, halving: i32, last: &Step) -> Option<Trial> {
+    fn attempt_stretched(&mut self, step: &Increment, halving: i32, last: &Step) -> Option<RetractedState> {
         let (x, tension) = self.moved(step, halving);
         let trial = self.stretched(x, tension, allowed_gap(last))?;
         self.is_acceptable(&trial, last).then_some(trial)
@@ -133,13 +133,13 @@ impl<P: Problem> Newton<'_, P> {
         (moved(&self.x, part, &step.dx), moved(&self.tension, part, &step.dt))
     }
 
-    fn is_acceptable(&self, trial: &Trial, last: &Step) -> bool {
+    fn is_acceptable(&self, trial: &RetractedState, last: &Step) -> bool {
         self.problem.admits(&self.x, &trial.x) && trial.merit <= last.energy + self.merit_uncertainty(trial, last)
     }
 
     /// Uncertainty of the difference between the merits of the last state and of a trial: rounding error, and the
     /// weight of the gaps still open at the last state by its tension and by that of the trial.
-    fn merit_uncertainty(&self, trial: &Trial, last: &Step) -> f64 {
+    fn merit_uncertainty(&self, trial: &RetractedState, last: &Step) -> f64 {
         let at = &self.tangent.at;
         let open = at.missing(&self.tension, self.problem.compliance());
         let tensions = trial.tension.iter().zip(&self.tension);
@@ -151,7 +151,7 @@ impl<P: Problem> Newton<'_, P> {
     /// One more step from a converged state whose last step was solved less exactly than was wanted, as those of large
     /// sheets are: their softest motions are then off by much more than the residuals say. `None` where it does not
     /// help.
-    pub(super) fn finishing_step(&mut self, last: &Step) -> Option<Trial> {
+    pub(super) fn finishing_step(&mut self, last: &Step) -> Option<RetractedState> {
         if !self.inexact || !self.near_certified_minimum() {
             return None;
         }
@@ -160,13 +160,13 @@ impl<P: Problem> Newton<'_, P> {
         let gaps = self.problem.gaps(&x);
         let open = self.largest_scaled_gap(&missing(&gaps, &tension, self.problem.compliance()));
         let merit = self.merit_of(&x, &tension, &gaps);
-        let trial = Trial { x, tension, merit };
+        let trial = RetractedState { x, tension, merit };
         let lower = merit <= last.energy + self.merit_uncertainty(&trial, last);
         (step.residual <= COARSEST_RESIDUAL && open <= last.residual_length && lower).then_some(trial)
     }
 
     /// Accepts a trial; from the first whole step that contracts on, soft elements enter with their full Hessian.
-    pub(super) fn take(&mut self, trial: Trial, fraction: f64, last: &Step) {
+    pub(super) fn take(&mut self, trial: RetractedState, fraction: f64, last: &Step) {
         if fraction == 1.0 && last.energy - trial.merit < 0.5 * last.energy.abs() {
             self.kind = HessianKind::Full;
         }

@@ -21,7 +21,7 @@ const START_HALVINGS: i32 = 5;
 const ROUNDING_GAP: f64 = 1e-12;
 
 /// A state on the stiff measures.
-pub(super) struct Trial {
+pub(super) struct RetractedState {
     pub(super) x: Vec<f64>,
     pub(super) tension: Vec<f64>,
     pub(super) merit: f64,
@@ -69,7 +69,7 @@ impl<P: Problem> Newton<'_, P> {
         }
     }
 
-    fn start_from(&mut self, trial: Trial) {
+    fn start_from(&mut self, trial: RetractedState) {
         (self.x, self.tension) = (trial.x, trial.tension);
         self.problem.accept(&mut self.x);
         self.linearize();
@@ -111,13 +111,13 @@ impl<P: Problem> Newton<'_, P> {
 
     /// The state at `x` with the tensions that measures of finite stiffness have there; `None` where rigid ones are not
     /// met to the scaled gap `wanted`.
-    pub(super) fn stretched(&self, x: Vec<f64>, mut tension: Vec<f64>, wanted: f64) -> Option<Trial> {
+    pub(super) fn stretched(&self, x: Vec<f64>, mut tension: Vec<f64>, wanted: f64) -> Option<RetractedState> {
         let (gaps, compliance) = (self.problem.gaps(&x), self.problem.compliance());
         let measures = tension.iter_mut().zip(&gaps).zip(compliance);
         measures.filter(|(_, c)| **c > 0.0).for_each(|((tension, gap), c)| *tension = gap / c);
         let open = self.largest_scaled_gap(&missing(&gaps, &tension, compliance));
         let merit = self.merit_of(&x, &tension, &gaps);
-        (open <= wanted).then_some(Trial { x, tension, merit })
+        (open <= wanted).then_some(RetractedState { x, tension, merit })
     }
 
     /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted`, or at the level of rounding error.
@@ -127,7 +127,7 @@ impl<P: Problem> Newton<'_, P> {
         mut tension: Vec<f64>,
         wanted: f64,
         most: i32,
-    ) -> Result<Trial, f64> {
+    ) -> Result<RetractedState, f64> {
         let no_force = vec![0.0; x.len()];
         let mut last = f64::INFINITY;
         for left in (0..=most).rev() {
@@ -137,7 +137,7 @@ impl<P: Problem> Newton<'_, P> {
             let rate = size / last;
             if size <= wanted || (size <= ROUNDING_GAP && rate > 0.5) {
                 let merit = self.merit_of(&x, &tension, &gaps);
-                return Ok(Trial { x, tension, merit });
+                return Ok(RetractedState { x, tension, merit });
             }
             if !(size.is_finite() && rate < 1.0 && size * rate.powi(left) <= wanted.max(ROUNDING_GAP)) {
                 return Err(size);

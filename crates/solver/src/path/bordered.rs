@@ -44,7 +44,7 @@ const RATE_ERROR: f64 = 1e-11;
 
 /// A plane in the space of unknowns and parameter: its normal, the parameter's part in units of length.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Plane {
+pub(super) struct Hyperplane {
     pub x: Vec<f64>,
     pub parameter: f64,
 }
@@ -137,7 +137,7 @@ impl Bordered {
 
     /// Solves for a force on every unknown, a stretch of every measure and a distance from the plane. Returns the
     /// changes, and the relative residual.
-    pub fn solve(&mut self, force: &[f64], stretch: &[f64], distance: f64, plane: &Plane) -> (Rates, f64) {
+    pub fn solve(&mut self, force: &[f64], stretch: &[f64], distance: f64, plane: &Hyperplane) -> (Rates, f64) {
         let planes = Planes { planes: &[plane], distances: &[distance], pulls: &[] };
         let (rates, _, residual) = self.solve_across(force, stretch, &planes);
         (rates, residual)
@@ -155,7 +155,7 @@ impl Bordered {
             let (dx, dt) = self.tangent.system.apply(pull, &vec![0.0; stretch.len()]);
             responses.push(Pair(scaled(dx, stiffness), scaled(dt, stiffness)));
         }
-        let mut equations = Equations { bordered: self, planes, responses, stiffness };
+        let mut equations = BorderedSystem { bordered: self, planes, responses, stiffness };
         let found = equations.solve(&right);
         let pull = equations.bordered.pull(&found.1);
         let units = [
@@ -188,7 +188,7 @@ impl Bordered {
     /// The softest motion in a plane, and across the motions in `others`, by inverse iteration from `guess`: rates whose
     /// part of the unknowns has length 1, and its stiffness. Where the system is singular it is a null vector. Across a
     /// path only branch points have one: where the parameter turns, the motion without stiffness is the path's own.
-    pub fn softest(&mut self, guess: &[f64], plane: &Plane, others: &[Rates]) -> (Rates, f64) {
+    pub fn softest(&mut self, guess: &[f64], plane: &Hyperplane, others: &[Rates]) -> (Rates, f64) {
         let nothing = vec![0.0; self.tangent.compliance.len()];
         let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
         let mut stiffness = f64::NAN;
@@ -230,7 +230,7 @@ fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
 /// The equations of a bordered system beyond Newton's own: distances from planes; and its unknowns beyond the
 /// parameter, forces along given directions, one less than planes.
 pub(super) struct Planes<'a> {
-    pub planes: &'a [&'a Plane],
+    pub planes: &'a [&'a Hyperplane],
     pub distances: &'a [f64],
     pub pulls: &'a [Vec<f64>],
 }
@@ -238,7 +238,7 @@ pub(super) struct Planes<'a> {
 /// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter and
 /// the pulls, divided by a stiffness so that they are lengths, are the last unknowns, and the equations of the planes
 /// are multiplied by that stiffness, so that they are forces.
-struct Equations<'a> {
+struct BorderedSystem<'a> {
     bordered: &'a mut Bordered,
     planes: &'a Planes<'a>,
     /// Response to the rates by the parameter and to each pull.
@@ -246,14 +246,14 @@ struct Equations<'a> {
     stiffness: f64,
 }
 
-impl Equations<'_> {
+impl BorderedSystem<'_> {
     /// Distance from a plane that a unit of the parameter makes (number 0), or of a pull (others).
-    fn corner(plane: &Plane, number: usize) -> f64 {
+    fn corner(plane: &Hyperplane, number: usize) -> f64 {
         if number == 0 { plane.parameter } else { 0.0 }
     }
 }
 
-impl NearlySolved for Equations<'_> {
+impl NearlySolved for BorderedSystem<'_> {
     fn product(&self, Pair(x, t): &Pair) -> Pair {
         let Bordered { tangent: Tangent { at, compliance, .. }, rates: [force, gap], .. } = &*self.bordered;
         let (dx, more) = x.split_at(force.len());
@@ -270,7 +270,7 @@ impl NearlySolved for Equations<'_> {
         for (k, b) in b.iter_mut().enumerate() {
             *b = (*b - compliance[k] * dt[k] + more[0] * gap[k]) / at.sizes[k];
         }
-        let off = |plane: &&Plane| self.stiffness * (dot(&plane.x, dx) + plane.parameter * more[0]);
+        let off = |plane: &&Hyperplane| self.stiffness * (dot(&plane.x, dx) + plane.parameter * more[0]);
         a.extend(self.planes.planes.iter().map(off));
         Pair(a, b)
     }

@@ -5,7 +5,7 @@
 //! 1977). A state of another branch is sought in the plane across such a direction at a small distance from the branch
 //! point, which the path itself does not meet there.
 
-use super::bordered::Plane;
+use super::bordered::Hyperplane;
 use super::follower::Follower;
 use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
@@ -77,7 +77,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.problem.set_parameter(point.parameter);
         self.bordered.linearize(self.problem, &point.x, &point.tension);
         self.bordered.factor()?;
-        let plane = Plane::across(&point.tangent, self.bordered.unit);
+        let plane = Hyperplane::across(&point.tangent, self.bordered.unit);
         let mut found: Vec<Rates> = vec![];
         for guess in guesses(point.x.len()).take(multiplicity) {
             let (null, _) = self.bordered.softest(&guess, &plane, &found);
@@ -99,7 +99,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// The first state of the branch that leaves along a direction, on the side of this sign.
     fn leave(&mut self, point: &PathState, direction: &Rates, sign: f64) -> Found<Option<PathState>> {
-        let plane = Plane::across(&direction.clone().scaled(sign), self.bordered.unit);
+        let plane = Hyperplane::across(&direction.clone().scaled(sign), self.bordered.unit);
         for halving in 0..MOST_HALVINGS {
             let away = DISTANCE * self.settings.max_step * 0.5f64.powi(halving as i32);
             let step = sign * away * self.bordered.length;

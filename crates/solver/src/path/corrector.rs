@@ -1,6 +1,6 @@
 //! Newton's method onto a path, across a plane.
 
-use super::bordered::{Plane, REFUSED_RESIDUAL};
+use super::bordered::{Hyperplane, REFUSED_RESIDUAL};
 use super::follower::Follower;
 use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
@@ -40,7 +40,7 @@ struct Corrected {
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
     /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
-    pub fn settle(&mut self, guess: Rates, plane: &Plane, arc: f64) -> Found<Option<(PathState, f64)>> {
+    pub fn settle(&mut self, guess: Rates, plane: &Hyperplane, arc: f64) -> Found<Option<(PathState, f64)>> {
         let Some(found) = self.correct(guess, plane)? else { return Ok(None) };
         let off = found.off;
         Ok(Some((self.complete(found, plane, arc)?, off)))
@@ -48,7 +48,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge,
     /// or leads to a state in which derivatives tell nothing.
-    fn correct(&mut self, mut at: Rates, plane: &Plane) -> Result<Option<Corrected>, FactorError> {
+    fn correct(&mut self, mut at: Rates, plane: &Hyperplane) -> Result<Option<Corrected>, FactorError> {
         let (tolerance, mut last, mut off, mut polished) = (self.settings.tolerance, f64::INFINITY, 0.0, 0);
         for iterations in 0..=MOST_STEPS {
             self.problem.set_parameter(at.parameter);
@@ -101,7 +101,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Returns a state whose gaps are within the tolerance, but not those that very stiff measures have by their tensions,
     /// after one step more: a self stress of theirs would be that of the guess.
-    fn precise(&mut self, found: Corrected, plane: &Plane) -> Result<Corrected, FactorError> {
+    fn precise(&mut self, found: Corrected, plane: &Hyperplane) -> Result<Corrected, FactorError> {
         let missing = self.bordered.tangent.at.missing(&found.at.tension, self.problem.compliance());
         let tensions = self.problem.compliance().iter().zip(&found.at.tension);
         let stretched = tensions.fold(0.0, |most, (c, t)| f64::max(most, c * t.abs()));
@@ -157,7 +157,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
     /// inertia.
-    fn complete(&mut self, found: Corrected, plane: &Plane, arc_length: f64) -> Result<PathState, FactorError> {
+    fn complete(&mut self, found: Corrected, plane: &Hyperplane, arc_length: f64) -> Result<PathState, FactorError> {
         self.bordered.factor()?;
         let Corrected { at: Rates { x, tension, parameter }, residuals, iterations, .. } = self.relieved(found)?;
         let negative_eigenvalues = self.bordered.negative_eigenvalues()?;
@@ -189,7 +189,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     }
 }
 
-impl Plane {
+impl Hyperplane {
     /// The plane across these rates, of which the parameter is counted in this unit of length.
     pub(super) fn across(rates: &Rates, unit: f64) -> Self {
         let parameter = rates.parameter / unit;

@@ -1,6 +1,6 @@
 //! Special states between two states of a path: where a function of the states changes its sign.
 
-use super::bordered::Plane;
+use super::bordered::Hyperplane;
 use super::branching::guesses;
 use super::exits::SAME_STATE;
 use super::follower::{Follower, LEAST_TANGENT_COSINE};
@@ -81,7 +81,7 @@ fn level(state: &PathState, turn: Turn) -> Option<i64> {
 
 /// The verdict on a supposed branch point by the stiffness of its softest motion across the path, which vanishes at a
 /// true one.
-enum Crossing {
+enum BranchPointVerdict {
     /// It vanishes at this part of the way, in this state.
     At(f64, Box<PathState>),
     /// It does not change its sign: it left what counts as zero.
@@ -210,11 +210,11 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let Some((at, state)) = self.bisect([from, to], [part, end], &mut differs)? else { return Ok(false) };
             let beyond = if at + beside < end { self.between(from, to, at + beside)? } else { None };
             let after = beyond.and_then(|state| level(&state, turn)).unwrap_or(last);
-            let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
+            let crossing = if after == before { BranchPointVerdict::Nowhere } else { self.refined([from, to], at)? };
             let point = match crossing {
-                Crossing::At(at, state) => Some((at, *state)),
-                Crossing::Nowhere => None,
-                Crossing::Unknown => Some((at, state)),
+                BranchPointVerdict::At(at, state) => Some((at, *state)),
+                BranchPointVerdict::Nowhere => None,
+                BranchPointVerdict::Unknown => Some((at, state)),
             };
             if let Some((at, mut state)) = point {
                 // Newton's system is singular there, and its own tangent any mixture with the null vectors
@@ -230,16 +230,16 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
     /// vanishes, by inverse interpolation between states around it. At the point itself neither Newton's method nor a
     /// count of signs is exact: rounding errors move a state along the null vector, and stiffnesses that are rounding
     /// errors count as positive.
-    fn refined(&mut self, [from, to]: Ends<'_>, mut at: f64) -> Found<Crossing> {
+    fn refined(&mut self, [from, to]: Ends<'_>, mut at: f64) -> Found<BranchPointVerdict> {
         let (cubic, mut guess) = (Cubic::new(from, to), guesses(from.x.len()).next().unwrap_or_default());
         for _ in 0..MOST_SHIFTS {
             let apart = f64::min(AROUND / (to.arc_length - from.arc_length), 0.4 * f64::min(at, 1.0 - at));
             let mut around: Vec<[f64; 2]> = vec![];
             for place in [-2.0, -1.0, 1.0, 2.0] {
                 let part = at + place * apart;
-                let plane = Plane::across(&cubic.tangent(part).0, self.bordered.unit);
+                let plane = Hyperplane::across(&cubic.tangent(part).0, self.bordered.unit);
                 if self.between(from, to, part)?.is_none() {
-                    return Ok(Crossing::Unknown);
+                    return Ok(BranchPointVerdict::Unknown);
                 }
                 let (softest, stiffness) = self.bordered.softest(&guess, &plane, &[]);
                 guess = softest.x;
@@ -248,10 +248,12 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             if around[0][1] * around[3][1] < 0.0 {
                 let part = zero_of(&around);
                 if !((part - at).abs() <= 2.0 * apart) {
-                    return Ok(Crossing::Unknown);
+                    return Ok(BranchPointVerdict::Unknown);
                 }
                 let state = self.between(from, to, part)?;
-                return Ok(state.map_or(Crossing::Unknown, |state| Crossing::At(part, Box::new(state))));
+                return Ok(
+                    state.map_or(BranchPointVerdict::Unknown, |state| BranchPointVerdict::At(part, Box::new(state)))
+                );
             }
             let way = (around[3][0] - around[0][0]) / (around[3][1] - around[0][1]);
             at -= BEYOND * way * 0.5 * (around[1][1] + around[2][1]);
@@ -259,7 +261,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                 break;
             }
         }
-        Ok(Crossing::Nowhere)
+        Ok(BranchPointVerdict::Nowhere)
     }
 
     /// Locates the first state found, between these parts of the way between two others, of which something holds that

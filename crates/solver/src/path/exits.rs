@@ -6,7 +6,7 @@
 //! branch arrives at a branch point where it passes a state through which branches leave there; at the point itself,
 //! where Newton's system is singular, nothing could be decided.
 
-use super::bordered::Plane;
+use super::bordered::Hyperplane;
 use super::follower::Follower;
 use super::interpolant::Cubic;
 use super::outcome::{Found, MarkedState};
@@ -71,7 +71,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let chord = Cubic::new(from, to).chord();
         let along = self.product(&off, &chord) / self.product(&chord, &chord);
         guess.add(along, &chord);
-        let found = self.settle(guess, &Plane::across(&chord, self.bordered.unit), 0.0)?;
+        let found = self.settle(guess, &Hyperplane::across(&chord, self.bordered.unit), 0.0)?;
         Ok(found.is_some_and(|(found, _)| self.are_same(&found, state)))
     }
 

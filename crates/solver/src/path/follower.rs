@@ -1,6 +1,6 @@
 //! Steps along a path: predictor, corrector, and the length of the next step.
 
-use super::bordered::{Bordered, Plane};
+use super::bordered::{Bordered, Hyperplane};
 use super::interpolant::Cubic;
 use super::outcome::{Found, PathError, PathSettings};
 use super::problem::{ParametrizedProblem, PathState, Rates};
@@ -61,7 +61,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     pub fn begin(&mut self, Start { x, tension }: Start) -> Found<PathState> {
         let tension = tension.unwrap_or_else(|| vec![0.0; self.problem.layout().stiff.len()]);
         let sign = if self.settings.target < self.origin { -1.0 } else { 1.0 };
-        let plane = Plane::of_parameter(x.len(), sign);
+        let plane = Hyperplane::of_parameter(x.len(), sign);
         let guess = Rates { x, tension, parameter: self.origin };
         let (mut state, _) = self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart)?;
         self.problem.accept(&mut state.x);
@@ -141,9 +141,9 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
 
     /// The plane across a direction; at a kink, where the parameter may turn back at once while the unknowns go on, across
     /// the direction of the unknowns.
-    fn plane(&self, direction: &Rates, at_kink: bool) -> Plane {
-        let plane = Plane::across(direction, self.bordered.unit);
-        if at_kink { Plane { parameter: 0.0, ..plane } } else { plane }
+    fn plane(&self, direction: &Rates, at_kink: bool) -> Hyperplane {
+        let plane = Hyperplane::across(direction, self.bordered.unit);
+        if at_kink { Hyperplane { parameter: 0.0, ..plane } } else { plane }
     }
 
     /// First step of a path.
@@ -181,7 +181,7 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
     pub fn at_parameter(&mut self, from: &PathState, to: &PathState, parameter: f64) -> Found<Option<PathState>> {
         let part = (parameter - from.parameter) / (to.parameter - from.parameter);
         let guess = Rates { parameter, ..Cubic::new(from, to).at(part) };
-        let plane = Plane::of_parameter(from.x.len(), (to.parameter - from.parameter).signum());
+        let plane = Hyperplane::of_parameter(from.x.len(), (to.parameter - from.parameter).signum());
         let arc_length = from.arc_length + part * (to.arc_length - from.arc_length);
         if let Some((state, _)) = self.settle(guess, &plane, arc_length)? {
             return Ok(Some(state));

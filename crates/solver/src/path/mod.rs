@@ -46,7 +46,7 @@ pub use outcome::{Branch, BranchEnd, HalfBranches, MarkedState, PathError, PathM
 pub use problem::{ParametrizedProblem, PathState, Rates};
 pub use reach::reach;
 pub use record::{PathEntry, PathObserver, PathRecord};
-use run::Run;
+use run::PathRun;
 
 /// Follows the equilibria of a problem from a start near one, at the problem's present parameter, towards the target of
 /// the settings; then, if the settings ask for it, the branches that leave at branch points. `record` is what an
@@ -62,7 +62,7 @@ pub fn follow_path<P: ParametrizedProblem>(
     observer: &mut dyn PathObserver<P>,
     record: PathRecord,
 ) -> Result<Vec<Branch>, PathError> {
-    let mut run = Run::new(problem, settings, watch, observer, record)?;
+    let mut run = PathRun::new(problem, settings, watch, observer, record)?;
     run.main_branch(start)?;
     run.other_branches()?;
     Ok(run.branches)

@@ -12,7 +12,7 @@
 //! is lost in rounding errors: the ring is widened until it is well above them. Where another branch point is near, no
 //! states are found on a wide ring: it is narrowed.
 
-use super::bordered::{Plane, Planes, REFUSED_RESIDUAL};
+use super::bordered::{Hyperplane, Planes, REFUSED_RESIDUAL};
 use super::follower::Follower;
 use super::outcome::Found;
 use super::problem::{ParametrizedProblem, PathState, Rates};
@@ -47,7 +47,7 @@ const NEAR: f64 = 0.1;
 struct Ring<'a> {
     point: &'a PathState,
     nulls: &'a [Rates; 2],
-    planes: [Plane; 2],
+    planes: [Hyperplane; 2],
     radius: f64,
 }
 
@@ -94,7 +94,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         nulls: &[Rates; 2],
     ) -> Found<Option<(usize, Vec<PathState>)>> {
         let unit = self.bordered.unit;
-        let planes = [0, 1].map(|k| Plane { x: nulls[k].x.clone(), parameter: nulls[k].parameter / unit });
+        let planes = [0, 1].map(|k| Hyperplane { x: nulls[k].x.clone(), parameter: nulls[k].parameter / unit });
         let (mut rung, mut narrow, mut wide) = (0, -NARROWER_RINGS - 1, WIDER_RINGS + 1);
         while narrow + 1 < wide {
             let radius = FIRST_RADIUS * WIDER.powi(rung) * self.bordered.length;
@@ -199,7 +199,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let [one, other] = ring.nulls;
             let mut radial = one.clone().scaled(cos);
             radial.add(sin, other);
-            let plane = Plane::across(&radial, self.bordered.unit);
+            let plane = Hyperplane::across(&radial, self.bordered.unit);
             let away = ring.radius / self.bordered.length;
             found.extend(self.settle(zero.at, &plane, away)?.filter(|(_, off)| *off <= NEAR * ring.radius));
         }

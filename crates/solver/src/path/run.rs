@@ -1,19 +1,19 @@
 //! A path with all its branches, from where each begins to where it ends.
 
-use super::bordered::Plane;
+use super::bordered::Hyperplane;
 use super::events::{Marks, Watch};
 use super::exits::{Exit, SAME_STATE};
 use super::follower::{Follower, SHRINK};
 use super::outcome::{Branch, BranchEnd, Found, MarkedState, PathError, PathMark, PathSettings};
 use super::problem::{Ends, ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
-use super::work::Step;
+use super::work::PathStep;
 use crate::newton::Start;
 use crate::tension;
 use std::collections::BTreeMap;
 
 /// A path on its way, with all its branches.
-pub(super) struct Run<'a, P: ParametrizedProblem> {
+pub(super) struct PathRun<'a, P: ParametrizedProblem> {
     pub follower: Follower<'a, P>,
     pub watch: &'a mut dyn Watch<P>,
     observer: &'a mut dyn PathObserver<P>,
@@ -36,7 +36,7 @@ struct Way {
     length: f64,
 }
 
-impl<'a, P: ParametrizedProblem> Run<'a, P> {
+impl<'a, P: ParametrizedProblem> PathRun<'a, P> {
     /// A path that has not begun.
     pub fn new(
         problem: &'a mut P,
@@ -153,7 +153,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let before =
             way.known.len().checked_sub(2).map(|k| &way.known[k]).filter(|before| before.choice == last.choice);
         let reference = self.follower.problem.reference(&last.x);
-        let Some(Step { state: next, middle, work, longer }) =
+        let Some(PathStep { state: next, middle, work, longer }) =
             self.follower.balanced_step(before, last, way.length, &reference)?
         else {
             return Ok(ended(vec![], BranchEnd::Failed));
@@ -251,7 +251,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         let Some(last) = states.last_mut() else { return Ok(false) };
         self.follower.problem.set_parameter(last.state.parameter);
         self.follower.problem.set_reference(&last.reference);
-        let plane = Plane::of_parameter(last.state.x.len(), sign);
+        let plane = Hyperplane::of_parameter(last.state.x.len(), sign);
         let found = self.follower.settle(last.state.place(), &plane, last.state.arc_length)?;
         let Some((state, _)) = found else { return Ok(false) };
         (last.state, last.mark) = (state, Some(PathMark::Turned));

@@ -5,14 +5,14 @@ use super::exits::Exit;
 use super::interpolant::Cubic;
 use super::outcome::{BranchEnd, Found, HalfBranches, MarkedState, PathMark};
 use super::problem::{ParametrizedProblem, PathState};
-use super::run::Run;
+use super::run::PathRun;
 
 /// Largest number of branches.
 const MOST_BRANCHES: usize = 64;
 /// Part of the parameter's way within which a branch point is at the end of the path itself.
 const AT_THE_POINT: f64 = 1e-6;
 
-impl<P: ParametrizedProblem> Run<'_, P> {
+impl<P: ParametrizedProblem> PathRun<'_, P> {
     /// Follows the branches that leave at the branch points found, theirs too.
     pub fn other_branches(&mut self) -> Found<()> {
         let mut number = 0;

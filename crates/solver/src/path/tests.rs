@@ -17,7 +17,7 @@ const EA: f64 = 1.0;
 type Value = (f64, Vec<f64>, Vec<f64>);
 
 /// A problem made of functions of the unknowns and the parameter.
-struct Textbook {
+struct TextbookPath {
     layout: Arc<Layout>,
     compliance: Vec<f64>,
     scale: Vec<f64>,
@@ -29,7 +29,7 @@ struct Textbook {
     conjugate: fn(&[f64], &[f64]) -> f64,
 }
 
-impl Textbook {
+impl TextbookPath {
     fn layout(unknowns: usize, measures: usize) -> Arc<Layout> {
         let (mut soft, mut stiff) = (Cliques::new(), Cliques::new());
         soft.push(0..unknowns as u32);
@@ -53,7 +53,7 @@ impl Textbook {
     }
 }
 
-impl Problem for Textbook {
+impl Problem for TextbookPath {
     fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
@@ -95,7 +95,7 @@ impl Problem for Textbook {
     fn accept(&mut self, _x: &mut [f64]) {}
 }
 
-impl ParametrizedProblem for Textbook {
+impl ParametrizedProblem for TextbookPath {
     fn parameter(&self) -> f64 {
         self.parameter
     }
@@ -139,7 +139,7 @@ impl<P> PathObserver<P> for Nothing {
     }
 }
 
-fn follow(problem: &mut Textbook, x: Vec<f64>, settings: &PathSettings) -> Vec<Branch> {
+fn follow(problem: &mut TextbookPath, x: Vec<f64>, settings: &PathSettings) -> Vec<Branch> {
     follow_path(problem, Start::from(x), settings, &mut Nothing, &mut Nothing, PathRecord::default()).unwrap()
 }
 
@@ -169,8 +169,8 @@ fn load(z: f64) -> f64 {
 /// work.
 #[test]
 fn a_truss_snaps_through() {
-    let mut truss = Textbook {
-        layout: Textbook::layout(1, 1),
+    let mut truss = TextbookPath {
+        layout: TextbookPath::layout(1, 1),
         compliance: vec![compliance_of_bars()],
         scale: vec![1.0],
         parameter: 0.0,
@@ -211,8 +211,8 @@ const SPRING: f64 = 0.02;
 /// `F'(z) = s`, the force where `l^3 = L0 w^2`. Tolerance of the located points: rounding over the curvature there.
 #[test]
 fn a_truss_behind_a_soft_spring_snaps_back() {
-    let mut truss = Textbook {
-        layout: Textbook::layout(2, 2),
+    let mut truss = TextbookPath {
+        layout: TextbookPath::layout(2, 2),
         compliance: vec![compliance_of_bars(), 0.0],
         scale: vec![1.0; 2],
         parameter: 0.0,
@@ -259,7 +259,7 @@ fn a_truss_behind_a_soft_spring_snaps_back() {
 /// E = angle^2/2 - load (1 - cos(angle)). Tolerance: rounding; next to the branch point the angle is known to its root.
 #[test]
 fn a_column_buckles() {
-    let mut column = Textbook::of_energy(
+    let mut column = TextbookPath::of_energy(
         1,
         |x, load| {
             let (sin, cos) = x[0].sin_cos();
@@ -297,7 +297,7 @@ const WAVES: f64 = 6.0;
 #[test]
 fn close_pairs_of_limit_points_are_found() {
     for max_step in [0.02, 0.05, 0.1, 0.2] {
-        let mut staircase = Textbook::of_energy(
+        let mut staircase = TextbookPath::of_energy(
             1,
             |x, load| {
                 let ((sin, cos), x) = ((WAVES * x[0]).sin_cos(), x[0]);
@@ -327,7 +327,7 @@ fn close_pairs_of_limit_points_are_found() {
 fn branch_points_beside_limit_points_are_located() {
     const B: f64 = 1e-5;
     for max_step in [0.02, 0.05, 0.1, 0.2] {
-        let mut wings = Textbook::of_energy(
+        let mut wings = TextbookPath::of_energy(
             3,
             |at, load| {
                 let ([x, y, z], [a, b]) = ([at[0], at[1], at[2]], [20.0 * (at[0] + 1.0 - B), 20.0 * (at[0] - 1.0 + B)]);
@@ -355,7 +355,7 @@ fn branch_points_beside_limit_points_are_located() {
 #[test]
 fn refused_steps_are_counted() {
     static EVALUATIONS: AtomicUsize = AtomicUsize::new(0);
-    let mut wave = Textbook::of_energy(
+    let mut wave = TextbookPath::of_energy(
         2,
         |x, load| {
             EVALUATIONS.fetch_add(1, Ordering::Relaxed);
@@ -382,7 +382,7 @@ fn refused_steps_are_counted() {
 #[test]
 fn neighbouring_branches_are_told_apart() {
     const APART: f64 = 5e-5;
-    let mut pair = Textbook::of_energy(
+    let mut pair = TextbookPath::of_energy(
         2,
         |x, load| {
             let (sin, cos) = (3.0 * x[1]).sin_cos();
@@ -399,7 +399,7 @@ fn neighbouring_branches_are_told_apart() {
     for (load, side) in [(0.0, 1.0), (0.04, 1.0), (0.1, 1.0), (0.06, 1.0), (0.06, -1.0)] {
         let x = vec![f64::sin(3.0 * load) + side * APART, load];
         let guess = Rates { x, tension: vec![], parameter: load };
-        let (mut state, _) = follower.settle(guess, &bordered::Plane::of_parameter(2, 1.0), 0.0).unwrap().unwrap();
+        let (mut state, _) = follower.settle(guess, &bordered::Hyperplane::of_parameter(2, 1.0), 0.0).unwrap().unwrap();
         // between the chord and the curve, which differ by less than what is told apart
         state.arc_length = load * (1.0 + 9.0 + 2.0f64).sqrt() / std::f64::consts::SQRT_2;
         states.push(state);
@@ -416,8 +416,8 @@ fn neighbouring_branches_are_told_apart() {
 /// Tolerance: the last step.
 #[test]
 fn a_closed_path_ends_where_it_began() {
-    let mut circle = Textbook {
-        layout: Textbook::layout(2, 1),
+    let mut circle = TextbookPath {
+        layout: TextbookPath::layout(2, 1),
         compliance: vec![0.0],
         scale: vec![1.0],
         parameter: 0.0,

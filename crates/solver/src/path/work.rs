@@ -16,7 +16,7 @@ const SHORTEST_CHECKED: f64 = 1e-3;
 const ROUNDING: f64 = 1e-12;
 
 /// A step along a path.
-pub(super) struct Step {
+pub(super) struct PathStep {
     /// The state at its end.
     pub state: PathState,
     /// The state half way, where it is found and the path goes on through it.
@@ -55,7 +55,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         last: &PathState,
         mut length: f64,
         reference: &[f64],
-    ) -> Found<Option<Step>> {
+    ) -> Found<Option<PathStep>> {
         loop {
             let Some((state, longer)) = self.step(before, last, length)? else { return Ok(None) };
             let (largest, way) = (self.largest, state.arc_length - last.arc_length);
@@ -68,7 +68,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
                     self.cosine(&end.tangent, &middle.tangent) >= LEAST_TANGENT_COSINE
                 };
                 let middle = middle.filter(|middle| is_along(last, middle) && is_along(&state, middle));
-                return Ok(Some(Step { state, middle, work, longer }));
+                return Ok(Some(PathStep { state, middle, work, longer }));
             }
             length = SHRINK * length.min(way);
             self.problem.set_reference(reference);

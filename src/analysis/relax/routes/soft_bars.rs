@@ -44,7 +44,7 @@ const DOUBTFUL_PART: f64 = 0.9;
 /// A branch of rigid folding, by the creases and soft facets that have a rest angle other than 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "BranchChoiceSummary")]
-pub struct BranchChoice {
+pub struct FoldingBranch {
     /// Number of these creases and facets.
     pub hinges: usize,
     /// Number of those that are folded to the side of their rest angle.
@@ -53,7 +53,7 @@ pub struct BranchChoice {
     pub soft_bars: bool,
 }
 
-impl BranchChoice {
+impl FoldingBranch {
     /// Returns the branch of the state `x` of a model that was started with these angles; `None` if the start was
     /// neither flat nor singular, is flat still, or all rest angles are zero.
     pub(crate) fn of(model: &Model, x: &[f64], start: &[f64], soft_bars: bool) -> Option<Self> {

@@ -3,14 +3,14 @@
 //! curve is that of its spatially periodic states.
 
 use super::extent::Extent;
-use super::{Net, RigidError, Sampling};
+use super::{RigidError, Sampling, StateGraph};
 use crate::kinematics::{
     Closing, Closure, Embedding, KinematicsError, Rays, RealDirections, SecondOrder, SpatiallyPeriodic,
 };
 use crate::model::{Assembly, Domain};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
-use crate::solver::continuation::{CurveOptions, End, Point, follow};
+use crate::solver::continuation::{CurveOptions, CurvePoint, End, follow};
 use std::f64::consts::TAU;
 
 /// Steps on curves over those on surfaces: they cost next to nothing.
@@ -21,7 +21,7 @@ pub(super) fn net(
     assembly: &Assembly,
     (sampling, extent): (&Sampling, &Extent),
     go_on: &mut dyn FnMut() -> bool,
-) -> Result<Net, RigidError> {
+) -> Result<StateGraph, RigidError> {
     let closure = Closure::of_tiling(assembly.sheet(), assembly.tiling())?.with_locked(&assembly.locked_edges());
     closure.is_complete()?;
     let drawn = assembly.drawn_angles_or_zero();
@@ -40,11 +40,11 @@ pub(super) fn net(
         None => closing,
     };
     // the curve ends where an angle leaves the landscape
-    let mut excess = |folding: &mut Closing<'_>, point: &Point, out: &mut Vec<f64>| {
+    let mut excess = |folding: &mut Closing<'_>, point: &CurvePoint, out: &mut Vec<f64>| {
         out.push(extent.excess(&folding.angles(&point.x)));
     };
     let crossing = rays.len() > 2;
-    let mut net = Net {
+    let mut net = StateGraph {
         angles: vec![drawn.clone()],
         links: vec![],
         singular: vec![crossing],
@@ -83,7 +83,7 @@ pub(super) fn net(
 
 /// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the
 /// Jacobian pass zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
-fn meetings(folding: &mut Closing<'_>, points: &[Point]) -> Result<usize, KinematicsError> {
+fn meetings(folding: &mut Closing<'_>, points: &[CurvePoint]) -> Result<usize, KinematicsError> {
     let (mut found, mut last) = (0, None::<DenseMatrix>);
     for point in points.get(1..points.len() - 1).unwrap_or_default() {
         let (_, next) = folding.linearized(&point.x);

@@ -17,7 +17,7 @@ mod surface;
 
 use super::merge::are_close;
 use crate::analysis::exact::{Springs, Stationary};
-use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
+use crate::analysis::surface::{FoldedSurface, Lowest, Negative, SurfaceError};
 use crate::kinematics::KinematicsError;
 use crate::model::{Assembly, Domain, Gauge};
 use crate::numerics::vector::distance;
@@ -40,7 +40,7 @@ pub struct Sampling {
 }
 
 /// Sampled states that hang together.
-pub(super) struct Net {
+pub(super) struct StateGraph {
     /// Fold angles of all edges.
     pub angles: Vec<Vec<f64>>,
     /// Neighbours.
@@ -135,7 +135,7 @@ pub fn landscape(
     };
     let options = surface::options(sampling);
     let lowest = |angles: &[f64], sign: f64| {
-        Surface::lowest_on_crossing(assembly, &options, angles, &|angles| sign * springs.energy(angles))
+        FoldedSurface::lowest_on_crossing(assembly, &options, angles, &|angles| sign * springs.energy(angles))
     };
     let reach = NEIGHBOUR_DISTANCES * sampling.step;
     Ok(Sampled { springs: &springs, extent: &extent, net: &net, reach, lowest: &lowest }.polished())
@@ -145,7 +145,7 @@ pub fn landscape(
 struct Sampled<'a> {
     springs: &'a Springs,
     extent: &'a Extent,
-    net: &'a Net,
+    net: &'a StateGraph,
     /// Largest distance of an exact state from a sampled one.
     reach: f64,
     /// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially
@@ -249,7 +249,7 @@ impl Sampled<'_> {
     }
 }
 
-impl Net {
+impl StateGraph {
     /// Neighbours of a state.
     fn beside(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
         self.links.iter().filter(move |link| link.contains(&at)).map(move |[a, b]| a + b - at)

@@ -1,8 +1,8 @@
 //! Folded states that are a surface: one periodic cell, repeated by screw motions.
 
 use super::extent::Extent;
-use super::{Net, RigidError, Sampling};
-use crate::analysis::surface::{Seam, Surface, SurfaceOptions, on_surface};
+use super::{RigidError, Sampling, StateGraph};
+use crate::analysis::surface::{FoldedSurface, SeamState, SurfaceOptions, on_surface};
 use crate::model::Assembly;
 use crate::numerics::vector::distance;
 use crate::sheet::sides::uses_of_sides;
@@ -72,9 +72,9 @@ impl<'a> Nodes<'a> {
 
 /// Adds the states of the curve on which surfaces cross, between those whose edge goes over it, and next to each other;
 /// returns the number of the first.
-fn sew(nodes: &mut Nodes<'_>, links: &mut BTreeSet<[usize; 2]>, seam: &[Seam], step: f64) -> usize {
+fn sew(nodes: &mut Nodes<'_>, links: &mut BTreeSet<[usize; 2]>, seam: &[SeamState], step: f64) -> usize {
     let first = nodes.angles.len();
-    for Seam { angles, between: [a, b] } in seam {
+    for SeamState { angles, between: [a, b] } in seam {
         nodes.add(angles);
         for at in nodes.of_state[nodes.of_state.len() - 1].clone() {
             let ends = [*a, *b].map(|state| nodes.next_to(at, state));
@@ -93,9 +93,9 @@ pub(super) fn net(
     assembly: &Assembly,
     (sampling, extent): (&Sampling, &Extent),
     go_on: &mut dyn FnMut() -> bool,
-) -> Result<Net, RigidError> {
+) -> Result<StateGraph, RigidError> {
     let found = on_surface(assembly, &options(sampling), &mut |_| go_on())?;
-    let Surface { points, triangles, coverage, negative, seam, lost, .. } = found;
+    let FoldedSurface { points, triangles, coverage, negative, seam, lost, .. } = found;
     if let Some(negative) = negative {
         return Err(RigidError::NoFolding(negative));
     }
@@ -133,7 +133,7 @@ pub(super) fn net(
     border.resize(nodes.angles.len(), false);
     singular.resize(nodes.angles.len(), true);
     let links = links.into_iter().collect();
-    Ok(Net { angles: nodes.angles, links, singular, border, dimension: 2, seam, open })
+    Ok(StateGraph { angles: nodes.angles, links, singular, border, dimension: 2, seam, open })
 }
 
 /// All pairs of nodes.
