@@ -48,7 +48,7 @@ fn with_crate(mut names: Module) -> Module {
 }
 
 /// Returns the words before the first module that is compiled for tests only.
-fn without_tests(words: &[String]) -> &[String] {
+pub(super) fn without_tests(words: &[String]) -> &[String] {
     let is = |at: usize, expected: &[&str]| {
         expected.iter().enumerate().all(|(k, e)| words.get(at + k).is_some_and(|w| w == e))
     };
