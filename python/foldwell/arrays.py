@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__: list[str] = []
 
 #: Most entries of a list: an iterator without end has more.
-MOST_ENTRIES = 10_000_000
+MOST_ENTRIES = 2_000_000
 
 Entry = TypeVar("Entry")
 
@@ -22,7 +22,7 @@ def entries(values: Iterable[Entry], name: str) -> list[Entry]:
     """Returns the entries of a list or iterator as a list.
 
     Raises:
-        ValueError: there are more than ten million, or there is no end of them.
+        ValueError: there are more than two million, or there is no end of them.
     """
     found = list(islice(values, MOST_ENTRIES + 1))
     if len(found) > MOST_ENTRIES:

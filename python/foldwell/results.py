@@ -118,7 +118,7 @@ class Result:
         return found
 
     def to_pandas(self) -> Any:
-        """Returns `table` as a `pandas.DataFrame`. Needs pandas.
+        """Returns `table` as a `pandas.DataFrame`, with the units of its columns, where they have named ones, in `attrs["units"]`. Needs pandas.
 
         Example:
             >>> import foldwell as fw
@@ -127,7 +127,9 @@ class Result:
         """
         import pandas
 
-        return pandas.DataFrame(self.table)
+        frame = pandas.DataFrame(self.table)
+        frame.attrs["units"] = {name: named for name in self.table if (named := self._unit(name))}
+        return frame
 
     def to_xarray(self) -> Any:
         """Returns `table` as an `xarray.Dataset` with dimension `row`, or `mode` and `amplitude` of a landscape. Needs xarray.

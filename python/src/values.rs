@@ -17,7 +17,7 @@ const LOADS: &str = "loads";
 /// by as many nested calls.
 const MOST_LEVELS: usize = 100;
 /// Most values of a scene: an iterator without end has more, and so have lists that contain each other many times.
-const MOST_VALUES: usize = 10_000_000;
+const MOST_VALUES: usize = 2_000_000;
 
 /// Returns a dict as a table of TOML. Keys with the value `None` are left out; tuples, arrays and other sequences
 /// become lists, paths texts.

@@ -256,6 +256,7 @@ impl Stored {
         if let Self::BeyondSpring(law) = self
             && off.abs() <= NEAR_REST * spring.rest.abs()
             && !law.has_kinks()
+            && law.remembering(memory).is_none()
         {
             return beyond_near_rest(law.as_ref(), off, spring);
         }

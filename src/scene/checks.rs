@@ -271,7 +271,7 @@ fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
     let names = drives.iter().map(|drive| drive.name.0.as_str());
     match &path.drive {
         _ if drives.is_empty() => {
-            let help = "add a [[drive]]: what is driven, and the value `to` which";
+            let help = "add a [[drive]]: what is driven, and the value `to` which it goes";
             return Err(file.error_at(study.kind.span(), "a path follows a drive, and there is none", help));
         }
         Some(name) if names.clone().all(|known| known != **name) => {

@@ -40,6 +40,8 @@ pub struct Redrawing {
     pub not_finite: usize,
     /// Number of auxiliary lines of which a part bounds no face and is left out.
     pub dropped: usize,
+    /// Number of lines shorter than the distance within which points were merged, which are left out.
+    pub vanished: usize,
     /// Number of cuts between two vertices inside the sheet; each has got a third vertex in its middle, where it opens.
     pub slits: usize,
     /// Number of faces that are holes: all their sides are boundaries, with faces all round.
@@ -83,6 +85,7 @@ impl Redrawing {
             (self.grey, "grey lines are read as auxiliary: flat, and left out where they end in a face"),
             (self.not_finite, "lines with a coordinate that is not a finite number are left out"),
             (self.dropped, "auxiliary lines are left out where they end in a face"),
+            (self.vanished, "lines are left out that are shorter than the distance within which points are one"),
             (self.slits, "cuts of one edge have got a vertex in their middle, where they open"),
             (self.holes, "faces with boundaries all round and other faces beyond them are left out as holes"),
             (

@@ -9,7 +9,7 @@ use super::error::ModesError;
 use super::spectrum::{Coupling, Observer, Spectrum, lowest};
 use crate::model::{Assembly, Domain, Model};
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::small::{cholesky, inverse};
+use crate::numerics::dense::small::{CholeskyFactor, cholesky, inverse};
 
 /// Largest product of two motions of a rigid part with the mass, over those of each with itself, that is rounding error.
 const COUPLED: f64 = 1e-12;
@@ -89,8 +89,9 @@ fn of_unknowns(model: &Model, masses: &[f64]) -> Result<(Vec<f64>, Vec<Coupling>
         let own: Vec<f64> = (0..motions.len()).map(|i| product(i, i)).collect();
         let relative = |i: usize, j: usize| product(i, j) / (own[i] * own[j]).sqrt();
         let matrix = DenseMatrix::from_fn(motions.len(), motions.len(), relative);
-        // not a number where a motion moves no mass
-        let root = cholesky(matrix.clone()).and_then(|factor| inverse(factor.l()));
+        // not a number, or singular, where a motion moves no mass, as the turns of two vertices about their line
+        let moves_mass = |factor: &CholeskyFactor| factor.l_dirty().diagonal().iter().all(|root| root * root > COUPLED);
+        let root = cholesky(matrix.clone()).filter(moves_mass).and_then(|factor| inverse(factor.l()));
         let map = root.ok_or(ModesError::MasslessMotion { part })?.transpose();
         motions.iter().zip(own).for_each(|(&unknown, mass)| found[unknown] = mass);
         if (&matrix - DenseMatrix::identity(motions.len(), motions.len())).amax() > COUPLED {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::{Matrix3, Rotation3};
 use serde_json::value::RawValue;
 
 use super::edges::Edges;
@@ -9,7 +10,8 @@ use super::frames::FoldFrame;
 use super::locate::Source;
 use super::read::{RawMesh, ReadFrame};
 use super::record;
-use crate::math::bounds;
+use crate::math::{Vec3, bounds};
+use crate::numerics::dense::small::symmetric_eigen_3;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, sides_seen};
 use crate::sheet::cell::Sheet;
@@ -28,16 +30,15 @@ const ONE_PLACE: f64 = 1e-9;
 /// Keys of the sheet that are not kept where vertices and edges get other numbers.
 const LOST: [&str; 4] = ["foldwell:stiffness", "foldwell:bar_stiffness", "foldwell:glue", "foldwell:names"];
 
-/// Returns the sheet of a flat crease pattern, with its vertices merged and its edges split.
+/// Returns the sheet of a flat crease pattern in any plane, with its vertices merged and its edges split.
 pub(super) fn sheet(
     source: &Source,
     frame: &FoldFrame,
-    (drawn, rows, mut edges): ReadFrame,
+    (mut drawn, rows, mut edges): ReadFrame,
     cleanup: &Cleanup,
 ) -> Result<Sheet, SheetError> {
-    if let Some(found) = no_flat_pattern(&drawn) {
-        return Err(source.at_value(None, PatternFault::NotFlat { found }.into()));
-    }
+    let turn = laid_flat(&drawn).map_err(|found| source.at_value(None, PatternFault::NotFlat { found }.into()))?;
+    drawn.coords.iter_mut().for_each(|x| *x = turn * *x);
     let (parts, places): (Vec<LetteredEdge>, Vec<&RawValue>) = parts(&drawn, &edges, &rows).into_iter().unzip();
     // faces are found anew, and look up
     let is_behind = sides_seen(&drawn) == [false, true];
@@ -53,6 +54,8 @@ pub(super) fn sheet(
     let head = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
     let mut sheet = sheet_of_lines(&lines, cleanup, &head)
         .map_err(|(line, problem)| source.at_value(line.map(|line| places[line]), *problem))?;
+    let height = Vec3::new(0.0, 0.0, drawn.coords[0].z);
+    sheet.vertices.iter_mut().for_each(|x| *x = turn.inverse() * (*x + height));
     edges.rebuilt = true;
     sheet.record = FileRecord { redrawing: sheet.record.redrawing, ..record::record(frame, &edges, false) };
     let lost = LOST.into_iter().filter(|key| frame.values.get(key).is_some());
@@ -63,7 +66,7 @@ pub(super) fn sheet(
 /// Returns the clean-up of a flat pattern with auxiliary edges that end inside a face, or with cuts of one edge; `None`
 /// if it has none of these.
 pub(super) fn needed((drawn, rows, edges): &ReadFrame) -> Option<Cleanup> {
-    if edges.ends.is_empty() || no_flat_pattern(drawn).is_some() {
+    if edges.ends.is_empty() || laid_flat(drawn).is_err() {
         return None;
     }
     let parts = parts(drawn, edges, rows);
@@ -81,18 +84,24 @@ pub(super) fn needed((drawn, rows, edges): &ReadFrame) -> Option<Cleanup> {
     needed.then_some(Cleanup { merge: Some(ONE_PLACE * extent), split: false })
 }
 
-/// Returns what a drawing is if it is not a flat crease pattern.
-fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
+/// Returns the rotation that lays a flat crease pattern into a plane of constant z; what the drawing is if it is none.
+fn laid_flat(drawn: &Drawing) -> Result<Rotation3<f64>, &'static str> {
     let [low, high] = bounds(&drawn.coords);
+    let thin = FLAT * (high - low).max();
     if drawn.is_repeated() {
-        Some("this sheet is periodic")
+        return Err("this sheet is periodic");
     } else if drawn.folded {
-        Some("this frame is a folded form")
-    } else if !(high.z - low.z <= FLAT * (high - low).max()) {
-        Some("the vertices of this mesh differ in z")
-    } else {
-        None
+        return Err("this frame is a folded form");
+    } else if high.z - low.z <= thin {
+        return Ok(Rotation3::identity());
     }
+    let centre = drawn.coords.iter().sum::<Vec3>() / drawn.coords.len() as f64;
+    let moments: Matrix3<f64> = drawn.coords.iter().map(|x| (x - centre) * (x - centre).transpose()).sum();
+    let (values, vectors) = symmetric_eigen_3(moments);
+    let normal: Vec3 = vectors.column(values.imin()).into();
+    let lies_in_plane = drawn.coords.iter().all(|x| (x - centre).dot(&normal).abs() <= thin);
+    let turn = Rotation3::rotation_between(&(normal * normal[normal.iamax()].signum()), &Vec3::z());
+    turn.filter(|_| lies_in_plane).ok_or("the vertices of this mesh lie in no plane")
 }
 
 /// An edge of a drawing.

@@ -51,7 +51,7 @@ pub(super) fn mesh(
     let ends: Vec<[Vec2; 2]> = lines.iter().map(|line| line.ends).collect();
     let arranged = arrange(&ends, tolerance, split, compared).map_err(|disorder| untidy(lines, disorder, tolerance))?;
     let Arrangement { mut points, mut straight, pieces } = arranged;
-    let (vanished, doubled) = (vanished(lines, &pieces), doubled(lines, &points, &pieces));
+    let (lost, doubled) = (vanished(lines, &pieces), doubled(lines, &points, &pieces));
     let conflicting = |(piece, fault): (SegmentPiece, Box<PatternFault>)| {
         let fault = gap(&points, &pieces, Some(piece), tolerance).map_or(*fault, |ends| apart(lines, ends, tolerance));
         (Some(piece.segment), fault.into())
@@ -70,6 +70,7 @@ pub(super) fn mesh(
     let mut sheet = built(lines, coords, &pieces, head).map_err(located)?;
     sheet.record.redrawing.dropped = dropped;
     sheet.record.redrawing.slits = slits;
+    sheet.record.redrawing.vanished = lost.len();
     let close = gap(&straight, &arranged, None, tolerance);
     sheet.record.redrawing.gap = close.map(|ends| Gap {
         ends: named(lines, ends).name(),
@@ -78,6 +79,7 @@ pub(super) fn mesh(
     });
     let lengths = arranged.iter().map(|piece| (straight[piece.ends[1]] - straight[piece.ends[0]]).norm());
     let shortest = lengths.fold(f64::INFINITY, f64::min);
+    let vanished = lost.into_iter().fold(0.0, f64::max);
     Ok(Meshed { sheet, vanished, doubled, shortest })
 }
 
@@ -127,12 +129,12 @@ fn letter_contours(lines: &[PatternLine], pieces: &[SegmentPiece], drawn: &mut D
     plain
 }
 
-/// Returns the length of the longest line that has no piece and is not auxiliary.
-fn vanished(lines: &[PatternLine], pieces: &[SegmentPiece]) -> f64 {
+/// Returns the lengths of lines that have no piece and are not auxiliary.
+fn vanished(lines: &[PatternLine], pieces: &[SegmentPiece]) -> Vec<f64> {
     let mut is_drawn = vec![false; lines.len()];
     pieces.iter().for_each(|piece| is_drawn[piece.segment] = true);
     let lost = lines.iter().zip(is_drawn).filter(|(line, is_drawn)| !is_drawn && !line.auxiliary);
-    lost.map(|(line, _)| (line.ends[1] - line.ends[0]).norm()).fold(0.0, f64::max)
+    lost.map(|(line, _)| (line.ends[1] - line.ends[0]).norm()).filter(|length| *length > 0.0).collect()
 }
 
 /// Returns the largest distance between lines, as they are drawn, of which pieces lie on each other; auxiliary ones are

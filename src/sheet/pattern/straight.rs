@@ -91,3 +91,44 @@ fn met(x: Vec2, split: &[[Vec2; 2]], ending: &[[Vec2; 2]]) -> Vec2 {
         None => x + off * normal,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::arrangement::{Arrangement, arrange};
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// Claim: a line stays straight where others end short of it, beyond it or cross it there, and a point on two lines
+    /// is where they meet. Source: counted by hand.
+    #[test]
+    fn lines_stay_straight() {
+        let within = |segments: &[[f64; 4]]| {
+            let ends = segments.iter().map(|s| [Vec2::new(s[0], s[1]), Vec2::new(s[2], s[3])]);
+            arrange(&ends.collect::<Vec<_>>(), 0.1, true, &mut 0).unwrap()
+        };
+        let points =
+            |found: &Arrangement| found.pieces.iter().flat_map(|piece| piece.ends).collect::<BTreeSet<_>>().len();
+        for end in [-0.08, 0.08] {
+            let found = within(&[[0.0, 0.0, 10.0, 0.0], [4.0, end, 4.0, 5.0]]);
+            assert_eq!((points(&found), found.straight[2]), (4, Vec2::new(4.0, 0.0)), "{found:?}");
+            assert_eq!(found.points[2].y, end);
+        }
+        let over = within(&[[4.0, 0.08, 4.0, -5.0], [0.0, 0.0, 10.0, 0.0], [4.05, 5.0, 4.05, 0.05]]);
+        assert_eq!((over.pieces.len(), over.straight[0]), (4, Vec2::new(4.0, 0.0)), "{over:?}");
+        // corners that both lines pass are where they meet
+        let frame =
+            [[-0.06, 0.0, 10.05, 0.0], [10.0, -0.05, 10.0, 6.07], [10.04, 6.0, -0.08, 6.0], [0.0, 6.05, 0.0, -0.05]];
+        let frame = within(&frame);
+        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 6.0], [0.0, 6.0]].map(|[x, y]| Vec2::new(x, y));
+        let is_corner = |v: usize| corners.iter().any(|corner| (frame.straight[v] - corner).norm() < 1e-12);
+        assert!(frame.pieces.len() == 4 && frame.pieces.iter().all(|piece| is_corner(piece.ends[0])), "{frame:?}");
+        // an end is cut off or drawn out along its own line
+        let slanted = within(&[[0.0, 0.0, 10.0, 0.0], [4.06, 0.06, 7.0, 3.0], [1.94, -0.06, 6.0, 4.0]]);
+        let of = |segment: usize| slanted.pieces.iter().find(|piece| piece.segment == segment).unwrap().ends[0];
+        let off = [(1, 4.0), (2, 2.0)].map(|(segment, x)| (slanted.straight[of(segment)] - Vec2::new(x, 0.0)).norm());
+        assert!(off.iter().all(|off| *off < 1e-12), "{off:?}");
+        let crossed = within(&[[0.0, 0.0, 10.0, 0.0], [4.0, -4.0, 4.0, 4.0], [4.05, 0.05, 8.0, 5.0]]);
+        let place = crossed.pieces.iter().find(|piece| piece.segment == 2).unwrap().ends[0];
+        assert_eq!(crossed.straight[place], Vec2::new(4.0, 0.0));
+    }
+}

@@ -4,6 +4,8 @@
 use crate::common::Folder;
 use foldwell::sheet::pattern::{self, Format};
 use foldwell::sheet::{Assignment, Sheet, SheetError, fold};
+use nalgebra::{Rotation3, Vector3};
+use std::f64::consts::PI;
 
 /// A square with sides of length 100 and its diagonal.
 const SQUARE: &str = r##"<rect width="100" height="100" stroke="#000"/><path d="M 0 0 L 100 100" stroke="#f00"/>"##;
@@ -253,6 +255,40 @@ fn what_is_seen_from_above() {
             "{found:?}"
         );
     }
+}
+
+/// Claim: a crease pattern in any plane is split where its creases cross, and stays in its plane, with its letters; one in
+/// no plane is refused. Source: the diagonals of a square, which a rotation and a shift have moved.
+#[test]
+fn tilted_patterns_are_split() {
+    let edges = "\"edges_vertices\": [[0,1],[1,2],[2,3],[3,0],[0,2],[1,3]], \"edges_assignment\": [\"B\",\"B\",\"B\",\"B\",\"M\",\"V\"]";
+    let shift = Vector3::new(3.0, -2.0, 5.0);
+    for [about_x, about_y] in [[0.0, 0.0], [0.7, 0.3], [PI / 2.0, 0.0], [0.0, PI / 2.0], [-1.2, 0.9]] {
+        let turn = Rotation3::from_euler_angles(about_x, about_y, 0.2);
+        let place = |x: f64, y: f64| turn * Vector3::new(x, y, 0.0) + shift;
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| <[f64; 3]>::from(place(x, y)));
+        let folder = Folder::new().with("a.fold", format!("{{\"vertices_coords\": {corners:?}, {edges}}}"));
+        folder.foldwell("convert a.fold c.fold --split").well();
+        let sheet = fold::read(&folder.file("c.fold")).unwrap();
+        assert_eq!((sheet.vertices.len(), sheet.polygons.len()), (5, 4));
+        let middle = sheet.vertices.iter().map(|v| (v - place(0.5, 0.5)).norm()).fold(f64::INFINITY, f64::min);
+        assert!(middle < 1e-12, "{about_x}, {about_y}: {middle:e}");
+        // seen from above, where its plane has an up
+        let count = |letter| sheet.edges.iter().filter(|edge| sheet.assignment(edge) == letter).count();
+        assert_eq!([count(Assignment::Mountain), count(Assignment::Valley)], [2, 2]);
+    }
+    let bent = format!("{{\"vertices_coords\": [[0,0,0],[1,0,0.3],[1,1,0],[0,1,0]], {edges}}}");
+    Folder::new().with("a.fold", bent).foldwell("convert a.fold c.fold --split").refused("lie in no plane");
+}
+
+/// Claim: lines that vanish, since they are shorter than the distance within which points are one, are counted. Source:
+/// eight creases of 0.3 that end inside a face of 1000, which no smaller distance makes a pattern.
+#[test]
+fn lines_that_vanish_are_said() {
+    let specks: String = (1..9).map(|k| format!("2 {0}00 200 {0}00.3 200\n", k)).collect();
+    let rim = "1 0 0 1000 0\n1 1000 0 1000 1000\n1 1000 1000 0 1000\n1 0 1000 0 0\n2 0 500 1000 500\n";
+    let said = Folder::new().with("a.cp", format!("{rim}{specks}")).foldwell("info a.cp").well();
+    assert!(said.all().contains("8 lines are left out that are shorter than"), "{}", said.all());
 }
 
 /// Claim: M and V on the rim are kept and said to fold nothing; a truss of bars without faces is told what lets it be read,
