@@ -108,7 +108,7 @@ pub fn modes_at(
         let (at, wanted) = ((&model, &tension[..]), (eigenvalues, free));
         vibrations = Vibrations::lowest(assembly, at, wanted, observe)?;
         if free > 0 {
-            spectrum = lowest(at, (&model.units_of_length(), &[]), wanted, observe)?.unwrap_or_default();
+            spectrum = lowest(at, (&model.units_of_length(), &[]), wanted, observe)?;
         }
     }
     let seam = seam_motions(assembly, &state.coordinates, observe)?;

@@ -15,22 +15,31 @@ const ENOUGH: f64 = 0.5 * f64::EPSILON;
 /// Largest number of intervals: a kink takes two of them for each binary digit of its place.
 const MOST: usize = 150;
 
+/// Returns the integrals of several functions from one value to another by one rule, exact for polynomials of degree 15.
+pub(crate) fn by_rule<const N: usize>(mut f: impl FnMut(f64) -> [f64; N], [from, to]: [f64; 2]) -> [f64; N] {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let mut sum = [0.0; N];
+    for [node, weight] in RULE {
+        for values in [f(middle - half * node), f(middle + half * node)] {
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += half * weight * value);
+        }
+    }
+    sum
+}
+
 /// Returns the integrals of several functions from one value to another: intervals are halved until that changes
 /// nothing.
 pub(crate) fn integral<const N: usize>(f: impl Fn(f64) -> [f64; N], from: f64, to: f64) -> [f64; N] {
     let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; N];
-    let mut on = |[a, b]: [f64; 2]| {
-        let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-        let mut sum = [0.0; N];
-        for [node, weight] in RULE {
-            for values in [f(middle - half * node), f(middle + half * node)] {
-                for ((sum, [low, high]), value) in sum.iter_mut().zip(&mut range).zip(values) {
-                    *sum += half * weight * value;
-                    (*low, *high) = (low.min(value), high.max(value));
-                }
+    let mut on = |ends: [f64; 2]| {
+        let seen = |x: f64| {
+            let values = f(x);
+            for ([low, high], value) in range.iter_mut().zip(values) {
+                (*low, *high) = (low.min(value), high.max(value));
             }
-        }
-        (sum, range)
+            values
+        };
+        (by_rule(seen, ends), range)
     };
     let [length, furthest] = [(to - from).abs(), from.abs().max(to.abs())];
     let (mut total, mut used) = ([0.0; N], 1);

@@ -2,6 +2,7 @@
 
 use super::assembly_error::AssemblyError;
 use super::stiffness::Stiffness;
+use crate::math::quadrature::by_rule;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
@@ -11,9 +12,6 @@ const BESIDE_ONE: [f64; 2] = [1.0 - 1e-3, 1.0 + 1e-3];
 /// Distance from rest over the rest value below which what a law has beyond its spring is found from its stiffness: the
 /// difference of two forces loses that many digits there, and of two energies twice as many.
 const NEAR_REST: f64 = 1e-5;
-/// Nodes and weights of Gauss and Legendre on [0, 1], exact for polynomials of degree 5.
-const GAUSS: [[f64; 2]; 3] =
-    [[0.112_701_665_379_258_3, 5.0 / 18.0], [0.5, 4.0 / 9.0], [0.887_298_334_620_741_7, 5.0 / 18.0]];
 
 /// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](Law) near rest; infinite
 /// stiffness means `value = rest` exactly.
@@ -216,13 +214,13 @@ pub(super) enum Stored {
 /// rounding to the forces of either: `phi' = integral of phi'' - 1` from rest, and `phi` that of `phi'`.
 fn beyond_near_rest(law: &dyn Law, off: f64, Spring { stiffness, rest }: Spring) -> [f64; 3] {
     let second = |part: f64| law.at(rest + part * off, rest)[2] - 1.0;
-    let [mut energy, mut force] = [0.0; 2];
-    for [part, weight] in GAUSS {
-        let here = weight * off * second(part);
-        force += here;
-        energy += (1.0 - part) * off * here;
-    }
-    [energy, force, second(1.0)].map(|unit| stiffness * unit)
+    let weighted = |part: f64| {
+        let here = second(part);
+        [(1.0 - part) * here, here]
+    };
+    // no more than one rule: what is left of its error is rounding
+    let [energy, force] = by_rule(weighted, [0.0, 1.0]);
+    [off * off * energy, off * force, second(1.0)].map(|unit| stiffness * unit)
 }
 
 impl Stored {

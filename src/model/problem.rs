@@ -18,6 +18,7 @@ mod energy;
 mod hinges;
 mod kept;
 mod memory;
+mod pinned;
 mod short_steps;
 mod softened;
 mod support;
@@ -297,17 +298,6 @@ impl Model {
         supported
             || !self.loads.is_empty()
             || (!matches!(self.equations.domain, Domain::Screw) && !self.pinned.is_empty())
-    }
-
-    /// Whether the sheet is a patch that pins keep from no shape, since they hold rigid motions alone, without supports
-    /// and rigid parts.
-    pub(crate) fn takes_any_shape(&self) -> bool {
-        let is_bare = self.supports.is_empty() && self.equations.bodies.is_empty();
-        is_bare && matches!(self.equations.domain, Domain::Patch) && {
-            let motions = self.rigid_motions(&self.base, true);
-            let of_pinned: Vec<gauge::Motion> = self.pinned.iter().map(|&k| motions[k]).collect();
-            gauge::choose(&of_pinned, &vec![false; of_pinned.len()]).len() == of_pinned.len()
-        }
     }
 
     /// Returns the map from coordinates to points.

@@ -109,11 +109,10 @@ impl Terms {
 
     /// Checks that no law lets a rigid element be slack.
     pub(super) fn check_laws(&self) -> Result<(), AssemblyError> {
-        let hinges = |hinges: &Option<Hinges>| hinges.as_ref().map(|hinges| hinges.stiffness.clone());
-        let stiffness = [self.bar_stiffness().cloned(), hinges(&self.creases), hinges(&self.facets)];
-        for ((term, law), stiffness) in self.laws.all().into_iter().zip(stiffness) {
+        let [creases, facets] = [&self.creases, &self.facets].map(|given| given.as_ref().map(|given| &given.stiffness));
+        for ((term, law), stiffness) in self.laws.all().into_iter().zip([self.bar_stiffness(), creases, facets]) {
             if let (Some(law), Some(stiffness)) = (law, stiffness)
-                && law.slackens_rigid(&stiffness)
+                && law.slackens_rigid(stiffness)
             {
                 return Err(AssemblyError::RigidSlack { term });
             }

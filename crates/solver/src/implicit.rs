@@ -142,9 +142,9 @@ mod tests {
     use super::*;
 
     /// The unit sphere in four dimensions cut by a hyperplane: a sphere, with a redundant equation.
-    struct Sphere;
+    struct CutSphere;
 
-    impl Implicit for Sphere {
+    impl Implicit for CutSphere {
         fn unknowns(&self) -> usize {
             4
         }
@@ -172,7 +172,7 @@ mod tests {
         let guess = [0.52, 0.49, 0.51, 0.5];
         let frame = [[0.5, -0.5, 0.5, -0.5], [-0.5, 0.5, 0.5, -0.5]].concat();
         let (mut x, mut tangents) = (guess, frame.clone());
-        let done = Corrector::new(&Sphere).correct(&mut Sphere, &mut x, &mut tangents, 1e-15).unwrap();
+        let done = Corrector::new(&CutSphere).correct(&mut CutSphere, &mut x, &mut tangents, 1e-15).unwrap();
         assert!(done.corrections <= 4 && done.residual <= 1e-15, "{done:?}");
         let (before, after) = (columns(&frame, 4), columns(&tangents, 4));
         let moved = DVector::from_fn(4, |k, _| x[k] - guess[k]);
@@ -187,9 +187,9 @@ mod tests {
     #[test]
     fn what_has_no_solution_is_refused() {
         let mut frame = [[0.5, -0.5, 0.5, -0.5], [-0.5, 0.5, 0.5, -0.5]].concat();
-        let mut corrector = Corrector::new(&Sphere);
+        let mut corrector = Corrector::new(&CutSphere);
         for mut x in [[2.0, -2.0, 2.0, -2.0], [f64::NAN; 4]] {
-            assert!(corrector.correct(&mut Sphere, &mut x, &mut frame, 1e-15).is_none());
+            assert!(corrector.correct(&mut CutSphere, &mut x, &mut frame, 1e-15).is_none());
         }
     }
 }

@@ -65,36 +65,35 @@ pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<b
     }
 }
 
-/// Other unknowns `y` that some of them are substituted by, `x = factor * map * y`, as motions of a rigid part that its mass
-/// couples.
+/// Other unknowns `y` by which some of them are substituted, `x = factor * map * y`, as motions of a rigid part that its
+/// mass couples.
 pub(super) struct Coupling {
     pub unknowns: Vec<usize>,
     pub map: DenseMatrix,
 }
 
-impl Coupling {
-    /// Multiplies the columns of these unknowns by the map.
-    fn substitute(&self, matrix: &mut DenseMatrix) {
-        let columns = matrix.select_columns(&self.unknowns) * &self.map;
-        self.unknowns.iter().zip(columns.column_iter()).for_each(|(&k, column)| matrix.set_column(k, &column));
+/// The map from all unknowns `y` to all unknowns `x`, without the factors.
+fn substitution(couplings: &[Coupling], unknowns: usize) -> DenseMatrix {
+    let mut whole = DenseMatrix::identity(unknowns, unknowns);
+    for Coupling { unknowns, map } in couplings {
+        for (row, &i) in unknowns.iter().enumerate() {
+            unknowns.iter().enumerate().for_each(|(column, &j)| whole[(i, j)] = map[(row, column)]);
+        }
     }
-
-    /// Turns rows of the other unknowns into rows of the unknowns.
-    fn back(&self, rows: &mut DenseMatrix) {
-        let there = Self { unknowns: self.unknowns.clone(), map: self.map.transpose() };
-        there.substitute(rows);
-    }
+    whole
 }
 
 /// Lowest eigenvalues and eigenvectors of the energy's Hessian, by unknowns with these factors and couplings, at the
-/// model's reference state with these tensions, on what the rigid terms leave free, which is at most `free`. With
-/// couplings only the dense way finds them: `None` where it would not.
+/// model's reference state with these tensions, on what the rigid terms leave free, which is at most `free`.
+///
+/// # Errors
+/// [`ModesError::CoupledMotions`] where the dense way does not find them, which alone knows couplings.
 pub(super) fn lowest(
     (model, tension): (&Model, &[f64]),
     (factors, couplings): (&[f64], &[Coupling]),
     (wanted, free): (usize, usize),
     observe: &mut Observer<'_>,
-) -> Result<Option<Spectrum>, ModesError> {
+) -> Result<Spectrum, ModesError> {
     let unknowns = model.layout().unknowns;
     let (at, count) = ((model, tension), wanted.min(free));
     let (values, vectors, diagonal) = if decomposed_dense(unknowns, count, free)? {
@@ -102,11 +101,11 @@ pub(super) fn lowest(
     } else if couplings.is_empty() {
         lowest_sparse(at, factors, count, observe)?
     } else {
-        return Ok(None);
+        return Err(ModesError::CoupledMotions);
     };
     let velocity = |v: &Vec<f64>| model.velocity(&v.iter().zip(factors).map(|(y, f)| y * f).collect::<Vec<f64>>());
     let rounding = dense::eigenvalue_rounding(unknowns, diagonal);
-    Ok(Some(Spectrum { values, vectors: vectors.iter().map(velocity).collect(), rounding }))
+    Ok(Spectrum { values, vectors: vectors.iter().map(velocity).collect(), rounding })
 }
 
 /// Entries of the Hessian of the whole energy, bars of finite stiffness included.
@@ -131,11 +130,10 @@ fn lowest_dense(
     let values = whole_hessian(&at, compliance);
     let mut hessian = at.pattern().to_dense(&values);
     let mut full = dense::from_rows(&at.rows(), layout.unknowns);
-    for coupling in couplings {
-        coupling.substitute(&mut full);
-        coupling.substitute(&mut hessian);
-        hessian.transpose_mut();
-        coupling.substitute(&mut hessian);
+    let map = Some(substitution(couplings, layout.unknowns)).filter(|_| !couplings.is_empty());
+    if let Some(map) = &map {
+        full *= map;
+        hessian = map.tr_mul(&(hessian * map));
     }
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
     let free = if rigid.is_empty() {
@@ -146,9 +144,11 @@ fn lowest_dense(
     go_on(observe)?;
     let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
     let count = count.min(found.values.len());
-    let mut vectors = (&free * found.vectors.columns(0, count)).transpose();
-    couplings.iter().for_each(|coupling| coupling.back(&mut vectors));
-    let vectors = vectors.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let free = match map {
+        Some(map) => map * free,
+        None => free,
+    };
+    let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
     Ok((found.values[..count].to_vec(), vectors, at.pattern().largest_diagonal(&values)))
 }
 

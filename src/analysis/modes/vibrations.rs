@@ -67,8 +67,8 @@ impl Vibrations {
         let largest = masses.iter().copied().fold(0.0, f64::max);
         let (masses, couplings) = of_unknowns(model, &masses)?;
         let factors: Vec<f64> = masses.iter().map(|mass| (largest / mass).sqrt()).collect();
-        let found = lowest((model, tension), (&factors, &couplings), (wanted, free), observe)?;
-        let Spectrum { values, mut vectors, rounding } = found.ok_or(ModesError::CoupledMotions)?;
+        let Spectrum { values, mut vectors, rounding } =
+            lowest((model, tension), (&factors, &couplings), (wanted, free), observe)?;
         let squares = values.iter().map(|value| if value.abs() <= rounding { 0.0 } else { value / largest }).collect();
         vectors.iter_mut().flatten().for_each(|rate| *rate /= largest.sqrt());
         Ok(Some(Self { squares, rounding: rounding / largest, vectors }))

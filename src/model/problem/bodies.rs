@@ -175,8 +175,9 @@ impl Bodies {
                     if let Some(right) = right {
                         let by_turn = block * right;
                         add_lower(&mut pulled, [row, column + 3], &by_turn);
-                        left.iter()
-                            .for_each(|left| add_lower(&mut pulled, [row + 3, column + 3], &left.tr_mul(&by_turn)));
+                        if let Some(left) = left {
+                            add_lower(&mut pulled, [row + 3, column + 3], &left.tr_mul(&by_turn));
+                        }
                     }
                 }
                 if let Some(turned) = &turned[k] {

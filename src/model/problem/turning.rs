@@ -3,23 +3,19 @@
 //! Between the steps of a minimisation the sheet is rotated to where its loads do the most work. In a Newton step
 //! rotations have a small artificial stiffness, so that those which no load resists leave the Hessian regular.
 
-use super::{DEPENDENT, Gauge, Model};
+use super::{Gauge, Model};
 use crate::math::{Vec3, point};
 use crate::model::domain::Domain;
 use crate::model::gauge;
-use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::FIXED;
 use crate::numerics::vector::max_abs;
 use crate::solver::Linearization;
-use nalgebra::{DMatrix, DVector, Rotation3};
 
 /// Artificial stiffness of rotations in a Newton step: `TURNING` times the unbalanced force per mean edge length,
 /// which may favour a rotation, and at least the fraction `LEAST_TURNING` of the largest diagonal entry of the
 /// Hessian.
 const TURNING: f64 = 10.0;
 const LEAST_TURNING: f64 = 1e-6;
-/// Largest number of steps towards pins: with every step the distance is squared.
-const MOST_MOVES: usize = 20;
 
 impl Model {
     /// Returns the unknowns, numbered as in `number`, that would have to be held to prevent the rotations that pins
@@ -54,27 +50,6 @@ impl Model {
             None => Some(gauge::centre_and_size(&self.equations.domain, all).0),
             Some(pinned) => self.pinned.iter().all(|k| k / 3 == pinned).then(|| point(all, pinned)),
         }
-    }
-
-    /// Moves a shape as a rigid body to where its pinned coordinates have their values, by Newton's method from where it
-    /// is.
-    pub(in crate::model) fn onto_pins(&self, mut coordinates: Vec<f64>) -> Vec<f64> {
-        for _ in 0..MOST_MOVES {
-            let motions = self.rigid_motions(&coordinates, true);
-            let (centre, size) = gauge::centre_and_size(&self.equations.domain, &coordinates);
-            let rows = DMatrix::from_fn(self.pinned.len(), 6, |row, motion| motions[self.pinned[row]][motion]);
-            let off = self.pinned.iter().map(|&k| self.base[k] - coordinates[k]);
-            let off = DVector::from_iterator(self.pinned.len(), off);
-            if off.is_empty() || off.amax() <= f64::EPSILON * size {
-                break;
-            }
-            let Some(motion) = shortest_solution(rows, &off, DEPENDENT) else { break };
-            let (shift, turn) = (Vec3::from(motion.fixed_rows::<3>(0)), Vec3::from(motion.fixed_rows::<3>(3)));
-            let turn = Rotation3::new(turn / size);
-            let points = coordinates.chunks_exact(3).map(Vec3::from_column_slice);
-            coordinates = points.flat_map(|p| <[f64; 3]>::from(centre + shift + turn * (p - centre))).collect();
-        }
-        coordinates
     }
 
     /// Rotates the whole sheet by the shortest way to where its loads do the most work. Returns the decrease of the

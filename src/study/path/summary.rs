@@ -127,9 +127,9 @@ impl PathSummary {
             let number = if self.branches.len() > 1 { format!("branch {}: ", branch.branch) } else { String::new() };
             let end = format!("{number}{} at {} {}", branch.end, self.drive, value(branch.drive));
             let folded = branch.rest_sides.map_or(String::new(), |sides| {
-                let (energy, off) = (branch.energy.unwrap_or(f64::NAN), rounded(sides.farthest.to_degrees(), 3));
+                let (energy, off) = (branch.energy.unwrap_or(f64::NAN), sides.farthest.to_degrees());
                 let said = RestSides::said([sides.on_rest_side, sides.hinges]);
-                format!(", energy {energy:.9e}, {said}, at most {off} degrees off")
+                format!(", energy {energy:.9e}, {said}, at most {off:.1} degrees off")
             });
             let stable = if branch.stable { "" } else { ", not all stable" };
             format!("{end}{folded}, {}{stable}{}", counted(branch.steps, "state"), events.collect::<String>())

@@ -371,7 +371,6 @@ fn refused_steps_are_counted() {
     let branches = follow(&mut wave, vec![0.0, 0.0], &settings);
     let steps: usize = branches[0].states.iter().map(|marked| marked.state.iterations).sum();
     let evaluations = EVALUATIONS.load(Ordering::Relaxed);
-    println!("{steps} of {evaluations}, {} states", branches[0].states.len());
     assert!(2 * steps >= evaluations, "{steps} of {evaluations}");
 }
 
