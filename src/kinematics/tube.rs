@@ -211,12 +211,12 @@ impl<'a> Tube<'a> {
         let moving: Vec<usize> = (0..start.len()).filter(|edge| !locked.contains(edge)).collect();
         let mut angles = start.to_vec();
         let search = Search { most_steps: STEPS, residual: CLOSURE_RESIDUAL, terms: 0.0 };
-        let found = search.from(moving.iter().map(|&edge| start[edge]).collect(), |x| {
+        let (_, residual) = search.from(moving.iter().map(|&edge| start[edge]).collect(), |x| {
             moving.iter().zip(x).for_each(|(&edge, angle)| angles[edge] = *angle);
             let (defects, jacobian) = self.equations(&angles, kept);
             (DVector::from_vec(defects), jacobian.select_columns(&moving))
         })?;
-        if found.is_root { Ok(angles) } else { Err(KinematicsError::NotClosed { residual: found.residual }) }
+        if residual <= CLOSURE_RESIDUAL { Ok(angles) } else { Err(KinematicsError::NotClosed { residual }) }
     }
 
     /// Returns the seam and its rate, from the lattice motions.

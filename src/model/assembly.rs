@@ -106,7 +106,7 @@ impl Assembly {
         (domain, coordinates): (OwnDomain, Vec<f64>),
         cells: [usize; 2],
     ) -> Result<Self, AssemblyError> {
-        let (tiling, drawn) = (one_cell(&sheet, cells)?, Drawn::own(domain, coordinates));
+        let (tiling, drawn) = (one_cell(&sheet, cells)?, Drawn::of(Domain::Own(domain), coordinates));
         let needed = 3 * sheet.vertices.len() + drawn.domain.shared();
         if drawn.coordinates.len() != needed {
             let given = drawn.coordinates.len();

@@ -1,6 +1,6 @@
 //! Boundary conditions of a tiling, and the drawn state in the coordinates that belong to them.
 
-use super::domain::{Domain, OwnDomain};
+use super::domain::Domain;
 use crate::math::{Vec3, fold_angle::fold_angle};
 use crate::sheet::Sheet;
 use crate::sheet::tiling::{Site, Tiling};
@@ -50,7 +50,6 @@ impl Drawn {
     pub(super) fn new(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, axis: f64) -> Self {
         let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
         let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
-        let frame = Matrix3::identity();
         let (positions, origin) = near_origin(sheet, tiling);
         let (domain, coordinates) = match (boundary, lattice) {
             (Boundary::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&positions)),
@@ -63,7 +62,7 @@ impl Drawn {
         tiling.edges.iter().flat_map(|edge| edge.ends).for_each(|end| joined[end.vertex] = true);
         let loose = (0..joined.len()).filter(|&vertex| !joined[vertex]);
         let held = loose.flat_map(|vertex| 3 * vertex..3 * vertex + 3).collect();
-        Self { domain, coordinates, held, frame, origin, chords: None }
+        Self { held, origin, ..Self::of(domain, coordinates) }
     }
 
     /// Makes the drawn state of a screw: vertex 0 at the origin, the first lattice vector along x, the face normals
@@ -82,10 +81,10 @@ impl Drawn {
         Self { domain: Domain::Screw, coordinates, held, frame, origin, chords: None }
     }
 
-    /// Makes the drawn state of a domain of one's own.
-    pub(super) fn own(domain: OwnDomain, coordinates: Vec<f64>) -> Self {
+    /// Makes the drawn state of a domain in whose frame the file is.
+    pub(super) fn of(domain: Domain, coordinates: Vec<f64>) -> Self {
         let (frame, origin) = (Matrix3::identity(), Vec3::zeros());
-        Self { domain: Domain::Own(domain), coordinates, held: vec![], frame, origin, chords: None }
+        Self { domain, coordinates, held: vec![], frame, origin, chords: None }
     }
 
     /// Returns the distance between two sites.

@@ -22,14 +22,9 @@ pub trait ForceCurve: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Returns the memory of an element that has gone to a value; see [`Law::after`].
-    fn after(&self, _off: f64) -> Memory {
-        Memory::default()
-    }
-
-    /// Returns what an element with the memory of this curve has dissipated; see [`Law::dissipated`].
-    fn dissipated(&self) -> f64 {
-        0.0
+    /// Returns the memory of an element that has gone to a value, and what it has dissipated; see [`Law::after`].
+    fn after(&self, _off: f64) -> (Memory, f64) {
+        (Memory::default(), 0.0)
     }
 }
 
@@ -50,12 +45,8 @@ impl<C: ForceCurve + 'static> Law for OfAngle<C> {
         Some(Box::new(OfAngle(self.0.remembering(memory)?)))
     }
 
-    fn after(&self, angle: f64, rest: f64) -> Memory {
+    fn after(&self, angle: f64, rest: f64) -> (Memory, f64) {
         self.0.after(angle - rest)
-    }
-
-    fn dissipated(&self, _rest: f64) -> f64 {
-        self.0.dissipated()
     }
 }
 
@@ -77,12 +68,9 @@ impl<C: ForceCurve + 'static> Law for OfStrain<C> {
         Some(Box::new(OfStrain(self.0.remembering(memory)?)))
     }
 
-    fn after(&self, length: f64, rest: f64) -> Memory {
-        self.0.after((length - rest) / rest)
-    }
-
-    fn dissipated(&self, rest: f64) -> f64 {
-        rest * rest * self.0.dissipated()
+    fn after(&self, length: f64, rest: f64) -> (Memory, f64) {
+        let (memory, dissipated) = self.0.after((length - rest) / rest);
+        (memory, rest * rest * dissipated)
     }
 
     fn by_rest(&self, length: f64, rest: f64) -> [f64; 3] {

@@ -7,9 +7,6 @@ use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 
-/// Distance from rest at which the stiffness on both sides is asked for: a strain, or an angle in radians.
-const BESIDE_REST: f64 = 1e-6;
-
 /// The kind of the elements of a term. Code that treats kinds differently must match all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TermKind {
@@ -268,7 +265,7 @@ impl<'a> Element<'a> {
         self.term.head().edges[self.index]
     }
 
-    fn stored(&self) -> &'a Stored {
+    pub(super) fn stored(&self) -> &'a Stored {
         &self.term.head().stored[self.index]
     }
 
@@ -276,27 +273,6 @@ impl<'a> Element<'a> {
     /// accepted state.
     pub fn value(&self, x: &[f64]) -> f64 {
         continued(self.last, self.term.value(self.index, self.domain, x))
-    }
-
-    /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value. The energy is what
-    /// it stores and has dissipated.
-    pub fn response(&self, value: f64) -> [f64; 3] {
-        self.stored().at(value, self.spring, self.memory)
-    }
-
-    /// Whether its law has a memory.
-    pub(crate) fn remembers(&self) -> bool {
-        self.stored().remembers()
-    }
-
-    /// Returns its memory after a value, and what it has dissipated up to there.
-    pub(crate) fn after(&self, value: f64) -> (Memory, f64) {
-        self.stored().after(value, self.spring, self.memory)
-    }
-
-    /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
-    pub(crate) fn by_rest(&self, value: f64) -> [f64; 3] {
-        self.stored().by_rest(value, self.spring, self.memory)
     }
 
     /// Returns its stiffness in the metric of the solver, which must not be negative: that at rest.
@@ -321,24 +297,6 @@ impl<'a> Element<'a> {
     /// Whether it has another law than a spring.
     pub(crate) fn has_law(&self) -> bool {
         !matches!(self.stored(), Stored::Spring)
-    }
-
-    /// Whether it has no force at its rest value, and the stiffness of its spring there and on both sides.
-    pub(crate) fn is_spring_at_rest(&self) -> bool {
-        let Spring { stiffness: of_spring, rest } = self.spring;
-        let at = |value: f64| self.stored().at(value, self.spring, Memory::default());
-        let expected = if self.is_beyond_spring() { 0.0 } else { of_spring };
-        let is_off = |value: f64, known: f64| (at(value)[2] - expected).abs() > known * of_spring;
-        let beside = BESIDE_REST * if self.is_angle() { 1.0 } else { rest };
-        !self.has_law()
-            || (at(rest)[1].abs() <= 1e-9 * of_spring * rest.abs()
-                && !is_off(rest, 1e-9)
-                && ![rest - beside, rest + beside].into_iter().any(|value| is_off(value, 1e-3)))
-    }
-
-    /// Whether its stiffness jumps at some values.
-    pub(crate) fn has_kinks(&self) -> bool {
-        self.stored().has_kinks()
     }
 
     /// Puts value and gradient at the coordinates `x` into `out`, and the Hessian if it is wanted.

@@ -108,12 +108,9 @@ pub(crate) fn centre_and_size(domain: &Domain, x: &[f64]) -> (Vec3, f64) {
 /// Returns the velocity of a point, `translation + omega x arm`, as one row for each component.
 pub(crate) fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
     let cross = -arm.cross_matrix();
-    [0, 1, 2].map(|axis| {
-        let mut row = Motion::zeros();
-        row[axis] = translation;
-        (0..3).for_each(|k| row[3 + k] = cross[(axis, k)]);
-        row
-    })
+    let rate =
+        |axis: usize, k: usize| if k < 3 { translation * f64::from(u8::from(k == axis)) } else { cross[(axis, k - 3)] };
+    [0, 1, 2].map(|axis| Motion::from_fn(|k, _| rate(axis, k)))
 }
 
 /// Returns the coordinates to hold, in addition to those already `held`, so that no rigid motion remains.

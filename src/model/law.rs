@@ -2,16 +2,12 @@
 
 use super::assembly_error::AssemblyError;
 use super::stiffness::Stiffness;
-use crate::math::quadrature::by_rule;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
 /// Values on both sides of a rest value of 1 at which the force of a law is asked for.
 const BESIDE_ONE: [f64; 2] = [1.0 - 1e-3, 1.0 + 1e-3];
-/// Distance from rest over the rest value below which what a law has beyond its spring is found from its stiffness: the
-/// difference of two forces loses that many digits there, and of two energies twice as many.
-const NEAR_REST: f64 = 1e-5;
 
 /// The spring of an element, `E = stiffness (value - rest)^2 / 2`, also that of its [law](Law) near rest; infinite
 /// stiffness means `value = rest` exactly.
@@ -75,14 +71,10 @@ pub trait Law: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Returns the memory of an element that has gone to a value, steadily from the one at which it got its memory.
-    fn after(&self, _value: f64, _rest: f64) -> Memory {
-        Memory::default()
-    }
-
-    /// Returns what an element with the memory of this law has dissipated, over the spring constant.
-    fn dissipated(&self, _rest: f64) -> f64 {
-        0.0
+    /// Returns the memory of an element that has gone to a value, steadily from the one at which it got its memory, and
+    /// what it has dissipated up to there, over the spring constant.
+    fn after(&self, _value: f64, _rest: f64) -> (Memory, f64) {
+        (Memory::default(), 0.0)
     }
 }
 
@@ -208,84 +200,4 @@ pub(super) enum Stored {
     BeyondSpring(Arc<dyn Law>),
     /// The stiffness times the value: a measure that is an energy.
     Value,
-}
-
-/// Returns energy, force and stiffness that a law has beyond its spring at a value so near rest that it is no more than
-/// rounding to the forces of either: `phi' = integral of phi'' - 1` from rest, and `phi` that of `phi'`.
-fn beyond_near_rest(law: &dyn Law, off: f64, Spring { stiffness, rest }: Spring) -> [f64; 3] {
-    let second = |part: f64| law.at(rest + part * off, rest)[2] - 1.0;
-    let weighted = |part: f64| {
-        let here = second(part);
-        [(1.0 - part) * here, here]
-    };
-    // no more than one rule: what is left of its error is rounding
-    let [energy, force] = by_rule(weighted, [0.0, 1.0]);
-    [off * off * energy, off * force, second(1.0)].map(|unit| stiffness * unit)
-}
-
-impl Stored {
-    /// Whether the stiffness of the law jumps.
-    pub(super) fn has_kinks(&self) -> bool {
-        matches!(self, Self::Law(law) | Self::BeyondSpring(law) if law.has_kinks())
-    }
-
-    /// Whether elements have a memory.
-    pub(super) fn remembers(&self) -> bool {
-        self.remembering(Memory::default()).is_some()
-    }
-
-    fn remembering(&self, memory: Memory) -> Option<Box<dyn Law>> {
-        match self {
-            Self::Spring | Self::Value => None,
-            Self::Law(law) | Self::BeyondSpring(law) => law.remembering(memory),
-        }
-    }
-
-    /// Returns energy, force and stiffness at a value.
-    pub(super) fn at(&self, value: f64, spring: Spring, memory: Memory) -> [f64; 3] {
-        let off = value - spring.rest;
-        if let Self::Spring = self {
-            let force = spring.stiffness * off;
-            return [0.5 * force * off, force, spring.stiffness];
-        }
-        if let Self::Value = self {
-            return [spring.stiffness * value, spring.stiffness, 0.0];
-        }
-        if let Self::BeyondSpring(law) = self
-            && off.abs() <= NEAR_REST * spring.rest.abs()
-            && !law.has_kinks()
-            && law.remembering(memory).is_none()
-        {
-            return beyond_near_rest(law.as_ref(), off, spring);
-        }
-        self.scaled(spring, memory, [0.5 * off * off, off, 1.0], |law| law.at(value, spring.rest))
-    }
-
-    /// Returns the derivatives of energy and force by the rest value, and the second one of the energy.
-    pub(super) fn by_rest(&self, value: f64, spring: Spring, memory: Memory) -> [f64; 3] {
-        self.scaled(spring, memory, [spring.rest - value, -1.0, 1.0], |law| law.by_rest(value, spring.rest))
-    }
-
-    /// Returns the stiffness times what the law says with this memory, where a spring says `linear`.
-    fn scaled(&self, spring: Spring, memory: Memory, linear: [f64; 3], ask: impl Fn(&dyn Law) -> [f64; 3]) -> [f64; 3] {
-        let known = |law: &dyn Law| law.remembering(memory).map_or_else(|| ask(law), |own| ask(&*own));
-        let unit = match self {
-            Self::Spring => linear,
-            Self::Law(law) => known(&**law),
-            Self::BeyondSpring(law) => {
-                let whole = known(&**law);
-                [0, 1, 2].map(|k| whole[k] - linear[k])
-            }
-            Self::Value => [0.0; 3],
-        };
-        unit.map(|part| spring.stiffness * part)
-    }
-
-    /// Returns the memory after a value, and what has been dissipated up to there.
-    pub(super) fn after(&self, value: f64, spring: Spring, memory: Memory) -> (Memory, f64) {
-        let Some(law) = self.remembering(memory) else { return (memory, 0.0) };
-        let after = law.after(value, spring.rest);
-        let dissipated = self.remembering(after).map_or(0.0, |law| law.dissipated(spring.rest));
-        (after, spring.stiffness * dissipated)
-    }
 }

@@ -46,6 +46,7 @@ mod plasticity;
 mod pressure;
 mod problem;
 mod published_laws;
+mod response;
 mod roll;
 mod stiffness;
 mod terms;

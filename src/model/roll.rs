@@ -2,9 +2,7 @@
 
 use super::boundary::Drawn;
 use super::domain::Domain;
-use crate::math::Vec3;
 use crate::sheet::{Seam, SeamKept, Sheet};
-use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -85,7 +83,6 @@ impl Roll {
     pub(super) fn drawn(&self, sheet: &Sheet) -> Drawn {
         let (counterclockwise, chords) = (sheet.is_counterclockwise(), sheet.chords());
         let domain = Domain::Tube { seam: self.seam, kept: self.kept, counterclockwise };
-        let (coordinates, frame, origin) = (self.coordinates.clone(), Matrix3::identity(), Vec3::zeros());
-        Drawn { domain, coordinates, held: vec![], frame, origin, chords }
+        Drawn { chords, ..Drawn::of(domain, self.coordinates.clone()) }
     }
 }

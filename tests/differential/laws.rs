@@ -4,6 +4,10 @@ use crate::common::Numbers;
 use crate::trial::Trial;
 use foldwell::model::{Bilinear, Formula, GreenLagrange, Laws, OfAngle, OfStrain, Ogden, Stiffening, TermLaw};
 
+/// Random starts from which another equilibrium is sought, of each size: with the energies of formulas a start takes up
+/// to a second.
+const STARTS: usize = 30;
+
 /// The laws of a trial; `None` is a linear spring.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RandomLaws {
@@ -79,5 +83,5 @@ impl RandomLaws {
 pub fn trial(seed: u64) -> Trial {
     let (trial, mut numbers) = (Trial::new(seed), Numbers::new(seed ^ 0x1a35));
     let facets = if trial.facets.is_infinite() { 10.0 } else { trial.facets };
-    Trial { laws: RandomLaws::new(&mut numbers, trial.bars.is_infinite()), facets, ..trial }
+    Trial { laws: RandomLaws::new(&mut numbers, trial.bars.is_infinite()), facets, starts: STARTS, ..trial }
 }

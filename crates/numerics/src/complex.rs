@@ -13,41 +13,13 @@ pub type ComplexMatrix = DMatrix<Complex<f64>>;
 /// A complex vector.
 pub type ComplexVector = DVector<Complex<f64>>;
 
-/// The determinant of a square matrix, by elimination with row pivots of the largest modulus. (nalgebra's LU
-/// factorization chooses them by `|re| + |im|`, and its determinants differ in the last digits.)
+/// The determinant of a square matrix.
 ///
 /// # Panics
 /// Panics where the matrix is not square.
-pub fn determinant(mut matrix: ComplexMatrix) -> Complex<f64> {
+pub fn determinant(matrix: ComplexMatrix) -> Complex<f64> {
     assert!(matrix.is_square(), "a determinant is that of a square matrix");
-    let n = matrix.nrows();
-    let mut product = Complex::new(1.0, 0.0);
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&a, &b| matrix[(a, k)].norm_sqr().total_cmp(&matrix[(b, k)].norm_sqr()));
-        let Some(pivot) = pivot.filter(|&row| matrix[(row, k)] != Complex::ZERO) else { return Complex::ZERO };
-        if pivot != k {
-            matrix.swap_rows(pivot, k);
-            product = -product;
-        }
-        product *= matrix[(k, k)];
-        eliminate(matrix.as_mut_slice(), n, k);
-    }
-    product
-}
-
-/// One step of elimination below the pivot `(k, k)`, on columns of length `n`.
-fn eliminate(entries: &mut [Complex<f64>], n: usize, k: usize) {
-    let (left, right) = entries.split_at_mut((k + 1) * n);
-    let column = &mut left[k * n..];
-    let inverse = column[k].inv();
-    column[k + 1..].iter_mut().for_each(|entry| *entry *= inverse);
-    let factors = &column[k + 1..];
-    for other in right.chunks_exact_mut(n) {
-        let top = other[k];
-        if top != Complex::ZERO {
-            other[k + 1..].iter_mut().zip(factors).for_each(|(entry, factor)| *entry -= factor * top);
-        }
-    }
+    matrix.lu().determinant()
 }
 
 /// The solutions `y` of `A^H y = right` and `x` of `A x = right`, in this order, from one elimination with row pivots;

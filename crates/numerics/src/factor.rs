@@ -5,17 +5,17 @@
 //! inertia: the signs of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
 pub use super::factor_error::FactorError;
-use super::fronts::{Analysis, Fronts};
+use super::fronts::{AssemblyTree, Fronts};
 use super::sparse::{Cliques, SparsityPattern};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::lblt;
 use faer::perm::{Perm, PermRef};
 use faer::prelude::default;
-use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, SymmetricOrdering, factorize_symbolic_cholesky};
 use faer::{Conj, Mat, MatMut, MatRef, Par, Side};
+use std::sync::Arc;
 
 /// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as
 /// long up to 42 unknowns), but single cells are small enough to afford pivoting.
@@ -36,7 +36,7 @@ pub struct Inertia {
 pub(crate) struct Symbolic {
     size: usize,
     /// `None` for a small matrix, which is factored dense.
-    sparse: Option<Analysis>,
+    sparse: Option<Arc<AssemblyTree>>,
 }
 
 /// A factorization of one pattern, refilled with numbers as often as wanted.
@@ -110,42 +110,30 @@ impl Factor {
 impl Symbolic {
     /// Analyses a pattern. `node` groups unknowns into blocks for the ordering, see [`super::order`].
     pub(crate) fn new(pattern: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
-        if pattern.size() <= DENSE_LIMIT {
-            return Ok(Self { size: pattern.size(), sparse: None });
-        }
-        let order = super::order::nested_dissection(node, cliques);
-        let inverse = super::order::inverse(&order);
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, pattern.size()));
-        Self::sparse(pattern, pattern.symbolic(), Side::Lower, ordering)
+        Self::ordered(pattern, || super::order::nested_dissection(node, cliques))
     }
 
     /// Analyses a pattern whose unknowns are numbered in the order of elimination.
     pub(super) fn in_order(pattern: &SparsityPattern) -> Result<Self, FactorError> {
+        Self::ordered(pattern, || (0..pattern.size() as u32).collect())
+    }
+
+    /// Analyses a pattern that is eliminated in an order, which a small one does not need.
+    fn ordered(pattern: &SparsityPattern, order: impl FnOnce() -> Vec<u32>) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {
             return Ok(Self { size, sparse: None });
         }
-        // faer analyses a matrix that it does not put in order by the upper triangle
-        let (columns, rows) = pattern.upper();
-        let upper = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
-        Self::sparse(pattern, upper, Side::Upper, SymmetricOrdering::Identity)
-    }
-
-    /// Analyses a pattern by one of its triangles.
-    fn sparse(
-        pattern: &SparsityPattern,
-        triangle: SymbolicSparseColMatRef<'_, u32>,
-        side: Side,
-        ordering: SymmetricOrdering<'_, u32>,
-    ) -> Result<Self, FactorError> {
-        let size = triangle.nrows();
+        let order = order();
+        let inverse = super::order::inverse(&order);
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size));
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..default()
         };
-        let found = factorize_symbolic_cholesky(triangle, side, ordering, params);
+        let found = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params);
         let found = found.map_err(|_| FactorError::TooLarge { size })?;
-        Ok(Self { size, sparse: Some(Analysis::new(pattern, &found)) })
+        Ok(Self { size, sparse: Some(Arc::new(AssemblyTree::new(pattern, &found))) })
     }
 }
 

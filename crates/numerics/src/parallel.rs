@@ -20,10 +20,6 @@ pub const FEWEST_SHARED_ELEMENTS: usize = 2048;
 const ELEMENTS_PER_WAVE: usize = 1024;
 /// Fewest elements of a wave that one thread takes at once.
 const ELEMENTS_PER_TASK: usize = 64;
-/// Length of a list below which it is filled by the calling thread.
-const FEWEST_SHARED_ENTRIES: usize = 1 << 17;
-/// Entries of a list that one thread fills at once.
-const ENTRIES_PER_TASK: usize = 1 << 13;
 /// Consecutive pieces of long work that share one worker state.
 const PIECES_PER_STATE: usize = 8;
 
@@ -147,21 +143,6 @@ pub fn meanwhile<'a, R>(worthwhile: bool, background: impl FnOnce() + Send + 'a,
         Some(pool) => pool.in_place_scope(both),
         None => rayon::in_place_scope(both),
     }
-}
-
-/// Sets every entry of a list to `compute` of its place.
-pub(crate) fn fill<T: Send>(list: &mut [T], compute: impl Fn(usize) -> T + Sync) {
-    let set = |(n, chunk): (usize, &mut [T])| {
-        (n * ENTRIES_PER_TASK..).zip(chunk).for_each(|(place, entry)| *entry = compute(place));
-    };
-    let worthwhile = list.len() >= FEWEST_SHARED_ENTRIES;
-    in_pool(worthwhile, |shared| {
-        if shared {
-            list.par_chunks_mut(ENTRIES_PER_TASK).enumerate().for_each(set);
-        } else {
-            list.chunks_mut(ENTRIES_PER_TASK).enumerate().for_each(set);
-        }
-    });
 }
 
 /// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order and

@@ -16,18 +16,9 @@ pub struct Search {
     pub terms: f64,
 }
 
-/// Where a search has ended.
-pub struct Approach {
-    /// The last point.
-    pub x: Vec<f64>,
-    /// Largest residual that was seen last, before the last step unless `is_root`.
-    pub residual: f64,
-    /// Whether that residual is small enough.
-    pub is_root: bool,
-}
-
 impl Search {
-    /// Looks for the root to which Newton's method leads from `x`. `equations` gives residuals and Jacobian.
+    /// Looks for the root to which Newton's method leads from `x`. `equations` gives residuals and Jacobian. Returns the
+    /// last point, and the largest residual that was seen last: before the last step unless it is that of a root.
     ///
     /// # Errors
     /// [`DenseError`] where a Jacobian cannot be decomposed.
@@ -35,24 +26,24 @@ impl Search {
         &self,
         mut x: Vec<f64>,
         mut equations: impl FnMut(&[f64]) -> (DVector<f64>, DenseMatrix),
-    ) -> Result<Approach, DenseError> {
+    ) -> Result<(Vec<f64>, f64), DenseError> {
         let mut residual = f64::INFINITY;
         for _ in 0..self.most_steps {
             let (residuals, jacobian) = equations(&x);
             residual = residuals.iter().fold(0.0, |most, component| larger(most, component.abs()));
             if residual <= self.residual {
-                return Ok(Approach { x, residual, is_root: true });
+                break;
             }
             let right = DenseMatrix::from_column_slice(residuals.len(), 1, residuals.as_slice());
             let step = least_squares_of_sums(&jacobian, &right, self.terms)?.solution;
             x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x -= d);
         }
-        Ok(Approach { x, residual, is_root: false })
+        Ok((x, residual))
     }
 
     /// The root to which Newton's method leads from `x`; `None` where it does not lead to one.
     pub fn root(&self, x: Vec<f64>, equations: impl FnMut(&[f64]) -> (DVector<f64>, DenseMatrix)) -> Option<Vec<f64>> {
-        self.from(x, equations).ok().filter(|approach| approach.is_root).map(|approach| approach.x)
+        self.from(x, equations).ok().filter(|(_, residual)| *residual <= self.residual).map(|(x, _)| x)
     }
 }
 

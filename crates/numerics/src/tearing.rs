@@ -18,8 +18,8 @@
 //! 48 and 96 cells a side (`cargo bench --bench systems`).
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
+use super::order;
 use super::sparse::{Cliques, FIXED, RankOne, Slots, SparsityPattern};
-use super::{order, parallel};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -144,7 +144,8 @@ impl TornFactor {
         outer: impl Fn(usize, usize) -> RankOne<'a>,
     ) -> Result<Inertia, FactorError> {
         let Tearing { torn, pattern, sources, slots, .. } = &*self.tearing;
-        parallel::fill(&mut self.values, |slot| values.get(sources[slot] as usize).map_or(0.0, |value| *value));
+        let value = |source: u32| values.get(source as usize).copied().unwrap_or(0.0);
+        self.values.iter_mut().zip(sources).for_each(|(to, &from)| *to = value(from));
         // any size of the new unknowns will do; this one leaves the range of the pivots alone
         let size = whole.largest_diagonal(values).sqrt();
         let mut scaled = Vec::new();

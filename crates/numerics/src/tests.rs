@@ -297,16 +297,3 @@ fn work_is_consumed_in_order() {
         assert_eq!(next, count);
     }
 }
-
-/// Claim: a list is filled entry by entry, on one thread and on two, above and below the length at which it is shared
-/// out.
-#[test]
-fn lists_are_filled() {
-    for count in [0, 1, 1000, 300_001] {
-        for threads in 1..=2 {
-            let mut list = vec![usize::MAX; count];
-            parallel::Threads::new(Some(threads)).install(|| parallel::fill(&mut list, |k| k + 1));
-            assert!(list.iter().enumerate().all(|(k, entry)| *entry == k + 1));
-        }
-    }
-}

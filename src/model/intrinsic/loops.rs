@@ -1,6 +1,7 @@
 //! The loops of a patch: one round every interior vertex, and one along the rim of every opening.
 
 use crate::math::Vec3;
+use crate::sheet::pieces::pieces;
 use std::collections::{HashMap, HashSet};
 use thiserror::Error;
 
@@ -152,23 +153,12 @@ impl Topology {
 
     /// Whether the triangles form one piece whose Euler characteristic is that of a disk with openings.
     pub(super) fn is_disk(&self, rims: usize) -> bool {
-        let used = self.neighbours.iter().filter(|around| !around.is_empty()).count();
+        let used = (0..self.vertices()).filter(|&v| self.is_in_triangle(v));
         let edges = self.directed.len() / 2 - self.loose.len();
-        let sides = self.directed.values().filter(|directed| directed.left.is_some()).count();
-        let triangles = sides / 3;
-        let mut reached = vec![false; self.vertices()];
-        let mut stack: Vec<usize> =
-            (0..self.vertices()).find(|&v| !self.neighbours[v].is_empty()).into_iter().collect();
-        stack.iter().for_each(|&v| reached[v] = true);
-        while let Some(v) = stack.pop() {
-            for &u in &self.neighbours[v] {
-                if !std::mem::replace(&mut reached[u], true) {
-                    stack.push(u);
-                }
-            }
-        }
-        let connected = reached.iter().filter(|reached| **reached).count() == used;
-        connected && rims > 0 && used + triangles + rims == edges + 2
+        let triangles = self.directed.values().filter(|directed| directed.left.is_some()).count() / 3;
+        let links = self.neighbours.iter().enumerate().flat_map(|(v, around)| around.iter().map(move |&u| [v, u]));
+        let connected = pieces(self.vertices(), links, used.clone()).len() == 1;
+        connected && rims > 0 && used.count() + triangles + rims == edges + 2
     }
 
     /// Returns the number of vertices.

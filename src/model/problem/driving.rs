@@ -45,19 +45,15 @@ impl DrivenModel {
     pub fn new(mut model: Model, drive: &Drive, drawn: Vec<f64>, loaded: bool) -> Result<Self, DriveError> {
         let first = model.compliance.len();
         let begin = f64::from(u8::from(loaded));
-        let (mut unit, mut added) = (1.0, first..first);
+        let (mut unit, mut volume_added) = (1.0, None);
         let (effect, parameter, target) = match &drive.quantity {
             Driven::Part { part, axis } => {
                 let pose = model.points() + POSE * part + axis;
-                model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3);
-                added.end += 1;
-                (Effect::prescribed(&model, added.clone()), 0.0, drive.to)
+                (model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3), 0.0, drive.to)
             }
             Driven::Vertices { vertices, direction } => {
                 let along = |v: &usize| (0..3).map(|axis| (3 * v + axis, direction[axis])).collect();
-                model.support_moved(vertices.iter().map(along).collect(), false);
-                added.end += vertices.len();
-                (Effect::prescribed(&model, added.clone()), 0.0, drive.to)
+                (model.support_moved(vertices.iter().map(along).collect(), false), 0.0, drive.to)
             }
             Driven::Loads if model.loads.is_empty() && model.pressures().iter().all(|(_, value)| *value == 0.0) => {
                 return Err(DriveError::NoLoads);
@@ -71,7 +67,7 @@ impl DrivenModel {
             }
             Driven::Volume(name) => {
                 let (volume, area) = model.hold_volume(name).ok_or(DriveError::NoPressure)?;
-                (unit, added) = (area, volume.0..volume.0 + 1);
+                (unit, volume_added) = (area, Some(volume.0..volume.0 + 1));
                 (Effect::Prescribed(vec![volume]), 0.0, drive.to / area)
             }
             Driven::Lock(edges) => {
@@ -84,6 +80,7 @@ impl DrivenModel {
         if !((target - parameter).abs() > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
+        let added = volume_added.unwrap_or(first..model.compliance.len());
         Ok(Self { unit, added, ..Self::driven(model, [parameter, target], effect) })
     }
 

@@ -1,6 +1,6 @@
 //! The model as the problem that the solver minimises: energies, gaps and their derivatives, summed over the terms.
 
-use super::{Equations, Model, POSE};
+use super::{Model, POSE};
 use crate::model::Site;
 use crate::model::element::{Element, Elements, Local, continued};
 use crate::numerics::parallel;
@@ -51,13 +51,9 @@ impl Problem for Model {
     }
 
     fn proportions(&self) -> Vec<f64> {
-        let Equations { domain, drawn, mean_edge, .. } = &*self.equations;
-        let of_hinge = |sites: &[Site]| {
-            let [a, b] = domain.points(drawn, &[sites[0], sites[1]]);
-            (b - a).norm().recip()
-        };
+        let mean_edge = &self.equations.mean_edge;
         let of_terms = self.stiff().map(|element| match element.spring.rest {
-            _ if element.is_angle() => of_hinge(element.sites()),
+            _ if element.is_angle() => self.length_of(&element).recip(),
             length if length > 0.0 => length,
             _ => *mean_edge,
         });

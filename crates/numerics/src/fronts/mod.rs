@@ -32,20 +32,16 @@ mod tests;
 
 use super::factor_error::FactorError;
 use super::parallel;
-use super::sparse::SparsityPattern;
 use bytemuck::allocation::try_zeroed_vec;
-use faer::sparse::linalg::cholesky::SymbolicCholesky;
 use numeric::{Factorization, Space};
 use solve::{FrontNumbers, Substitution};
 use std::sync::Arc;
-use symbolic::{AssemblyTree, Room};
+use symbolic::Room;
+
+pub(super) use symbolic::AssemblyTree;
 
 /// Count of numbers in a factor below which substitution stays on the calling thread.
 const FEWEST_SHARED_NUMBERS: usize = 500_000;
-
-/// The analysis of a pattern, shared by all its factorizations.
-#[derive(Debug, Clone)]
-pub(super) struct Analysis(Arc<AssemblyTree>);
 
 /// A factorization, refilled with numbers as often as wanted.
 pub(super) struct Fronts {
@@ -60,20 +56,13 @@ pub(super) struct Fronts {
     rows: Vec<f64>,
 }
 
-impl Analysis {
-    /// The tree of a pattern that faer analysed into supernodes.
-    pub fn new(pattern: &SparsityPattern, analysis: &SymbolicCholesky<u32>) -> Self {
-        Self(Arc::new(AssemblyTree::new(pattern, analysis)))
-    }
-}
-
 impl Fronts {
     /// Makes room for a factorization.
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where there is not enough memory.
-    pub fn new(analysis: &Analysis) -> Result<Self, FactorError> {
-        let tree = analysis.0.clone();
+    pub fn new(tree: &Arc<AssemblyTree>) -> Result<Self, FactorError> {
+        let tree = tree.clone();
         let size = tree.order.len();
         // the system gives zeros page by page when they are first used, which the threads of a factorization then share
         let zeros = |count: usize| try_zeroed_vec(count).map_err(|()| FactorError::TooLarge { size });

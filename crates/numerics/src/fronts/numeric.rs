@@ -1,7 +1,7 @@
 //! The factorization: fronts are assembled and eliminated from the leaves to the roots.
 
 use super::dense::{self, DenseFront, Kernels, ZeroPivot};
-use super::symbolic::{AssemblyTree, Front, Room, RowRun, TreeBranch};
+use super::symbolic::{AssemblyTree, Room, RowRun, TreeBranch};
 use faer::MatMut;
 use std::ops::Range;
 
@@ -104,7 +104,7 @@ impl Factorization<'_> {
         let (even, room) = even.split_at_mut(branch.room.even - branch.copy);
         for k in branch.fronts.clone() {
             let front = &fronts[k];
-            let children: usize = self.tree.children(k).map(|child| fronts[child].below().pow(2)).sum();
+            let children: usize = self.tree.children(k).map(|child| child.below().pow(2)).sum();
             let panel = &mut panels[front.panel.start - start..front.panel.end - start];
             let mine = (front.depth - level) % 2;
             let (own, others) = if mine == 0 { (&mut *even, &mut *odd) } else { (&mut *odd, &mut *even) };
@@ -139,11 +139,6 @@ impl Factorization<'_> {
         Ok(())
     }
 
-    /// Returns the children of a front.
-    fn children(&self, k: usize) -> impl Iterator<Item = &Front> + '_ {
-        self.tree.children(k).map(|child| &self.tree.fronts[child])
-    }
-
     /// Adds the children's update matrices to some columns of a front; those of its pivots are set to zero before.
     fn add_children(&self, k: usize, children: &[f64], columns: Columns<'_>, shared: bool) {
         let Columns { range, above, numbers } = columns;
@@ -163,7 +158,7 @@ impl Factorization<'_> {
         if above == 0 {
             numbers.fill(0.0);
         }
-        for child in self.children(k) {
+        for child in self.tree.children(k) {
             let (size, matrix) = (child.below(), child.matrix(children));
             let runs = &self.tree.runs[child.runs.clone()];
             for (n, run) in runs.iter().enumerate() {

@@ -106,7 +106,7 @@ impl Substitution<'_> {
         work.clear();
         work.extend_from_slice(own.unknowns);
         work.resize(front.height(), 0.0);
-        for child in self.tree.children(k).map(|child| self.front(child)) {
+        for child in self.tree.children(k) {
             let rows = &before[child.rows.start - first..child.rows.end - first];
             for run in &self.tree.runs[child.runs.clone()] {
                 let (start, place, count) = (run.start as usize, run.place as usize, run.count as usize);

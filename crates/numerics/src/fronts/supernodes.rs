@@ -29,6 +29,8 @@ pub(super) struct Supernodes<'a> {
     pub operations: Vec<f64>,
     /// Operations from which a subtree is divided into several tasks.
     pub share: f64,
+    /// Number of supernodes above each.
+    pub depth: Vec<usize>,
     /// Whether the subtree is divided into several tasks.
     pub divided: Vec<bool>,
 }
@@ -41,8 +43,9 @@ impl<'a> Supernodes<'a> {
         };
         let (begin, end) = (nodes.supernode_begin(), nodes.supernode_end());
         let (starts, rows) = (nodes.col_ptr_for_row_idx(), nodes.row_idx());
-        let (parent, operations, divided) = (vec![NONE; begin.len()], vec![], vec![false; begin.len()]);
-        let mut made = Self { begin, end, starts, rows, parent, operations, share: f64::INFINITY, divided };
+        let (parent, operations, share) = (vec![NONE; begin.len()], vec![], f64::INFINITY);
+        let (depth, divided) = (vec![0; begin.len()], vec![false; begin.len()]);
+        let mut made = Self { begin, end, starts, rows, parent, operations, share, depth, divided };
         for k in 0..begin.len() {
             if let Some(&row) = made.rows(k).first() {
                 made.parent[k] = end.partition_point(|&end| end <= row);
@@ -64,10 +67,9 @@ impl<'a> Supernodes<'a> {
         for k in (0..count).filter(|k| self.parent[*k] != NONE) {
             self.operations[self.parent[k]] += self.operations[k];
         }
-        let mut depth = vec![0; count];
         for k in (0..count).rev() {
-            depth[k] = if self.parent[k] == NONE { 0 } else { depth[self.parent[k]] + 1 };
-            self.divided[k] = self.operations[k] > self.share && depth[k] < DEEPEST_DIVIDED;
+            self.depth[k] = if self.parent[k] == NONE { 0 } else { self.depth[self.parent[k]] + 1 };
+            self.divided[k] = self.operations[k] > self.share && self.depth[k] < DEEPEST_DIVIDED;
         }
     }
 

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The assembly tree. Fronts are numbered in postorder, and unknowns so that those of a front are consecutive: all that
 /// belongs to a subtree is contiguous.
 #[derive(Debug)]
-pub(super) struct AssemblyTree {
+pub(crate) struct AssemblyTree {
     /// The unknown of the matrix that is eliminated at each place.
     pub order: Vec<u32>,
     /// The fronts, children before their parent.
@@ -26,7 +26,7 @@ pub(super) struct AssemblyTree {
 
 /// A front: the pivots of a supernode, and the rows below them.
 #[derive(Debug)]
-pub(super) struct Front {
+pub(crate) struct Front {
     /// Places in the order of the unknowns that are eliminated.
     pub pivots: Range<usize>,
     /// Range of its rows in a list of those of all fronts.
@@ -52,7 +52,7 @@ pub(super) struct Front {
 /// Rows that are consecutive in the update matrix of a front, and in the parent's front as well: either all among the
 /// parent's pivots or all below them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct RowRun {
+pub(crate) struct RowRun {
     /// The first of them in the update matrix.
     pub start: u32,
     /// Its place in the parent's front.
@@ -64,7 +64,7 @@ pub(super) struct RowRun {
 /// A part of the tree that is worked on as one: consecutive subtrees of one parent that are one task, or one subtree
 /// that is divided further.
 #[derive(Debug, Clone)]
-pub(super) struct TreeBranch {
+pub(crate) struct TreeBranch {
     /// Its fronts, the root or roots of it last.
     pub fronts: Range<usize>,
     /// Whether it is one subtree that is divided further.
@@ -79,7 +79,7 @@ pub(super) struct TreeBranch {
 /// even number of levels below them, and the one for the other fronts. A front takes its children's from one stack and
 /// puts its own on the other.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Room {
+pub(crate) struct Room {
     /// Count on the stack for its roots.
     pub even: usize,
     /// Count on the other stack.
@@ -130,10 +130,8 @@ impl AssemblyTree {
         // faer's columns, and then unknowns
         let columns: Vec<u32> = order.iter().flat_map(|&k| nodes.columns(k)).collect();
         let place_of_column = inverse(&columns);
-        tree.order = match analysis.perm() {
-            Some(perm) => columns.iter().map(|&column| perm.arrays().0[column as usize]).collect(),
-            None => columns,
-        };
+        let Some(order_of_faer) = analysis.perm() else { unreachable!("an order is given to faer") };
+        tree.order = columns.iter().map(|&column| order_of_faer.arrays().0[column as usize]).collect();
         let rows = tree.lay_out(&nodes, &order, &place_of_column);
         tree.place_rows(&rows, &nodes, &order);
         tree.place_entries(pattern, &rows);
@@ -148,10 +146,6 @@ impl AssemblyTree {
     fn lay_out(&mut self, nodes: &Supernodes<'_>, order: &[usize], place_of_column: &[u32]) -> Vec<u32> {
         let (mut rows, mut pivots, mut stored) = (Vec::with_capacity(nodes.rows.len()), 0, 0);
         let mut size = vec![1; order.len()];
-        let mut depth = vec![0; order.len()];
-        for &k in order.iter().rev().filter(|k| nodes.parent[**k] != NONE) {
-            depth[k] = depth[nodes.parent[k]] + 1;
-        }
         for (number, &k) in order.iter().enumerate() {
             let first_row = rows.len();
             // rows of ancestors: they follow each other in both orders
@@ -166,7 +160,7 @@ impl AssemblyTree {
                 panel: panel.clone(),
                 first: number + 1 - size[k],
                 parent: order.len(),
-                depth: depth[k],
+                depth: nodes.depth[k],
                 branches: vec![],
                 update: 0,
             });
@@ -235,8 +229,8 @@ impl AssemblyTree {
     }
 
     /// Returns the children of a front, the last one first.
-    pub fn children(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
-        self.roots_backwards(self.fronts[k].first..k)
+    pub fn children(&self, k: usize) -> impl Iterator<Item = &Front> + '_ {
+        self.roots_backwards(self.fronts[k].first..k).map(|child| &self.fronts[child])
     }
 
     /// Returns the roots of the subtrees that make up these consecutive fronts, the last one first.

@@ -8,8 +8,8 @@
 
 use super::elimination;
 use super::error::HomotopyError;
-use super::system::{C, Homotopy, Quadrics, distance, in_patch, norm, normalize};
-use super::track::{Care, Lost, Tracker};
+use super::system::{C, Homotopy, Quadrics, TotalDegree, distance, in_patch, norm, normalize};
+use super::track::{Care, Tracker};
 use crate::parallel;
 
 /// Number of attempts at all paths.
@@ -54,21 +54,15 @@ pub(super) struct Simple {
     pub separation: f64,
 }
 
-/// The equations at `t = 0`.
-pub(super) trait Target {
-    /// Size of the equations at a vector of norm 1.
-    fn residual(&self, x: &[C]) -> f64;
+/// A homotopy whose equations at `t = 0` have solutions of which it can be told whether they are simple.
+pub(super) trait Target: Homotopy {
     /// The simple solution at or very near to a point, if there is one.
     fn simple(&self, x: &[C]) -> Option<Simple>;
 }
 
-impl Target for Quadrics {
-    fn residual(&self, x: &[C]) -> f64 {
-        Quadrics::residual(self, x)
-    }
-
+impl Target for TotalDegree<'_> {
     fn simple(&self, x: &[C]) -> Option<Simple> {
-        proved_simple(self, x)
+        proved_simple(self.quadrics(), x)
     }
 }
 
@@ -79,50 +73,44 @@ pub(super) fn attempted<T>(attempt: impl Fn(u32) -> Result<T, HomotopyError>) ->
 }
 
 /// Follows the paths from all starts, at `t = 1`, to their ends; fails where one is lost.
-pub(super) fn ends<H: Homotopy + Sync>(
-    homotopy: &H,
-    target: &(impl Target + Sync),
+pub(super) fn ends(
+    homotopy: &(impl Target + Sync),
     starts: &[Vec<C>],
     repeated: u32,
 ) -> Result<Vec<HomotopyEnd>, HomotopyError> {
     let path = |start: &Vec<C>| {
         let mut tracker = Tracker::new(homotopy, Care::of_attempt(repeated));
         let x = tracker.track(start, C::new(1.0, 0.0), C::new(START, 0.0), FIRST_STEP)?;
-        finish(&mut tracker, target, x)
+        finish(&mut tracker, x)
     };
     let ends = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]));
-    let ends: Vec<HomotopyEnd> = ends.into_iter().filter_map(Result::ok).collect();
+    let ends: Vec<HomotopyEnd> = ends.into_iter().flatten().collect();
     let paths = starts.len() - ends.len();
     if paths == 0 { Ok(ends) } else { Err(HomotopyError::Lost { paths }) }
 }
 
-/// Follows a path from [`START`] to its end.
-fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<HomotopyEnd, Lost> {
+/// Follows a path from [`START`] to its end; `None` where it is lost.
+fn finish<H: Target>(tracker: &mut Tracker<H>, x: Vec<C>) -> Option<HomotopyEnd> {
     let (mut x, mut radius) = (x, START);
     for circle in 0..MOST_CIRCLES {
         let t = C::new(radius, 0.0);
-        let leapt = tracker.leap(&x, t, C::default());
-        if let Some(simple) = leapt.and_then(|point| target.simple(&point)) {
-            return Ok(HomotopyEnd::Simple(simple));
+        let leapt = tracker.step(&x, t, C::default());
+        if let Some(simple) = leapt.and_then(|(point, _)| tracker.homotopy.simple(&point)) {
+            return Some(HomotopyEnd::Simple(simple));
         }
         if circle > 0
-            && let Some(end) = by_integral(tracker, target, &x, radius)
+            && let Some(end) = by_integral(tracker, &x, radius)
         {
-            return Ok(end);
+            return Some(end);
         }
         x = tracker.track(&x, t, t * RADIUS_RATIO, 0.3)?;
         radius *= RADIUS_RATIO;
     }
-    Err(Lost)
+    None
 }
 
 /// The mean over the rounds of a circle, where it is a solution.
-fn by_integral<H: Homotopy>(
-    tracker: &mut Tracker<H>,
-    target: &impl Target,
-    x: &[C],
-    radius: f64,
-) -> Option<HomotopyEnd> {
+fn by_integral<H: Target>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option<HomotopyEnd> {
     let (points, winding) = rounds(tracker, x, radius)?;
     let mean = |step: usize| -> Vec<C> {
         let count = points.len().div_ceil(step) as f64;
@@ -132,11 +120,11 @@ fn by_integral<H: Homotopy>(
     normalize(&mut point);
     normalize(&mut coarse);
     let error = distance(&point, &coarse);
-    let solved = error <= MEANS_DISTANCE && target.residual(&point) <= SOLUTION_RESIDUAL;
+    let solved = error <= MEANS_DISTANCE && tracker.homotopy.quadrics().residual(&point) <= SOLUTION_RESIDUAL;
     if !solved {
         return None;
     }
-    match target.simple(&point) {
+    match tracker.homotopy.simple(&point) {
         None => Some(HomotopyEnd::Singular { point, error }),
         Some(found) => (winding == 1).then_some(HomotopyEnd::Simple(found)),
     }
@@ -153,7 +141,7 @@ fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option
         for k in 0..POINTS_PER_ROUND {
             points.push(in_patch(&first, &at));
             size = size.max(distance(&first, &at));
-            at = tracker.track(&at, on_circle(k), on_circle(k + 1), 1.0).ok()?;
+            at = tracker.track(&at, on_circle(k), on_circle(k + 1), 1.0)?;
             at = tracker.polished(&at, on_circle(k + 1));
         }
         if distance(&first, &at) <= CLOSED_DISTANCE * size + 1e-13 {

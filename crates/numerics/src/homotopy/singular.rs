@@ -81,7 +81,7 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     }
     let frame = random_frame(quadrics.unknowns, quadrics.count(), &mut random);
     let polar = Polar { quadrics, frame, planes, factor: unit(&mut random) };
-    let singular = ends(&polar, &polar, &starts, attempt)?.into_iter().filter_map(|end| match end {
+    let singular = ends(&polar, &starts, attempt)?.into_iter().filter_map(|end| match end {
         HomotopyEnd::Singular { point, error } => Some((point, error)),
         HomotopyEnd::Simple(_) => None,
     });
@@ -141,8 +141,8 @@ fn cofactor(matrix: &[C], n: usize, row: usize, column: usize) -> C {
 }
 
 impl Homotopy for Polar<'_> {
-    fn unknowns(&self) -> usize {
-        self.quadrics.unknowns
+    fn quadrics(&self) -> &Quadrics {
+        self.quadrics
     }
 
     fn evaluate(&self, x: &[C], t: C, at: &mut HomotopyDerivatives) {
@@ -160,10 +160,6 @@ impl Homotopy for Polar<'_> {
 }
 
 impl Target for Polar<'_> {
-    fn residual(&self, x: &[C]) -> f64 {
-        self.quadrics.residual(x)
-    }
-
     /// A point where the curve is smooth.
     fn simple(&self, x: &[C]) -> Option<Simple> {
         let (n, count) = (x.len(), self.quadrics.count());

@@ -28,7 +28,7 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
     let homotopy = TotalDegree::new(quadrics, &mut ChaCha8Rng::seed_from_u64(u64::from(repeated)));
     let paths = 1 << quadrics.count();
     let starts: Vec<Vec<C>> = (0..paths).map(|number| homotopy.start(number)).collect();
-    let ends = ends(&homotopy, quadrics, &starts, repeated)?;
+    let ends = ends(&homotopy, &starts, repeated)?;
     let mut solutions = Solutions { paths, ..Solutions::default() };
     add_simple(&ends, &mut solutions)?;
     add_singular(quadrics, &ends, &mut solutions)?;

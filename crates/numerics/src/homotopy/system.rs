@@ -27,7 +27,8 @@ pub(super) struct HomotopyDerivatives {
 
 /// `H(x, t)`: one homogeneous equation fewer than unknowns, polynomial in `t`.
 pub(super) trait Homotopy {
-    fn unknowns(&self) -> usize;
+    /// The quadrics that it leads to.
+    fn quadrics(&self) -> &Quadrics;
     fn evaluate(&self, x: &[C], t: C, at: &mut HomotopyDerivatives);
 }
 
@@ -104,8 +105,8 @@ impl<'a> TotalDegree<'a> {
 }
 
 impl Homotopy for TotalDegree<'_> {
-    fn unknowns(&self) -> usize {
-        self.quadrics.unknowns
+    fn quadrics(&self) -> &Quadrics {
+        self.quadrics
     }
 
     fn evaluate(&self, x: &[C], t: C, at: &mut HomotopyDerivatives) {

@@ -31,12 +31,8 @@ impl Care {
     }
 }
 
-/// A path could not be followed: its steps became too short, or too many.
-#[derive(Debug)]
-pub(super) struct Lost;
-
 pub(super) struct Tracker<'a, H> {
-    homotopy: &'a H,
+    pub homotopy: &'a H,
     care: Care,
     local: HomotopyDerivatives,
     matrix: Vec<C>,
@@ -44,19 +40,19 @@ pub(super) struct Tracker<'a, H> {
 
 impl<'a, H: Homotopy> Tracker<'a, H> {
     pub fn new(homotopy: &'a H, care: Care) -> Self {
-        let n = homotopy.unknowns();
+        let n = homotopy.quadrics().unknowns;
         Self { homotopy, care, local: HomotopyDerivatives::new(n), matrix: vec![C::default(); n * n] }
     }
 
     /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that
-    /// the first step tries.
-    pub fn track(&mut self, x: &[C], from: C, to: C, first: f64) -> Result<Vec<C>, Lost> {
+    /// the first step tries. `None` where it is lost: steps become too short, or too many.
+    pub fn track(&mut self, x: &[C], from: C, to: C, first: f64) -> Option<Vec<C>> {
         let (mut x, mut done, mut length) = (x.to_vec(), 0.0, first);
         for _ in 0..MOST_STEPS {
             let last = length >= 1.0 - done;
             let next = if last { 1.0 } else { done + length };
             match self.step(&x, from + (to - from) * done, from + (to - from) * next) {
-                Some((found, _)) if last => return Ok(found),
+                Some((found, _)) if last => return Some(found),
                 Some((found, used)) => {
                     (x, done) = (found, next);
                     length *= (0.8 * used.powf(-0.2)).clamp(0.5, 3.0);
@@ -64,15 +60,10 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
                 None => length = 0.4 * (next - done),
             }
             if length < SHORTEST_STEP {
-                return Err(Lost);
+                return None;
             }
         }
-        Err(Lost)
-    }
-
-    /// Goes in one step or not at all.
-    pub fn leap(&mut self, x: &[C], from: C, to: C) -> Option<Vec<C>> {
-        self.step(x, from, to).map(|(found, _)| found)
+        None
     }
 
     /// Newton's method at one parameter until rounding is all that is left.
@@ -88,7 +79,7 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
     }
 
     /// The point that a step leads to, and how much of what is allowed it used: 1 is all; `None` if it is refused.
-    fn step(&mut self, x: &[C], from: C, to: C) -> Option<(Vec<C>, f64)> {
+    pub fn step(&mut self, x: &[C], from: C, to: C) -> Option<(Vec<C>, f64)> {
         let mut found = self.predict(x, from, to)?;
         let (mut before, mut used) = (f64::INFINITY, 0.0f64);
         for iteration in 0..5 {

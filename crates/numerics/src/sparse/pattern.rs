@@ -69,12 +69,6 @@ impl SparsityPattern {
         (Self { n, columns, rows: order.iter().map(|&entry| entries[entry as usize].0).collect() }, slots)
     }
 
-    /// The upper triangle by columns: starts of the columns, and rows.
-    pub fn upper(&self) -> (Vec<u32>, Vec<u32>) {
-        let columns = (0..self.n).flat_map(|column| self.column(column).iter().map(move |&row| (row, column as u32)));
-        group(self.n, columns)
-    }
-
     /// Number of rows.
     pub fn size(&self) -> usize {
         self.n

@@ -5,7 +5,9 @@
 //! distances, so all points within the side of a cube are in the 27 cubes around, and those whose projections are
 //! further apart are not near.
 
-use foldwell_numerics::vector::{add_scaled, dot, norm};
+use foldwell_numerics::DenseMatrix;
+use foldwell_numerics::dense::small::orthonormal_triangular;
+use foldwell_numerics::vector::dot;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -81,18 +83,9 @@ impl PointIndex {
 fn directions(coordinates: usize) -> Vec<f64> {
     let count = coordinates.min(DIRECTIONS);
     let general = |k: usize| (k as f64 * std::f64::consts::SQRT_2 + (k * k) as f64 * 0.618_033_988_75).fract() - 0.5;
-    let mut all: Vec<f64> = (1..=count * coordinates).map(general).collect();
-    for axis in 0..count {
-        let (before, rest) = all.split_at_mut(axis * coordinates);
-        let direction = &mut rest[..coordinates];
-        for other in before.chunks_exact(coordinates) {
-            let part = dot(other, direction);
-            add_scaled(direction, -part, other);
-        }
-        let length = norm(direction);
-        direction.iter_mut().for_each(|d| *d /= length);
-    }
-    all
+    let general = DenseMatrix::from_iterator(coordinates, count, (1..=count * coordinates).map(general));
+    let [directions, _] = orthonormal_triangular(general);
+    directions.as_slice().to_vec()
 }
 
 #[cfg(test)]

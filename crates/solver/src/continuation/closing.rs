@@ -17,19 +17,18 @@ const MOST_STEPS: usize = 20;
 const SMALLEST_STEP: f64 = 1e-14;
 
 /// The difference of a point to the start, whole periods taken off.
-fn difference(x: &[f64], start: &[f64], period: f64, windings: &mut [f64]) -> Vec<f64> {
-    let turned = x.iter().zip(start).zip(windings).map(|((x, start), turns)| {
-        *turns = ((x - start) / period).round();
-        x - start - *turns * period
-    });
-    turned.collect()
+fn difference(x: &[f64], start: &[f64], period: f64) -> Vec<f64> {
+    x.iter().zip(start).map(|(x, start)| x - start - turns(x - start, period) * period).collect()
+}
+
+/// The number of whole periods nearest to a difference.
+fn turns(difference: f64, period: f64) -> f64 {
+    (difference / period).round()
 }
 
 /// Half the rate of the squared distance to the start.
 pub(super) fn approach(point: &CurvePoint, start: &[f64], period: f64) -> f64 {
-    let mut turns = vec![0.0; start.len()];
-    let away = difference(&point.x, start, period, &mut turns);
-    dot(&away, &point.tangent)
+    dot(&difference(&point.x, start, period), &point.tangent)
 }
 
 /// Arc length near a step of this interpolant at which the distance to the start has its minimum; `None` where the
@@ -53,7 +52,7 @@ pub(super) fn closed(beside: &[CurvePoint], nearest: f64, start: &[f64], period:
     (found.distance <= LARGEST_GAP).then(|| Return {
         arc_length: found.arc_length,
         arrival: found.slope.iter().map(|v| v / speed).collect(),
-        windings: found.turns.iter().map(|turns| *turns as i64).collect(),
+        windings: found.windings,
     })
 }
 
@@ -62,16 +61,16 @@ struct Nearest {
     arc_length: f64,
     distance: f64,
     slope: Vec<f64>,
-    turns: Vec<f64>,
+    windings: Vec<i64>,
 }
 
 impl Nearest {
     /// Newton's method from the arc length `s`.
     fn new(hermite: &Hermite, mut s: f64, start: &[f64], period: f64) -> Self {
-        let (mut x, mut slope, mut turns) = (start.to_vec(), start.to_vec(), vec![0.0; start.len()]);
+        let (mut x, mut slope) = (start.to_vec(), start.to_vec());
         for _ in 0..MOST_STEPS {
             hermite.at(s, &mut x, &mut slope);
-            let away = difference(&x, start, period, &mut turns);
+            let away = difference(&x, start, period);
             let step = dot(&away, &slope) / dot(&slope, &slope);
             s -= step;
             if step.abs() < SMALLEST_STEP * (1.0 + s.abs()) {
@@ -79,7 +78,7 @@ impl Nearest {
             }
         }
         hermite.at(s, &mut x, &mut slope);
-        let distance = norm(&difference(&x, start, period, &mut turns));
-        Self { arc_length: s, distance, slope, turns }
+        let windings = x.iter().zip(start).map(|(x, start)| turns(x - start, period) as i64).collect();
+        Self { arc_length: s, distance: norm(&difference(&x, start, period)), slope, windings }
     }
 }

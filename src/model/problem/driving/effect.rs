@@ -35,11 +35,6 @@ pub(super) enum Effect {
 }
 
 impl Effect {
-    pub(super) fn prescribed(model: &Model, measures: std::ops::Range<usize>) -> Self {
-        let first = model.compliance.len() - model.supports.len();
-        Self::Prescribed(measures.map(|k| (k, model.supports[k - first].rest)).collect())
-    }
-
     /// Fold angles of the locks on these edges, of which the first, returned too, is the parameter.
     pub(super) fn locks(model: &Model, edges: &[usize]) -> Result<(Self, f64), DriveError> {
         let is_meant = |lock: &Element<'_>| lock.edge().is_some_and(|edge| edges.contains(&edge));

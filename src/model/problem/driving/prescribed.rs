@@ -1,6 +1,7 @@
 //! Measures that drives prescribe: the supports of displacements, and the volumes that faces under pressure enclose.
 
 use super::Model;
+use super::effect::Effect;
 use crate::model::element::{Elements, TermKind};
 use crate::model::enclosed::Enclosed;
 use crate::model::law::{Memory, Spring};
@@ -11,7 +12,8 @@ use std::sync::Arc;
 
 impl Model {
     /// Adds supports of these linear functions, at their values in the reference state, and chooses the unknowns anew.
-    pub(super) fn support_moved(&mut self, functions: Vec<Vec<(usize, f64)>>, is_angle: bool) {
+    pub(super) fn support_moved(&mut self, functions: Vec<Vec<(usize, f64)>>, is_angle: bool) -> Effect {
+        let (first, given) = (self.compliance.len(), self.supports.len());
         for terms in functions {
             let support = Support { terms, rest: 0.0, is_angle };
             let rest = support.value(&self.base);
@@ -19,6 +21,7 @@ impl Model {
         }
         self.count_measures();
         self.choose_unknowns();
+        Effect::Prescribed((first..).zip(self.supports[given..].iter().map(|support| support.rest)).collect())
     }
 
     /// Returns the faces under the pressure of this name, and their numbers, which are soft elements; `None` if there
