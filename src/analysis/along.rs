@@ -146,20 +146,6 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
     last.filter(|edge| speed(edge) >= FAST_ENOUGH * speed(&first)).unwrap_or(first)
 }
 
-/// The relaxed state, if its measures are all rigid only where it is the rigid one.
-fn same_state(
-    assembly: &Assembly,
-    state: StateAlong,
-    (from, to): (&Folded, &Folded),
-) -> Result<StateAlong, AlongFailure> {
-    let interpolated = if to.positions.is_empty() { INTERPOLATED * (to.arc_length - from.arc_length) } else { 0.0 };
-    let most = f64::max(SAME_STATE, interpolated);
-    if assembly.terms().is_rigid() && !(state.error <= most) {
-        return Err(AlongFailure::Elsewhere { apart: state.error });
-    }
-    Ok(state)
-}
-
 /// Whether relaxed angles made another step than the rigid ones.
 fn goes_elsewhere(before: &[f64], now: &[f64], (from, to): (&Folded, &Folded)) -> bool {
     let most = ELSEWHERE * f64::max(to.arc_length - from.arc_length, SHORT);
@@ -201,8 +187,15 @@ impl Track<'_> {
         observe: Observe<'_>,
     ) -> Result<StateAlong, AlongFailure> {
         let before = self.clone();
-        let found = self.step(to, fastest(&to.rates, self.crease), observe);
-        let found = found.and_then(|state| same_state(self.assembly, state, (from, to)));
+        let interpolated = if to.positions.is_empty() { INTERPOLATED * (to.arc_length - from.arc_length) } else { 0.0 };
+        let most = f64::max(SAME_STATE, interpolated);
+        let found = match self.step(to, fastest(&to.rates, self.crease), observe) {
+            // the relaxed state, if its measures are all rigid only where it is the rigid one
+            Ok(state) if self.assembly.terms().is_rigid() && !(state.error <= most) => {
+                Err(AlongFailure::Elsewhere { apart: state.error })
+            }
+            found => found,
+        };
         let wrong = match &found {
             Ok(state) => goes_elsewhere(&before.angles, &state.angles, (from, to)),
             Err(failure) => *failure != AlongFailure::Relaxation(Failure::Interrupted),

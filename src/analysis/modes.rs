@@ -14,7 +14,7 @@ mod spectrum;
 mod vibrations;
 
 use super::restored::{self, Forces};
-use crate::kinematics::closure::{Closure, HingedEdge};
+use crate::kinematics::closure::Closure;
 use crate::model::{Assembly, Bars, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
 use crate::sheet::{Tiling, pieces};
 use crate::solver::{Problem, Start};
@@ -179,8 +179,7 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     if !assembly.sheet().is_surface() || !assembly.terms().parts.is_empty() {
         return Ok(None);
     }
-    let hinged: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
-    let closure = Closure::of_edges(&hinged, |site| state.domain.point(&state.coordinates, site))?;
+    let closure = Closure::of_edges(&tiling.edges, |site| state.domain.point(&state.coordinates, site))?;
     let tube = matches!(assembly.domain(), Domain::Tube { .. } | Domain::Own(_));
     let unchecked = tube || closure.unchecked_loops > 0 || pieces_with_openings(tiling) || tiling.has_bars_alone();
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {

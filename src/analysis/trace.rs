@@ -85,13 +85,9 @@ pub fn trace(
     let embedding = Embedding::new(assembly.sheet())?;
     let tube = found.tube.as_ref();
     let condition = tube.map(|(tube, kept)| tube.keeping(*kept));
-    let closing = Closing::new(&closure, found.angles.clone());
     let planar = SpatiallyPeriodic(&embedding);
-    let mut closing = match &condition {
-        Some(condition) => closing.keeping(condition),
-        None if found.planar => closing.keeping(&planar),
-        None => closing,
-    };
+    let closing = Closing::new(&closure, found.angles.clone()).keeping(condition.as_ref());
+    let mut closing = closing.keeping(found.planar.then_some(&planar));
     let mut watched = Watched {
         embedding: &embedding,
         periodic: assembly.domain().is_one_cell(),

@@ -40,14 +40,8 @@ impl AngleConditions for SpatiallyPeriodic<'_> {
 pub struct Closing<'a> {
     closure: &'a Closure,
     angles: Vec<f64>,
-    kept: Option<KeptConditions<'a>>,
-}
-
-/// The conditions that are kept beside closure, and storage for the two Jacobians.
-struct KeptConditions<'a> {
-    conditions: &'a dyn AngleConditions,
-    closure: DenseMatrix,
-    rates: DenseMatrix,
+    /// Conditions that are kept beside closure.
+    kept: Option<&'a dyn AngleConditions>,
 }
 
 impl<'a> Closing<'a> {
@@ -56,14 +50,9 @@ impl<'a> Closing<'a> {
         Self { closure, angles, kept: None }
     }
 
-    /// Returns the equations followed by those of conditions.
-    pub fn keeping(self, conditions: &'a dyn AngleConditions) -> Self {
-        let closure = DenseMatrix::zeros(self.closure.rows(), self.closure.folding_edges().len());
-        let kept = Some(KeptConditions {
-            conditions,
-            closure,
-            rates: DenseMatrix::zeros(conditions.count(), self.angles.len()),
-        });
+    /// Returns the equations followed by those of conditions, if there are any.
+    pub fn keeping(self, conditions: Option<&'a impl AngleConditions>) -> Self {
+        let kept = conditions.map(|conditions| conditions as &dyn AngleConditions).or(self.kept);
         Self { kept, ..self }
     }
 
@@ -103,18 +92,20 @@ impl Implicit for Closing<'_> {
     }
 
     fn equations(&self) -> usize {
-        self.closure.rows() + self.kept.as_ref().map_or(0, |kept| kept.conditions.count())
+        self.closure.rows() + self.kept.map_or(0, AngleConditions::count)
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
         let folding = self.closure.folding_edges();
         folding.iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
-        let Some(kept) = &mut self.kept else { return self.closure.linearize_into(&self.angles, residual, jacobian) };
-        let row = kept.closure.nrows();
-        self.closure.linearize_into(&self.angles, &mut residual[..row], &mut kept.closure);
-        jacobian.rows_mut(0, row).copy_from(&kept.closure);
-        kept.conditions.linearize(&self.angles, &mut residual[row..], &mut kept.rates);
-        let mut rates = jacobian.rows_mut(row, kept.rates.nrows());
-        folding.iter().enumerate().for_each(|(column, &edge)| rates.set_column(column, &kept.rates.column(edge)));
+        let Some(kept) = self.kept else { return self.closure.linearize_into(&self.angles, residual, jacobian) };
+        let (row, count) = (self.closure.rows(), kept.count());
+        let mut closure = DenseMatrix::zeros(row, folding.len());
+        self.closure.linearize_into(&self.angles, &mut residual[..row], &mut closure);
+        jacobian.rows_mut(0, row).copy_from(&closure);
+        let mut of_kept = DenseMatrix::zeros(count, self.angles.len());
+        kept.linearize(&self.angles, &mut residual[row..], &mut of_kept);
+        let mut rates = jacobian.rows_mut(row, count);
+        folding.iter().enumerate().for_each(|(column, &edge)| rates.set_column(column, &of_kept.column(edge)));
     }
 }

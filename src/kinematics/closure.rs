@@ -12,15 +12,13 @@ use super::error::check_surface;
 use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{DenseError, NullSpace, null_space_of_sums};
-use crate::sheet::tiling::Tiling;
-use crate::sheet::{Corner, Sheet};
+use crate::sheet::tiling::{Tiling, tile};
+use crate::sheet::{Corner, Sheet, TiledEdge};
 use nalgebra::{DVector, Matrix3};
 
-mod edge;
 mod opening;
 mod second_derivative;
 
-pub(crate) use edge::HingedEdge;
 use opening::Opening;
 
 /// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two
@@ -69,14 +67,11 @@ struct HalfEdge {
     wings: [Option<Corner>; 2],
 }
 
-impl HingedEdge {
-    /// Returns the edge as seen from its first (0) or second (1) end.
-    fn half(&self, edge: usize, side: usize) -> HalfEdge {
-        let back = self.ends[side].shift.map(|n| -n);
-        let seen = |corner: Corner| corner.translated(back);
-        let wings = [self.wings[side].map(seen), self.wings[1 - side].map(seen)];
-        HalfEdge { edge, to: seen(self.ends[1 - side]), wings }
-    }
+/// Returns the edge of this number as seen from its first (0) or second (1) end.
+fn half(TiledEdge { ends, wings, .. }: &TiledEdge, edge: usize, side: usize) -> HalfEdge {
+    let back = ends[side].shift.map(|n| -n);
+    let seen = |corner: Corner| corner.translated(back);
+    HalfEdge { edge, to: seen(ends[1 - side]), wings: [wings[side].map(seen), wings[1 - side].map(seen)] }
 }
 
 impl Closure {
@@ -86,8 +81,7 @@ impl Closure {
     /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
         check_surface(sheet)?;
-        let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
-        Self::of_edges(&edges, |corner| sheet.position(corner))
+        Self::of_edges(&tile(sheet, [1, 1], true).edges, |corner| sheet.position(corner))
     }
 
     /// Returns the closure of several cells of a sheet; edges and vertices are numbered as in the tiling.
@@ -96,9 +90,8 @@ impl Closure {
         if sheet.screws.is_some() {
             return Err(KinematicsError::Rolled);
         }
-        let edges: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
         let lattice = sheet.lattice.unwrap_or([Vec3::zeros(); 2]);
-        Self::of_edges(&edges, |Corner { vertex, shift }| {
+        Self::of_edges(&tiling.edges, |Corner { vertex, shift }| {
             let steps = [0, 1].map(|a| f64::from(shift[a]) * tiling.cells[a] as f64);
             tiling.positions[vertex] + lattice[0] * steps[0] + lattice[1] * steps[1]
         })
@@ -106,13 +99,13 @@ impl Closure {
 
     /// Returns the closure of any list of edges, which are numbered as in the list; vertices are numbered as in their
     /// corners. `position` returns the position of a corner in any state in which the faces have their shape.
-    pub(crate) fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
+    pub(crate) fn of_edges(edges: &[TiledEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
         let halves = halves_by_vertex(edges);
         let is_interior = |halves: &[HalfEdge]| halves.iter().all(|half| half.wings.iter().all(Option::is_some));
         let interior = halves.iter().enumerate().filter(|(_, halves)| !halves.is_empty() && is_interior(halves));
         let rounds = interior.map(|(vertex, halves)| Round::new(vertex, halves, &position));
         let rounds: Vec<Round> = rounds.collect::<Result<_, _>>()?;
-        let folding = (0..edges.len()).filter(|&edge| edges[edge].folds()).collect();
+        let folding = (0..edges.len()).filter(|&edge| edges[edge].hinge().is_some()).collect();
         let vertices = halves.iter().filter(|halves| !halves.is_empty()).count();
         let unchecked = unchecked_loops(edges, vertices);
         let inside: Vec<usize> = rounds.iter().map(|round: &Round| round.vertex).collect();
@@ -289,12 +282,12 @@ pub fn drawn_fold_angles(sheet: &Sheet) -> Vec<f64> {
     sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap_or(0.0)).collect()
 }
 
-fn halves_by_vertex(edges: &[HingedEdge]) -> Vec<Vec<HalfEdge>> {
+fn halves_by_vertex(edges: &[TiledEdge]) -> Vec<Vec<HalfEdge>> {
     let vertices = edges.iter().flat_map(|edge| edge.ends).map(|end| end.vertex + 1).max().unwrap_or(0);
     let mut halves = vec![Vec::new(); vertices];
     for (number, edge) in edges.iter().enumerate() {
         for side in [0, 1] {
-            halves[edge.ends[side].vertex].push(edge.half(number, side));
+            halves[edge.ends[side].vertex].push(half(edge, number, side));
         }
     }
     halves
@@ -302,14 +295,14 @@ fn halves_by_vertex(edges: &[HingedEdge]) -> Vec<Vec<HalfEdge>> {
 
 /// Returns the number of unchecked loops from the Euler characteristic, which is 0 for a torus and 1 for a disk, and
 /// smaller by one for every opening.
-fn unchecked_loops(edges: &[HingedEdge], vertices: usize) -> usize {
+fn unchecked_loops(edges: &[TiledEdge], vertices: usize) -> usize {
     let sides = edges.iter().flat_map(|edge| edge.wings).flatten().count();
     let euler_of_whole = if is_periodic(edges) { 0 } else { 1 };
     (euler_of_whole + edges.len()).saturating_sub(vertices + sides / 3)
 }
 
 /// Whether an edge leads to another cell.
-fn is_periodic(edges: &[HingedEdge]) -> bool {
+fn is_periodic(edges: &[TiledEdge]) -> bool {
     edges.iter().any(|edge| edge.ends[0].shift != edge.ends[1].shift)
 }
 
@@ -323,7 +316,6 @@ mod tests {
     use super::*;
     use crate::numerics::dense::null_space;
     use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
-    use crate::sheet::tiling::tile;
 
     fn nullity(closure: &Closure, angles: &[f64]) -> usize {
         null_space(&closure.jacobian(angles)).unwrap().basis.ncols()
@@ -455,8 +447,8 @@ mod tests {
     /// closed by a loop of its own.
     #[test]
     fn broken_rounds_and_openings() {
-        let mut edges: Vec<HingedEdge> = finite_grid(2, 2, 0.3).edges.iter().map(HingedEdge::from).collect();
-        let at_center = |edge: &HingedEdge| edge.ends.iter().any(|end| end.vertex == 4);
+        let mut edges = tile(&finite_grid(2, 2, 0.3), [1, 1], true).edges;
+        let at_center = |edge: &TiledEdge| edge.ends.iter().any(|end| end.vertex == 4);
         let spoke = edges.iter().position(at_center).unwrap();
         edges[spoke].wings = [Some(Corner::home(0)); 2];
         let position = |corner: Corner| Vec3::new(corner.vertex as f64, (corner.vertex as f64).cos(), 0.0);

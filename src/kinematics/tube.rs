@@ -48,16 +48,6 @@ pub enum Condition {
     Rise,
 }
 
-impl Condition {
-    /// Returns the other condition.
-    pub fn other(self) -> Self {
-        match self {
-            Self::Turn => Self::Rise,
-            Self::Rise => Self::Turn,
-        }
-    }
-}
-
 /// Both conditions, in the order of their numbers.
 pub const BOTH: [Condition; 2] = [Condition::Turn, Condition::Rise];
 
@@ -148,7 +138,7 @@ impl<'a> Tube<'a> {
         let options = CurveOptions { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
         let start = self.embedding.drawn_angles().to_vec();
         let kept = self.keeping(Condition::Rise);
-        let mut curve = Closing::new(&self.closure, start.clone()).keeping(&kept);
+        let mut curve = Closing::new(&self.closure, start.clone()).keeping(Some(&kept));
         let turned = |point: &CurvePoint| self.defects(&point.x)[Condition::Turn as usize];
         let mut stop = |_: &mut _, point: &CurvePoint, out: &mut Vec<f64>| out.push(turned(point));
         let found = follow(&mut curve, start, ray, &options, &mut stop, &mut |_| true);
@@ -178,7 +168,7 @@ impl<'a> Tube<'a> {
     /// of the seam, or its turn. Both are those along the axis about which the seam turns by a positive angle.
     pub(crate) fn growing(&self, angles: &[f64], kept: Condition, motion: &[f64]) -> Vec<f64> {
         let mut rates = DenseMatrix::zeros(1, angles.len());
-        self.keeping(kept.other()).linearize(angles, &mut [0.0], &mut rates);
+        self.keeping(BOTH[1 - kept as usize]).linearize(angles, &mut [0.0], &mut rates);
         let growth: f64 = rates.iter().zip(motion).map(|(a, b)| a * b).sum();
         let lattice = Displacement::new(&self.embedding, angles, motion).lattice;
         let positive = self.axis.unwrap_or_else(|| self.seam_of(&lattice).0.turn);

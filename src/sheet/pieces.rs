@@ -20,9 +20,9 @@ pub fn pieces(
     of_root.into_iter().zip(has_face).filter_map(|(piece, face)| face.then_some(piece)).collect()
 }
 
-/// Returns the least vertex of the piece of a vertex, and halves the path to it in `root`, which leads from each vertex
-/// to one of its piece that is not greater.
-pub(super) fn find(root: &mut [usize], mut vertex: usize) -> usize {
+/// Returns the vertex that stands for the piece of a vertex, and halves the path to it in `root`, which leads from each
+/// vertex towards it and from it to itself.
+pub(crate) fn find(root: &mut [usize], mut vertex: usize) -> usize {
     while root[vertex] != vertex {
         root[vertex] = root[root[vertex]];
         vertex = root[vertex];

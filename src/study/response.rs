@@ -52,10 +52,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answ
     add_pictures(&mut answer, context, &response, &state.coordinates);
     let mut summary = summary(&response);
     match moduli_at(context.assembly, &state) {
-        Ok(found) => {
-            summary.moduli = found.moduli().map(moduli_summary);
-            summary.no_moduli = found.reason();
-        }
+        Ok(found) => summary.moduli = Some(moduli_summary(&found)),
         Err(error) => summary.no_moduli = Some(error.to_string()),
     }
     answer.conclude(StudyResult::Response(Box::new(summary)), Some(response.error), None);

@@ -15,6 +15,7 @@ use super::{Laurent, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, eigenvalues};
 use crate::numerics::dense::small::inverse;
 use crate::numerics::dense::{Svd, full_svd};
+use crate::sheet::pieces;
 use nalgebra::Complex;
 
 /// Newton steps at most.
@@ -27,22 +28,9 @@ const ROUNDINGS: f64 = 16.0;
 /// The roots of a cluster by their numbers in a list: each within the rounding errors of another of them. Roots that
 /// are alone are left out.
 pub(crate) fn clusters(roots: &[Root]) -> Vec<Vec<usize>> {
-    let mut left: Vec<usize> = (0..roots.len()).collect();
-    let mut found = Vec::new();
-    while let Some(first) = left.pop() {
-        let (mut cluster, mut next) = (vec![first], 0);
-        while let Some(&at) = cluster.get(next) {
-            let (near, far) = left.iter().partition(|&&other| meet(&roots[at], &roots[other]));
-            cluster.extend::<Vec<usize>>(near);
-            left = far;
-            next += 1;
-        }
-        if cluster.len() > 1 {
-            cluster.sort_unstable();
-            found.push(cluster);
-        }
-    }
-    found
+    let pairs = (0..roots.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let near = pairs.filter(|[a, b]| meet(&roots[*a], &roots[*b]));
+    pieces(roots.len(), near, 0..roots.len()).into_iter().filter(|cluster| cluster.len() > 1).collect()
 }
 
 /// Whether two roots are apart by no more than the rounding of the determinant's coefficients may put between them.

@@ -19,6 +19,16 @@ pub enum ResponseError {
         "the number of modes is not clear: motions that count as modes change lengths or held angles by up to {change:.1e}"
     )]
     UnclearModes { change: f64 },
+    #[error("the energy has no bars")]
+    NoBars,
+    #[error("the energy has terms of one's own")]
+    OwnTerms,
+    #[error("the sheet is rolled up")]
+    RolledUp,
+    #[error(
+        "the state is under stress, off its rest lengths and angles by up to {off:.1e}; moduli are those of a sheet at rest"
+    )]
+    UnderStress { off: f64 },
     #[error(transparent)]
     Modes(#[from] ModesError),
     #[error(transparent)]

@@ -43,7 +43,7 @@ mod tensors;
 pub use condensed::{ModuliMatrices, Principal};
 pub use error::ResponseError;
 pub use mode::{Field, LinearMode, ModeTable};
-pub use moduli::{Moduli, ModuliOf, moduli_at};
+pub use moduli::{Moduli, moduli_at};
 pub use poisson::{Poisson, Relation};
 pub use result::{LatticeMotions, Response};
 pub use stresses::SelfStress;
@@ -129,6 +129,6 @@ pub(crate) fn ratios_at(
 ///
 /// # Errors
 /// As [`moduli_at`].
-pub fn moduli(assembly: &Assembly) -> Result<ModuliOf, ResponseError> {
+pub fn moduli(assembly: &Assembly) -> Result<Moduli, ResponseError> {
     moduli_at(assembly, &restored::drawn(assembly))
 }

@@ -30,66 +30,25 @@ pub struct Moduli {
     pub softest: Vec<Principal>,
 }
 
-/// The moduli of a state, or why it has none.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ModuliOf {
-    /// The moduli.
-    Sheet(Box<Moduli>),
-    /// The energy has no bars: nothing holds the faces together.
-    NoBars,
-    /// The energy has terms of one's own, whose stiffness is not known cell by cell.
-    OwnTerms,
-    /// The state is rolled up.
-    RolledUp,
-    /// The state is under stress: an element is off its rest value.
-    UnderStress {
-        /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to
-        /// it.
-        off: f64,
-    },
-}
-
-impl ModuliOf {
-    /// Returns the moduli, if there are any.
-    pub fn moduli(&self) -> Option<&Moduli> {
-        if let Self::Sheet(moduli) = self { Some(moduli) } else { None }
-    }
-
-    /// Returns why there are no moduli.
-    pub fn reason(&self) -> Option<String> {
-        match self {
-            Self::Sheet(_) => None,
-            Self::NoBars => Some("the energy has no bars".to_owned()),
-            Self::OwnTerms => Some("the energy has terms of one's own".to_owned()),
-            Self::RolledUp => Some("the sheet is rolled up".to_owned()),
-            Self::UnderStress { off } => Some(format!(
-                "the state is under stress, off its rest lengths and angles by up to {off:.1e}; moduli are those of a sheet \
-                 at rest"
-            )),
-        }
-    }
-}
-
 /// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
 ///
 /// # Errors
-/// [`ResponseError`] for one that is not periodic, or whose cells differ, and where a decomposition fails.
-pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
+/// [`ResponseError`] for one that is not periodic, or whose cells differ, for a state that has no moduli, and where a
+/// decomposition fails.
+pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<Moduli, ResponseError> {
     if assembly.terms().bars.is_none() {
-        return Ok(ModuliOf::NoBars);
+        return Err(ResponseError::NoBars);
     }
     if !assembly.terms().own.is_empty() {
-        return Ok(ModuliOf::OwnTerms);
+        return Err(ResponseError::OwnTerms);
     }
     let mut model = assembly.model(Gauge::Free);
     model.enter(state);
-    let Some(cell) = PeriodicCell::of_state(assembly, &state.coordinates, model)? else {
-        return Ok(ModuliOf::RolledUp);
-    };
+    let cell = PeriodicCell::of_state(assembly, &state.coordinates, model)?.ok_or(ResponseError::RolledUp)?;
     let elements = cell.elements(assembly, &cell.model);
     let off = elements.iter().map(|element| off_rest(&cell, element)).fold(0.0, f64::max);
     if !(off <= AT_REST) {
-        return Ok(ModuliOf::UnderStress { off });
+        return Err(ResponseError::UnderStress { off });
     }
     let springs = CellSprings::new(&cell, &elements);
     let own = Condensed::new(&springs)?;
@@ -102,7 +61,7 @@ pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf,
         }
     }
     let (matrices, rigid_limit) = (own.matrices(), limit.matrices());
-    Ok(ModuliOf::Sheet(Box::new(Moduli { matrices, rigid_limit, rigid_modes, softest })))
+    Ok(Moduli { matrices, rigid_limit, rigid_modes, softest })
 }
 
 /// Returns how far an element of finite stiffness is off its rest value: an angle in radians, or a length relative to

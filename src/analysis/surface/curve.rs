@@ -25,9 +25,9 @@ pub(super) fn curve(
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let periodic = SpatiallyPeriodic(&embedding);
     let planar = second_order.one_direction_is_real()?;
-    let closing = Closing::new(&closure, embedding.drawn_angles().to_vec());
     let mut folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
-    let mut closing = if planar { closing.keeping(&periodic) } else { closing };
+    let closing = Closing::new(&closure, embedding.drawn_angles().to_vec());
+    let mut closing = closing.keeping(planar.then_some(&periodic));
     let negative = match directions {
         _ if planar => Some(Negative::OneDirection),
         RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),

@@ -73,7 +73,7 @@ impl<'a> SurfaceClosure<'a> {
     /// Jacobian, right to first order in those vectors.
     pub(crate) fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
         let periodic = SpatiallyPeriodic(self.embedding);
-        Closing::new(self.closure, self.all(x)).keeping(&periodic).linearized(x)
+        Closing::new(self.closure, self.all(x)).keeping(Some(&periodic)).linearized(x)
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::SurfacePoint;
 use crate::kinematics::Embedding;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// Carries signs over pairs of neighbours from the first state of every start; pieces that hang together with no start
 /// keep the signs of single states. `starts` is the number of the start from which each state was found.
@@ -16,7 +16,11 @@ pub(super) fn carry(
     pairs: impl Iterator<Item = [usize; 2]>,
     starts: &[usize],
 ) {
-    let near = neighbours(points.len(), pairs);
+    let mut near = vec![BTreeSet::new(); points.len()];
+    for [a, b] in pairs {
+        near[a].insert(b);
+        near[b].insert(a);
+    }
     let mut reached = vec![false; points.len()];
     let mut waiting = VecDeque::new();
     for start in 0..starts.iter().max().map_or(0, |last| last + 1) {
@@ -36,17 +40,4 @@ pub(super) fn carry(
             waiting.push_back(next);
         }
     }
-}
-
-fn neighbours(points: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<Vec<usize>> {
-    let mut near = vec![Vec::new(); points];
-    for [a, b] in pairs {
-        near[a].push(b);
-        near[b].push(a);
-    }
-    near.iter_mut().for_each(|list| {
-        list.sort_unstable();
-        list.dedup();
-    });
-    near
 }

@@ -7,12 +7,11 @@
 //! taken it, `(w, u)`; of two edges `j` before `k` the rotation vector changes in addition by `1/2 w_j x w_k`, and the
 //! translation by `w_j x u_k`.
 
-use super::edge::HingedEdge;
 use crate::kinematics::motion::{Line, Motion, Rigid, Twist};
 use crate::math::fold_angle::fold_angle;
 use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
-use crate::sheet::Corner;
+use crate::sheet::{Corner, TiledEdge};
 use std::collections::{HashMap, VecDeque};
 
 /// Number of conditions for each opening: a rotation vector, and a translation relative to the size of the loop.
@@ -109,7 +108,7 @@ struct FaceStep {
 /// A tree of steps reaches every face. Each edge that is not in it closes a loop; those of a forest of such edges that
 /// joins every interior vertex to a rim follow from the closure of these vertices, and the others are the loops round
 /// openings.
-pub(super) fn openings(edges: &[HingedEdge], inside: &[usize], position: &impl Fn(Corner) -> Vec3) -> Vec<Opening> {
+pub(super) fn openings(edges: &[TiledEdge], inside: &[usize], position: &impl Fn(Corner) -> Vec3) -> Vec<Opening> {
     let (beside, faces) = faces_beside(edges);
     let mut steps: Vec<Vec<FaceStep>> = vec![Vec::new(); faces];
     for (edge, [left, right]) in beside.iter().enumerate().filter_map(|(edge, pair)| Some((edge, (*pair)?))) {
@@ -136,9 +135,9 @@ pub(super) fn openings(edges: &[HingedEdge], inside: &[usize], position: &impl F
 }
 
 /// The left and the right face of every edge that has both, and the number of faces.
-fn faces_beside(edges: &[HingedEdge]) -> (Vec<Option<[usize; 2]>>, usize) {
+fn faces_beside(edges: &[TiledEdge]) -> (Vec<Option<[usize; 2]>>, usize) {
     let mut numbers = HashMap::new();
-    let mut face = |edge: &HingedEdge, side: usize| {
+    let mut face = |edge: &TiledEdge, side: usize| {
         let mut corners = [edge.ends[0].vertex, edge.ends[1].vertex, edge.wings[side]?.vertex];
         corners.sort_unstable();
         let next = numbers.len();
@@ -175,7 +174,7 @@ fn round(ways: &[Vec<FaceStep>], edge: usize, [left, right]: [usize; 2]) -> Vec<
 }
 
 impl Opening {
-    fn new(steps: &[FaceStep], edges: &[HingedEdge], position: &impl Fn(Corner) -> Vec3) -> Self {
+    fn new(steps: &[FaceStep], edges: &[TiledEdge], position: &impl Fn(Corner) -> Vec3) -> Self {
         let ends: Vec<[Vec3; 2]> = steps.iter().map(|step| edges[step.edge].ends.map(position)).collect();
         let centre = ends.iter().flatten().sum::<Vec3>() / (2 * ends.len()) as f64;
         let unit = ends.iter().flatten().map(|end| (end - centre).norm()).fold(0.0, f64::max);

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, EdgeKey};
+use crate::sheet::pieces::pieces;
 use crate::sheet::sides;
 
 /// Cut edges by name, each with its index in the list of edges.
@@ -25,6 +26,9 @@ pub(super) fn cut(
     polygons: &mut [Vec<Corner>],
 ) -> Result<Vec<usize>, Defect> {
     let cuts = inner_cuts(drawn, identified, polygons)?;
+    if cuts.is_empty() {
+        return Ok(vec![]);
+    }
     let mut origins = Vec::new();
     let mut moved = Vec::new();
     for (vertex, wedges) in wedges_at_cuts(&cuts, polygons) {
@@ -72,9 +76,6 @@ fn uses(polygons: &[Vec<Corner>]) -> BTreeMap<EdgeKey, usize> {
 /// Returns the corners of faces at every vertex where a cut ends.
 fn wedges_at_cuts(cuts: &Cuts, polygons: &[Vec<Corner>]) -> BTreeMap<usize, Vec<Wedge>> {
     let mut at: BTreeMap<usize, Vec<Wedge>> = cuts.keys().flat_map(|key| [(key.i, vec![]), (key.j, vec![])]).collect();
-    if at.is_empty() {
-        return at;
-    }
     for (f, polygon) in polygons.iter().enumerate() {
         for (k, corner) in polygon.iter().enumerate() {
             if let Some(wedges) = at.get_mut(&corner.vertex) {
@@ -85,33 +86,22 @@ fn wedges_at_cuts(cuts: &Cuts, polygons: &[Vec<Corner>]) -> BTreeMap<usize, Vec<
     at
 }
 
-/// Groups the corners of faces at a vertex into fans that are connected by edges without cuts. Fans and their members
-/// are in the order of faces.
+/// Groups the corners of faces at a vertex, which are in the order of faces, into fans that are connected by edges
+/// without cuts. Fans and their members are in that order too.
 fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedge>> {
-    let mut fans: Vec<(Vec<Wedge>, Vec<Corner>)> = Vec::new();
-    for &(f, k) in wedges {
+    let mut first: BTreeMap<Corner, usize> = BTreeMap::new();
+    let mut joints = Vec::new();
+    for (number, &(f, k)) in wedges.iter().enumerate() {
         let polygon = &polygons[f];
-        let [last, next] = [(k + polygon.len() - 1) % polygon.len(), (k + 1) % polygon.len()];
-        let whole = [last, next].into_iter().filter(|&other| {
-            let key = EdgeKey::new(polygon[k], polygon[other]).0;
-            !cuts.contains_key(&key)
-        });
         let back = polygon[k].shift.map(|n| -n);
-        let whole: Vec<Corner> = whole.map(|other| polygon[other].translated(back)).collect();
-        let (touching, apart): (Vec<_>, Vec<_>) =
-            fans.into_iter().partition(|(_, borders)| borders.iter().any(|end| whole.contains(end)));
-        let mut fan = (vec![(f, k)], whole);
-        for (members, borders) in touching {
-            fan.0.extend(members);
-            fan.1.extend(borders);
+        for other in [(k + polygon.len() - 1) % polygon.len(), (k + 1) % polygon.len()] {
+            if !cuts.contains_key(&EdgeKey::new(polygon[k], polygon[other]).0) {
+                joints.push([number, *first.entry(polygon[other].translated(back)).or_insert(number)]);
+            }
         }
-        fans = apart;
-        fans.push(fan);
     }
-    let mut fans: Vec<Vec<Wedge>> = fans.into_iter().map(|(members, _)| members).collect();
-    fans.iter_mut().for_each(|members| members.sort_unstable());
-    fans.sort_unstable();
-    fans
+    let fans = pieces(wedges.len(), joints.into_iter(), 0..wedges.len());
+    fans.into_iter().map(|fan| fan.into_iter().map(|number| wedges[number]).collect()).collect()
 }
 
 /// Checks that the faces at every vertex hang together by edges.
@@ -134,9 +124,6 @@ fn check_open(
     cuts: &Cuts,
     origins: &[usize],
 ) -> Result<(), Defect> {
-    if cuts.is_empty() {
-        return Ok(());
-    }
     let drawn_count = identified.homes.len() - origins.len();
     let origin = |v: usize| v.checked_sub(drawn_count).map_or(v, |k| origins[k]);
     for (key, _) in uses(polygons).into_iter().filter(|(_, count)| *count > 1) {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::hinges::{self, Flap};
+use super::hinges;
 use super::split::{SplitTriangle, position};
 use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
@@ -122,9 +122,9 @@ pub(super) fn with_wings(
         }
         edges.push(Edge { key, kind: EdgeKind::Facet, wings: [None; 2] });
     }
-    let mut flaps: Vec<Vec<Flap>> = vec![vec![]; edges.len()];
-    for TriangleSide { key, side, opposite, .. } in parts.iter().flat_map(|part| part.triangle.sides()) {
-        flaps[numbers[&key]].push(Flap { side, opposite });
+    let mut flaps: Vec<Vec<TriangleSide>> = vec![vec![]; edges.len()];
+    for side in parts.iter().flat_map(|part| part.triangle.sides()) {
+        flaps[numbers[&side.key]].push(side);
     }
     for &ends in &drawn.bars {
         let key = EdgeKey::new(cell.corner[ends[0]], cell.corner[ends[1]]).0;

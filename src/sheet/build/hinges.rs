@@ -10,60 +10,43 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use crate::math::Vec3;
-use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue};
-
-/// A triangle at an edge.
-#[derive(Clone, Copy)]
-pub(super) struct Flap {
-    /// The side of the edge on which it lies by its orientation: 0 for left, 1 for right.
-    pub side: usize,
-    /// Its opposite vertex, in the frame of the edge.
-    pub opposite: Corner,
-}
+use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
 
 /// Gives an edge the wings of its hinge; of an edge of more than two faces those of the first one. Returns the further
 /// hinges of such an edge.
 pub(super) fn open_out(
     edge: &mut Edge,
-    flaps: &[Flap],
+    flaps: &[TriangleSide],
     glue: &BTreeMap<EdgeKey, Vec<Glue>>,
     place: impl Fn(Corner) -> Vec3,
 ) -> Vec<Edge> {
-    match flaps {
-        [] => vec![],
-        [one] => {
-            edge.wings[one.side] = Some(one.opposite);
-            vec![]
-        }
+    let [first, others @ ..] = flaps else { return vec![] };
+    if others.len() < 2 {
         // two faces that run along it in the same direction are those of a sheet with one side
-        [one, other] => {
-            edge.wings[one.side] = Some(one.opposite);
-            edge.wings[1 - one.side] = Some(other.opposite);
-            vec![]
-        }
-        _ => {
-            let words = glue.get(&edge.key).cloned().unwrap_or_else(|| vec![Glue::Fold; flaps.len()]);
-            let mut hinges = round(edge.key, flaps, &words, place);
-            *edge = if hinges.is_empty() {
-                Edge { key: edge.key, kind: EdgeKind::Boundary, wings: [None; 2] }
-            } else {
-                hinges.remove(0)
-            };
-            hinges
-        }
+        edge.wings[first.side] = Some(first.opposite);
+        edge.wings[1 - first.side] = others.first().map(|other| other.opposite);
+        return vec![];
     }
+    let words = glue.get(&edge.key).cloned().unwrap_or_else(|| vec![Glue::Fold; flaps.len()]);
+    let mut hinges = round(edge.key, flaps, &words, place);
+    if hinges.is_empty() {
+        edge.kind = EdgeKind::Boundary;
+    } else {
+        *edge = hinges.remove(0);
+    }
+    hinges
 }
 
 /// Returns the hinges between the neighbours round an edge that something joins.
-fn round(key: EdgeKey, flaps: &[Flap], words: &[Glue], place: impl Fn(Corner) -> Vec3) -> Vec<Edge> {
+fn round(key: EdgeKey, flaps: &[TriangleSide], words: &[Glue], place: impl Fn(Corner) -> Vec3) -> Vec<Edge> {
     let [from, to] = key.ends().map(&place);
     let along = (to - from).normalize();
-    let across = |flap: &Flap| {
+    let across = |flap: &TriangleSide| {
         let arm = place(flap.opposite) - from;
         arm - along * along.dot(&arm)
     };
     let first = across(&flaps[0]);
-    let angle = |flap: &Flap| {
+    let angle = |flap: &TriangleSide| {
         let arm = across(flap);
         along.dot(&first.cross(&arm)).atan2(first.dot(&arm)).rem_euclid(TAU)
     };

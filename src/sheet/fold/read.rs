@@ -63,7 +63,13 @@ pub(super) fn read_drawing<'a>(source: &Source<'a>, keys: &Values<'a>) -> Result
     let mut drawn = head(source, keys)?;
     read_vertices(source, keys, &mut drawn, &mut rows)?;
     let edges = edges::read(source, keys, drawn.coords.len())?;
-    read_faces(source, keys, &mut drawn, &mut rows, &edges)?;
+    if let Some(value) = keys.get("faces_vertices") {
+        rows.faces = source.typed(value, || "`faces_vertices`".into(), "a list of faces, [[0, 1, 2], ...]")?;
+        drawn.faces = polygons(source, &rows.faces, "face", drawn.coords.len())?;
+    } else if edges.ends.is_empty() {
+        let right = "it, or at least `edges_vertices`, should list the faces";
+        return Err(source.at_value(None, MeshProblem::Missing { key: "faces_vertices", right }));
+    }
     Ok((drawn, rows, edges))
 }
 
@@ -135,24 +141,6 @@ fn read_vertices<'a>(
         drawn.coords.push(Vec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0)));
     }
     drawn.planar = dimension == Some(2);
-    Ok(())
-}
-
-fn read_faces<'a>(
-    source: &Source<'a>,
-    keys: &Values<'a>,
-    drawn: &mut Drawing,
-    rows: &mut RawMesh<'a>,
-    edges: &Edges<'a>,
-) -> Result<(), SheetError> {
-    let Some(value) = keys.get("faces_vertices") else {
-        let right = "it, or at least `edges_vertices`, should list the faces";
-        let missing = MeshProblem::Missing { key: "faces_vertices", right };
-        return if edges.ends.is_empty() { Err(source.at_value(None, missing)) } else { Ok(()) };
-    };
-    let right = "a list of faces, [[0, 1, 2], ...]";
-    rows.faces = source.typed(value, || "`faces_vertices`".into(), right)?;
-    drawn.faces = polygons(source, &rows.faces, "face", drawn.coords.len())?;
     Ok(())
 }
 

@@ -2,6 +2,8 @@
 
 use super::line::PatternLine;
 use super::piece::SegmentPiece;
+use crate::sheet::pieces;
+use std::collections::HashSet;
 
 /// Returns the pieces between `points` points without auxiliary ones that end where nothing else is, or that no line
 /// joins to a crease or the rim; and the number of lines of which a piece is left out.
@@ -14,7 +16,7 @@ pub(super) fn without_loose(
     for (number, piece) in pieces.iter().enumerate() {
         piece.ends.iter().for_each(|&v| at[v].push(number));
     }
-    let mut kept = without_islands(lines, &at, &pieces);
+    let mut kept = without_islands(lines, points, &pieces);
     let mut degree: Vec<usize> = at.iter().map(|here| here.iter().filter(|&&number| kept[number]).count()).collect();
     let mut ends: Vec<usize> = (0..points).filter(|&v| degree[v] == 1).collect();
     while let Some(v) = ends.pop() {
@@ -54,20 +56,10 @@ fn rejoined(points: usize, pieces: Vec<SegmentPiece>) -> Vec<SegmentPiece> {
 }
 
 /// Returns which pieces are joined, by lines of any kind, to one that is not auxiliary; all are if there is none of
-/// these. `at` has the pieces at every point.
-fn without_islands(lines: &[PatternLine], at: &[Vec<usize>], pieces: &[SegmentPiece]) -> Vec<bool> {
-    let mut joined: Vec<bool> = pieces.iter().map(|piece| !lines[piece.segment].auxiliary).collect();
-    let mut open: Vec<usize> = (0..pieces.len()).filter(|&number| joined[number]).collect();
-    if open.is_empty() {
-        return vec![true; pieces.len()];
-    }
-    while let Some(number) = open.pop() {
-        for &next in pieces[number].ends.iter().flat_map(|&v| &at[v]) {
-            if !joined[next] {
-                joined[next] = true;
-                open.push(next);
-            }
-        }
-    }
-    joined
+/// these.
+fn without_islands(lines: &[PatternLine], points: usize, all: &[SegmentPiece]) -> Vec<bool> {
+    let drawn = all.iter().filter(|piece| !lines[piece.segment].auxiliary).map(|piece| piece.ends[0]);
+    let ends = all.iter().map(|piece| piece.ends);
+    let joined: HashSet<usize> = pieces(points, ends, drawn).into_iter().flatten().collect();
+    all.iter().map(|piece| joined.is_empty() || joined.contains(&piece.ends[0])).collect()
 }

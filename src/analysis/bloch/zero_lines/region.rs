@@ -1,6 +1,7 @@
 //! Parts of the zone in which the determinant has one sign.
 
-use super::line::{GRID, next};
+use super::line::next;
+use crate::sheet::pieces;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,25 +18,13 @@ pub struct Region {
 
 /// Connected parts of the grid of equal sign, the largest first.
 pub(crate) fn regions(positive: &[bool]) -> Vec<Region> {
-    let mut seen = vec![false; positive.len()];
-    let mut regions = Vec::new();
-    for first in 0..positive.len() {
-        let (mut stack, mut count) = (vec![first], 0usize);
-        while let Some(k) = stack.pop() {
-            if std::mem::replace(&mut seen[k], true) {
-                continue;
-            }
-            count += 1;
-            let (column, row) = (k % GRID, k / GRID);
-            let back = [row * GRID + (column + GRID - 1) % GRID, (row + GRID - 1) % GRID * GRID + column];
-            let neighbours = [next(0, k), next(1, k), back[0], back[1]];
-            stack.extend(neighbours.into_iter().filter(|&other| !seen[other] && positive[other] == positive[k]));
-        }
-        if count > 0 {
-            let sign = if positive[first] { 1 } else { -1 };
-            regions.push(Region { sign, fraction: count as f64 / positive.len() as f64 });
-        }
-    }
+    let sides = (0..positive.len()).flat_map(|k| [[k, next(0, k)], [k, next(1, k)]]);
+    let joined = sides.filter(|[a, b]| positive[*a] == positive[*b]);
+    let region = |piece: Vec<usize>| Region {
+        sign: if positive[piece[0]] { 1 } else { -1 },
+        fraction: piece.len() as f64 / positive.len() as f64,
+    };
+    let mut regions: Vec<Region> = pieces(positive.len(), joined, 0..positive.len()).into_iter().map(region).collect();
     regions.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
     regions
 }

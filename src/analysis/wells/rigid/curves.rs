@@ -33,12 +33,8 @@ pub(super) fn net(
     }
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let embedding = if planar { Some(Embedding::new(assembly.sheet())?) } else { None };
-    let closing = Closing::new(&closure, drawn.clone());
     let planar = embedding.as_ref().map(SpatiallyPeriodic);
-    let mut folding = match &planar {
-        Some(planar) => closing.keeping(planar),
-        None => closing,
-    };
+    let mut folding = Closing::new(&closure, drawn.clone()).keeping(planar.as_ref());
     // the curve ends where an angle leaves the landscape
     let mut excess = |folding: &mut Closing<'_>, point: &CurvePoint, out: &mut Vec<f64>| {
         out.push(extent.excess(&folding.angles(&point.x)));

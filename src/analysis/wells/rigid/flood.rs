@@ -5,6 +5,8 @@
 //! lowest minimum; one that lies on the border gives way to any other, so that passes are found also between lakes that
 //! meet below a low border.
 
+use crate::sheet::pieces::find;
+
 /// Minima, and where lakes meet.
 pub(super) struct Flood {
     /// Nodes without lower neighbours.
@@ -30,36 +32,27 @@ pub(super) fn flood(heights: &[f64], links: &[[usize; 2]], border: &[bool]) -> F
     }
     let mut order: Vec<usize> = (0..heights.len()).collect();
     order.sort_by(|&a, &b| heights[a].total_cmp(&heights[b]));
-    // a node of the same lake, itself where the node is its lowest; not yet flooded
-    let mut lake: Vec<Option<usize>> = vec![None; heights.len()];
+    // a node of the same lake, itself where the node is its lowest
+    let mut lake: Vec<usize> = (0..heights.len()).collect();
+    let mut flooded = vec![false; heights.len()];
     let mut found = Flood { minima: Vec::new(), merges: Vec::new() };
     for at in order {
-        let mut lakes: Vec<usize> = beside[at].iter().filter_map(|&other| lowest(&mut lake, other)).collect();
+        let wet = beside[at].iter().filter(|&&other| flooded[other]);
+        let mut lakes: Vec<usize> = wet.map(|&other| find(&mut lake, other)).collect();
         lakes.sort_by(|&a, &b| border[a].cmp(&border[b]).then(heights[a].total_cmp(&heights[b])).then(a.cmp(&b)));
         lakes.dedup();
+        flooded[at] = true;
         let Some((&deepest, others)) = lakes.split_first() else {
-            lake[at] = Some(at);
             found.minima.push(at);
             continue;
         };
-        lake[at] = Some(deepest);
+        lake[at] = deepest;
         for &other in others {
             found.merges.push(Merge { lower: [deepest, other], at });
-            lake[other] = Some(deepest);
+            lake[other] = deepest;
         }
     }
     found
-}
-
-/// The lowest node of a node's lake; `None` above the water.
-fn lowest(lake: &mut [Option<usize>], node: usize) -> Option<usize> {
-    let mut at = node;
-    while let Some(next) = lake[at].filter(|next| *next != at) {
-        at = next;
-    }
-    lake[at]?;
-    lake[node] = Some(at);
-    Some(at)
 }
 
 #[cfg(test)]
