@@ -149,7 +149,7 @@ fn of_two(step: Operation, a: Jet, b: Jet) -> Jet {
 
 /// A power with a constant exponent; a derivative whose factor is 0 is 0, also at 0.
 fn power(x: f64, exponent: f64) -> Jet {
-    // small whole exponents are products, many times as fast as logarithms
+    // small whole exponents are products, which need no logarithm
     let of = |exponent: f64| match exponent as i32 {
         whole @ -8..=8 if f64::from(whole) == exponent => x.powi(whole),
         _ => x.powf(exponent),

@@ -1,4 +1,4 @@
-//! Geometry of points and rotations.
+//! Geometry of points and rotations, and what else of mathematics knows no sheet.
 //!
 //! | file | what it is for |
 //! |---|---|
@@ -26,6 +26,7 @@
 
 pub(crate) mod expression;
 pub mod fold_angle;
+pub(crate) mod pieces;
 pub(crate) mod quadrature;
 pub mod rotation;
 pub(crate) mod sinc;

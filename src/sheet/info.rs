@@ -178,7 +178,7 @@ pub(crate) fn targets_said(count: usize) -> String {
 /// Returns the vertices of each piece of a sheet.
 pub(super) fn pieces(sheet: &Sheet) -> Vec<Vec<usize>> {
     let edges = sheet.edges.iter().map(|edge| edge.key.ends().map(|end| end.vertex));
-    super::pieces::pieces(sheet.vertices.len(), edges, sheet.triangles.iter().map(|t| t.corners[0].vertex))
+    super::pieces(sheet.vertices.len(), edges, sheet.triangles.iter().map(|t| t.corners[0].vertex))
 }
 
 fn points(sheet: &Sheet) -> impl Iterator<Item = [Vec3; 3]> + '_ {

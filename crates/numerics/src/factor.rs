@@ -118,7 +118,7 @@ impl Symbolic {
         Self::ordered(pattern, || (0..pattern.size() as u32).collect())
     }
 
-    /// Analyses a pattern that is eliminated in an order, which a small one does not need.
+    /// Analyses a pattern for this order of elimination; a small matrix is factored dense and needs none.
     fn ordered(pattern: &SparsityPattern, order: impl FnOnce() -> Vec<u32>) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {

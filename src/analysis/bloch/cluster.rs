@@ -12,10 +12,10 @@ use super::rigidity::TERM;
 use super::root::Root;
 use super::singular::SingularSearch;
 use super::{Laurent, Rigidity};
+use crate::math::pieces::pieces;
 use crate::numerics::complex::{ComplexMatrix, eigenvalues};
 use crate::numerics::dense::small::inverse;
 use crate::numerics::dense::{Svd, full_svd};
-use crate::sheet::pieces;
 use nalgebra::Complex;
 
 /// Newton steps at most.

@@ -1,7 +1,7 @@
 //! The loops of a patch: one round every interior vertex, and one along the rim of every opening.
 
 use crate::math::Vec3;
-use crate::sheet::pieces::pieces;
+use crate::math::pieces::pieces;
 use std::collections::{HashMap, HashSet};
 use thiserror::Error;
 

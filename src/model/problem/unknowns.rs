@@ -1,6 +1,7 @@
 //! The choice of the unknowns of a model: which generalised coordinates are held, and which elements couple the others.
 
 use super::{LEFT_WING, Model, POSE, RIGHT_WING};
+use crate::math::pieces::pieces;
 use crate::math::rotation::inverse_left_jacobian;
 use crate::model::configuration::Configuration;
 use crate::model::domain::Domain;
@@ -9,7 +10,6 @@ use crate::model::gauge;
 use crate::model::problem::Gauge;
 use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::{Cliques, FIXED};
-use crate::sheet::pieces::pieces;
 use crate::solver::{Layout, Start};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;

@@ -7,9 +7,9 @@
 use std::collections::BTreeMap;
 
 use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
+use crate::math::pieces::pieces;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, EdgeKey};
-use crate::sheet::pieces::pieces;
 use crate::sheet::sides;
 
 /// Cut edges by name, each with its index in the list of edges.

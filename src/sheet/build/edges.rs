@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::hinges;
 use super::split::{SplitTriangle, position};
 use super::{Defect, Drawing, Identified, MeshPart, MeshProblem};
+use crate::math::pieces::pieces;
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Glue, TriangleSide};
-use crate::sheet::pieces::pieces;
 use crate::sheet::sides::sides as sides_of;
 
 /// An edge along the polygons, and the polygons of which it is a side.

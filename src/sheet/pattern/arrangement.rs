@@ -18,8 +18,8 @@ use robust::{Coord, orient2d};
 use super::piece::SegmentPiece;
 use super::straight::straighten;
 use crate::math::Vec2;
+use crate::math::pieces::find;
 use crate::sheet::boxes::{around, for_pairs_that_meet};
-use crate::sheet::pieces::find;
 use crate::sheet::sides::sorted;
 
 /// Most repetitions of splitting; two are usual.

@@ -2,7 +2,7 @@
 
 use super::line::PatternLine;
 use super::piece::SegmentPiece;
-use crate::sheet::pieces;
+use crate::math::pieces::pieces;
 use std::collections::HashSet;
 
 /// Returns the pieces between `points` points without auxiliary ones that end where nothing else is, or that no line

@@ -54,7 +54,7 @@ pub(super) struct Simple {
     pub separation: f64,
 }
 
-/// A homotopy whose equations at `t = 0` have solutions of which it can be told whether they are simple.
+/// A homotopy that tells simple solutions at `t = 0` from singular ones.
 pub(super) trait Target: Homotopy {
     /// The simple solution at or very near to a point, if there is one.
     fn simple(&self, x: &[C]) -> Option<Simple>;

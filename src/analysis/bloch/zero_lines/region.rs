@@ -1,7 +1,7 @@
 //! Parts of the zone in which the determinant has one sign.
 
 use super::line::next;
-use crate::sheet::pieces;
+use crate::math::pieces::pieces;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,7 @@
 //! lowest minimum; one that lies on the border gives way to any other, so that passes are found also between lakes that
 //! meet below a low border.
 
-use crate::sheet::pieces::find;
+use crate::math::pieces::find;
 
 /// Minima, and where lakes meet.
 pub(super) struct Flood {

@@ -1,8 +1,8 @@
-//! The connected pieces of a sheet.
+//! Connected components of a graph, by union-find: the pieces of a sheet, fans of faces, clusters of roots, lakes.
 
-/// Returns the vertices of every connected piece that has a face. `vertices` is the number of vertices, `edges` gives
-/// the two ends of each edge and `faces` one corner of each face. A vertex without an edge is not a piece, nor are
-/// edges without a face.
+/// Returns the vertices of every connected piece that has a face, in ascending order. `vertices` is the number of
+/// vertices, `edges` gives the two ends of each edge and `faces` one corner of each face; pieces without a face are
+/// left out. To group the vertices of a graph that is no sheet, give all of them as `faces`.
 pub fn pieces(
     vertices: usize,
     edges: impl Iterator<Item = [usize; 2]>,

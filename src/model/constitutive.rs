@@ -1,4 +1,4 @@
-//! What an element stores at a value of its measure, by its law and its memory.
+//! Constitutive response: energy, force and stiffness of an element at a value of its measure, from its law and memory.
 
 use super::element::Element;
 use super::law::{Law, Memory, Spring, Stored};
@@ -6,8 +6,9 @@ use crate::math::quadrature::by_rule;
 
 /// Distance from rest at which the stiffness on both sides is asked for: a strain, or an angle in radians.
 const BESIDE_REST: f64 = 1e-6;
-/// Distance from rest over the rest value below which what a law has beyond its spring is found from its stiffness: the
-/// difference of two forces loses that many digits there, and of two energies twice as many.
+/// Distance from rest, over the rest value, below which force and energy of a law less those of its spring are
+/// integrals of the difference of their stiffnesses: the difference of two forces loses that many digits there, and of
+/// two energies twice as many.
 const NEAR_REST: f64 = 1e-5;
 
 impl Element<'_> {
@@ -24,8 +25,8 @@ impl Element<'_> {
         self.remembering().is_some()
     }
 
-    /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value. The energy is what
-    /// it stores and has dissipated.
+    /// Returns energy, force (its derivative by the value) and stiffness (the second one) at a value. The energy is
+    /// what it stores and has dissipated.
     pub fn response(&self, value: f64) -> [f64; 3] {
         let Spring { stiffness, rest } = self.spring;
         let off = value - rest;
@@ -93,8 +94,8 @@ impl Element<'_> {
     }
 }
 
-/// Returns energy, force and stiffness that a law has beyond its spring at a value so near rest that it is no more than
-/// rounding to the forces of either: `phi' = integral of phi'' - 1` from rest, and `phi` that of `phi'`.
+/// Returns energy, force and stiffness of a law less those of its spring, at a value so near rest that the difference
+/// is lost in the rounding errors of both: `phi'` is the integral of `phi'' - 1` from rest, and `phi` that of `phi'`.
 fn beyond_near_rest(law: &dyn Law, off: f64, Spring { stiffness, rest }: Spring) -> [f64; 3] {
     let second = |part: f64| law.at(rest + part * off, rest)[2] - 1.0;
     let weighted = |part: f64| {
